@@ -1,0 +1,31 @@
+// Pictures in memory: 8 bits per channel, sRGB-encoded colour, straight (not premultiplied) alpha.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace risorius {
+
+struct Image {
+    int width_px = 0;
+    int height_px = 0;
+    std::vector<std::uint8_t> rgba;  ///< height x width x 4, rows from the top
+
+    Image() = default;
+    Image(int width, int height)
+        : width_px(width),
+          height_px(height),
+          rgba(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 0) {}
+
+    std::uint8_t* pixel(int x, int y) { return rgba.data() + offset(x, y); }
+    const std::uint8_t* pixel(int x, int y) const { return rgba.data() + offset(x, y); }
+
+  private:
+    std::size_t offset(int x, int y) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                static_cast<std::size_t>(x)) *
+               4;
+    }
+};
+
+}  // namespace risorius

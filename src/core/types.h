@@ -1,0 +1,22 @@
+// Shapes of the arrays that travel between folders. One row per element; SI units unless a name says otherwise.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace risorius {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Rigid = Eigen::Isometry3d;
+
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;     ///< V x 3
+using TexCoords = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< C x 2
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;     ///< F x 3
+using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;          ///< T x 4
+
+/// Sides are the subject's own: left is +x in the head frame.
+enum class Side { kLeft = 0, kRight = 1 };
+
+}  // namespace risorius

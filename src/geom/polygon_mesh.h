@@ -1,0 +1,35 @@
+// A mesh as its file gives it: polygons of any size over shared vertices, faces sorted into named groups.
+// Vertex order is the file's own, so that displacement tables by vertex index keep their meaning.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+
+namespace risorius::geom {
+
+struct PolygonMesh {
+    Points positions;                       ///< V x 3
+    std::vector<int> face_begin{0};         ///< F + 1; corners of face f are [face_begin[f], face_begin[f+1])
+    std::vector<int> corner_vertex;         ///< C, vertex index of each corner
+    TexCoords corner_texcoord;              ///< C x 2, or 0 rows when the file has none
+    std::vector<int> face_group;            ///< F, index into group_names
+    std::vector<std::string> group_names;
+
+    int vertex_count() const { return static_cast<int>(positions.rows()); }
+    int face_count() const { return static_cast<int>(face_begin.size()) - 1; }
+    int corner_count(int face) const { return face_begin[face + 1] - face_begin[face]; }
+    int group_index(const std::string& name) const {  ///< -1 when there is none
+        for (std::size_t i = 0; i < group_names.size(); ++i)
+            if (group_names[i] == name) return static_cast<int>(i);
+        return -1;
+    }
+};
+
+/// Fan triangles of the faces whose group is listed (all faces when `groups` is empty), in face order.
+/// A quad is cut along its shorter diagonal in the mesh's own positions. `corners`, when given, receives F x 3 corner
+/// indices (for texture coordinates).
+Triangles triangulate(const PolygonMesh& mesh, const std::vector<int>& groups = {}, Triangles* corners = nullptr);
+
+}  // namespace risorius::geom

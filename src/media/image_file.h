@@ -1,0 +1,14 @@
+// Pictures to and from files (OpenCV): PNG with or without alpha.
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.h"
+
+namespace risorius::media {
+
+/// Written beside and renamed, never half. Alpha is kept when any pixel is not opaque. Throws RunError when it cannot be written.
+void write_png(const Image& image, const std::filesystem::path& file);
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace risorius::media

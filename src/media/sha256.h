@@ -1,0 +1,25 @@
+// SHA-256 of bytes and files, as lower-case hexadecimal (libavutil). For run records: which script, which mesh, which frames.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace risorius::media {
+
+class Sha256 {
+  public:
+    Sha256();
+    ~Sha256();
+    void add(const void* bytes, std::size_t count);
+    std::string finish();  ///< 64 hexadecimal digits
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+std::string sha256_of_file(const std::filesystem::path& file);
+
+}  // namespace risorius::media

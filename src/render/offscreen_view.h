@@ -1,0 +1,53 @@
+// Draws a scene off-screen (OSMesa) into images: linear light, shadow, antialiasing, one shader program per material.
+//
+// Deterministic: the same scene, pose and options give the same bytes, for any number of threads.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "render/scene.h"
+
+namespace risorius::render {
+
+struct Background {
+    bool transparent = false;
+    std::array<double, 3> rgb{0.5, 0.5, 0.5};  ///< sRGB 0..1
+};
+
+struct ViewOptions {
+    int width_px = 1024;
+    int height_px = 1024;
+    std::string camera = "front";   ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
+    Background background;
+    int supersampling = 2;          ///< samples per pixel side, 1..4
+    int threads = 0;                ///< llvmpipe worker threads; 0 = draw on the calling thread
+};
+
+const std::vector<std::string>& camera_names();
+
+class OffscreenView {
+  public:
+    /// Throws Error for a scene without skin or a size outside 16..8192, RunError when no GL context can be had.
+    OffscreenView(const Scene& scene, const ViewOptions& options);
+    ~OffscreenView();
+    OffscreenView(const OffscreenView&) = delete;
+    OffscreenView& operator=(const OffscreenView&) = delete;
+
+    /// pose.positions must have as many rows as scene.rest. May be called from one thread at a time, any thread.
+    Image draw(const Pose& pose);
+
+    /// Pixel position (x right, y down, from the top left corner) of a world point.
+    Vec2 project(const Vec3& world) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace risorius::render

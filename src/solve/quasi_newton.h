@@ -1,0 +1,40 @@
+// L-BFGS over node positions with one prefactored matrix as the initial metric (Liu, Bouaziz & Kavan 2017, "Quasi-Newton
+// methods for real-time simulation of hyperelastic materials", ACM TOG 36(3)).
+//
+//   x   node positions, n x 3, m      E(x)   incremental potential, J      A   prefactored metric, N/m
+#pragma once
+
+#include <functional>
+
+#include "core/types.h"
+#include "solve/sparse_cholesky.h"
+
+namespace risorius::solve {
+
+/// Returns E(x) and writes dE/dx (n x 3). Rows of fixed nodes must be zero.
+using EnergyAndGradient = std::function<double(const Points& x, Points& gradient)>;
+
+struct QuasiNewtonOptions {
+    int iterations = 6;           ///< at most
+    int memory = 6;               ///< pairs kept
+    double step_cap_m = 6e-3;     ///< longest move of one node in one iteration
+    double tolerance_rms_m = 0;   ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
+    double sufficient_decrease = 1e-4;
+    int backtracks = 12;
+};
+
+struct StepReport {
+    int iterations = 0;
+    int evaluations = 0;
+    int backtracks = 0;
+    double energy_j = 0;
+    double last_step_rms_m = 0;
+    bool converged = false;       ///< the tolerance was met
+    bool stalled = false;         ///< the line search found no lower energy
+};
+
+/// Moves x downhill. Not converging is a result. No allocation that depends on the clock or the thread count.
+StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
+                    const QuasiNewtonOptions& options);
+
+}  // namespace risorius::solve

@@ -1,0 +1,50 @@
+// What a script may drive: the muscles of a rig, action units, and kinematic channels; and the values at one moment.
+//
+// Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+
+namespace risorius::track {
+
+struct MuscleChannel {
+    std::string id;             ///< as in the rig's muscle table
+    bool paired = true;
+    double min = 0.0;           ///< -1 for muscles with tonic drive that can be removed (levator palpebrae)
+};
+
+/// Channels that no muscle drives. The order is the order of Drive::kinematic.
+enum class Kinematic {
+    kJawOpen, kJawForward, kJawSide,                       // ratio of the rig's range; side > 0 = subject left
+    kGazeYawLeft, kGazeYawRight, kGazePitchLeft, kGazePitchRight,  // deg, yaw > 0 = subject left, pitch > 0 = up
+    kHeadYaw, kHeadPitch, kHeadRoll,                       // deg, yaw > 0 turns to subject left, pitch > 0 up, roll > 0 tilts to subject left
+    kHeadForward,                                          // mm
+    kMouthPressure,                                        // Pa in the oral cavity, > 0 puffs the cheeks
+    kTongueOut,                                            // ratio of the rig's protrusion range
+    kCount
+};
+inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
+
+struct ChannelTable {
+    std::vector<MuscleChannel> muscles;
+
+    int column_count() const;
+    /// Column of a muscle, -1 when unknown. For an unpaired muscle both sides give its one column.
+    int column(const std::string& id, Side side) const;
+    /// "zygomaticus_major.l", "zygomaticus_major.r", "orbicularis_oris_upper_marginal", ...
+    std::vector<std::string> column_names() const;
+};
+
+/// Everything that drives a face at one moment.
+struct Drive {
+    Eigen::VectorXd excitation;               ///< per column, ratio of maximal neural drive, [min, 1]
+    Eigen::VectorXd activation;               ///< per column, activation set directly; NaN where dynamics decide
+    std::array<double, kKinematicCount> kinematic{};
+    double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }
+};
+
+}  // namespace risorius::track
