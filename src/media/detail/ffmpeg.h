@@ -1,0 +1,40 @@
+// Owners and error texts for the C objects of the FFmpeg libraries.
+#pragma once
+
+#include <memory>
+#include <string>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+#include <libavutil/opt.h>
+#include <libswscale/swscale.h>
+}
+
+namespace risorius::media::detail {
+
+struct Free {
+    void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+    void operator()(AVFrame* p) const { av_frame_free(&p); }
+    void operator()(AVPacket* p) const { av_packet_free(&p); }
+    void operator()(SwsContext* p) const { sws_freeContext(p); }
+};
+using CodecPtr = std::unique_ptr<AVCodecContext, Free>;
+using FramePtr = std::unique_ptr<AVFrame, Free>;
+using PacketPtr = std::unique_ptr<AVPacket, Free>;
+using ScalerPtr = std::unique_ptr<SwsContext, Free>;
+
+inline std::string ffmpeg_text(int code) {
+    char text[AV_ERROR_MAX_STRING_SIZE] = {};
+    av_strerror(code, text, sizeof text);
+    return text;
+}
+
+/// The "file:" keeps a colon in a file's name from being read as a protocol.
+inline std::string ffmpeg_url(const std::string& path) { return "file:" + path; }
+
+/// A library does not write to standard error: what went wrong is in the exceptions.
+inline void silence_ffmpeg() { av_log_set_level(AV_LOG_QUIET); }
+
+}  // namespace risorius::media::detail

@@ -1,0 +1,142 @@
+// What the house style asks of every file, where a machine can tell.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <regex>
+
+#include "structure/source_tree.h"
+
+namespace risorius::structure {
+namespace {
+
+using Names = std::set<std::string>;
+
+const Names kSources = {".h", ".cpp"};
+const Names kText = {".h",     ".cpp",  ".txt", ".sh",   ".json", ".md",
+                     ".cmake", ".glsl", ".js",  ".html", ".tsv",  ".csv"};
+
+/// Output and exit code of a shell command.
+std::pair<std::string, int> run(const std::string& command) {
+    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+    if (!pipe) return {"cannot run " + command, -1};
+    std::string output;
+    std::array<char, 4096> block;
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
+        output.append(block.data(), got);
+    return {output, ::pclose(pipe)};
+}
+
+TEST(HouseRules, TopLevelHoldsOnlyWhatTheReadmeNames) {
+    const Names allowed = {
+        "CMakeLists.txt", "CMakePresets.json", "src",     "rigs",      "models", "tools",
+        "tests",          "samples",           "LICENSE", "README.md", "out"};
+    const Names required = {"CMakeLists.txt", "CMakePresets.json", "src", "tools", "tests",
+                            "LICENSE"};
+    Names found;
+    for (const auto& entry : std::filesystem::directory_iterator(source_dir())) {
+        const std::string name = entry.path().filename().string();
+        found.insert(name);
+        if (name.starts_with(".") || name.starts_with("build"))
+            continue;  // settings; ignored by git
+        EXPECT_TRUE(allowed.contains(name)) << name << " has no place at the top level";
+    }
+    for (const std::string& name : required)
+        EXPECT_TRUE(found.contains(name)) << name << " is missing";
+}
+
+TEST(HouseRules, NoFileNamesAMachine) {
+    // Split so that this file does not find itself.
+    const std::regex machine_path(
+        "(^|[^A-Za-z0-9_.])/(wo"
+        "rk|ro"
+        "ot|ho"
+        "me|tm"
+        "p|Us"
+        "ers)/");
+    int files = 0;
+    for (const char* folder : {"src", "tools", "tests", "rigs", "samples", ".ci"})
+        for (const auto& file : files_below(folder, kText)) {
+            if (std::filesystem::file_size(file) > 2'000'000) continue;  // data, not prose
+            ++files;
+            int number = 0;
+            for (const std::string& line : lines_of(text_of(file))) {
+                ++number;
+                EXPECT_FALSE(std::regex_search(line, machine_path))
+                    << shown(file) << ":" << number << ": " << line;
+            }
+        }
+    EXPECT_GT(files, 20);
+}
+
+TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
+    const auto files = files_below("src", kSources);
+    ASSERT_FALSE(files.empty());
+    for (const auto& file : files) {
+        const std::string text = text_of(file);
+        if (file.extension() == ".h") {
+            EXPECT_TRUE(text.starts_with("// ")) << shown(file);
+            EXPECT_NE(text.find("#pragma once"), std::string::npos) << shown(file);
+            continue;
+        }
+        // A source may leave the telling to the header it starts with.
+        const std::string own =
+            "#include \"" +
+            file.lexically_relative(source_dir() / "src").replace_extension(".h").string() + "\"";
+        EXPECT_TRUE(text.starts_with("// ") || text.starts_with(own)) << shown(file);
+    }
+}
+
+TEST(HouseRules, EveryTestFileExpectsSomething) {
+    int files = 0;
+    for (const auto& file : files_below("tests", {".cpp"})) {
+        if (!file.filename().string().ends_with("_test.cpp")) continue;
+        ++files;
+        EXPECT_TRUE(std::regex_search(text_of(file), std::regex("(EXPECT|ASSERT)_[A-Z]+")))
+            << shown(file);
+    }
+    EXPECT_GT(files, 3);
+}
+
+TEST(HouseRules, NoMarksOfUnfinishedWorkAreLeft) {
+    const std::regex mark(
+        "\\b(TO"
+        "DO|FIX"
+        "ME|XX"
+        "X)\\b");
+    int files = 0;
+    for (const char* folder : {"src", "tools", "tests"})
+        for (const auto& file : files_below(folder, kText)) {
+            ++files;
+            EXPECT_FALSE(std::regex_search(text_of(file), mark)) << shown(file);
+        }
+    EXPECT_GT(files, 20);
+}
+
+TEST(HouseRules, NoFileIsNamedForNothing) {
+    for (const auto& file : files_below("src", kSources)) {
+        const std::string name = file.stem().string();
+        for (const char* vague :
+             {"utils", "util", "helpers", "helper", "common", "misc", "manager"})
+            EXPECT_NE(name, vague) << shown(file);
+    }
+    EXPECT_TRUE(std::filesystem::exists(source_dir() / "src/core"));
+}
+
+TEST(HouseRules, SourcesAreLaidOutByClangFormat) {
+    // Versions differ in details; the layout is that of Debian 12's.
+    const auto [version, status] = run("clang-format --version");
+    if (status != 0) GTEST_SKIP() << "clang-format is not installed";
+    if (version.find("version 14.") == std::string::npos)
+        GTEST_SKIP() << "not clang-format 14 but " << version;
+    std::string command = "cd '" + source_dir().string() + "' && clang-format --dry-run -Werror";
+    for (const char* folder : {"src", "tools", "tests"})
+        for (const auto& file : files_below(folder, kSources)) command += " '" + shown(file) + "'";
+    const auto [complaints, formatted] = run(command);
+    EXPECT_EQ(formatted, 0) << complaints.substr(0, 4000)
+                            << "\nTo lay them out: clang-format -i the files named above";
+}
+
+}  // namespace
+}  // namespace risorius::structure

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything and runs every test; then the tests of the folders below once more
+# with warnings as errors and the address and undefined-behaviour sanitizers.
+#
+#   tools/test.sh                   both
+#   tools/test.sh --no-sanitizers   the release build only
+#   tools/test.sh --all-sanitizers  every folder with sanitizers, which takes several times as long
+set -euo pipefail
+
+# Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
+sanitized=(core geom track muscle solve tissue io media)
+
+case ${1:-} in
+    '') sanitizers=some ;;
+    --no-sanitizers) sanitizers=none ;;
+    --all-sanitizers) sanitizers=all ;;
+    *)
+        printf 'test: expected --no-sanitizers, --all-sanitizers or nothing, found "%s"\n' "$1" >&2
+        exit 2
+        ;;
+esac
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+tools/setup.sh test
+
+logs=$(mktemp -d)
+trap 'rm -rf "$logs"' EXIT
+jobs=$(nproc)
+failed=no
+
+# What ctest says at its end, to be repeated after everything else.
+closing_line() { grep -E 'tests passed|No tests were found' "$1" || printf 'the tests did not run\n'; }
+
+cmake --preset release --log-level=WARNING
+cmake --build --preset release
+ctest --preset release --parallel "$jobs" --no-tests=error 2>&1 | tee "$logs/release" || failed=yes
+
+if [[ $sanitizers != none ]]; then
+    targets=()
+    select=()
+    if [[ $sanitizers == some ]]; then
+        for folder in "${sanitized[@]}"; do targets+=("${folder}_test"); done
+        select=(--label-regex "^($(IFS='|' && printf '%s' "${sanitized[*]}"))\$")
+    else
+        targets=(all)
+    fi
+    cmake --preset check --log-level=WARNING
+    cmake --build --preset check --target "${targets[@]}"
+    ctest --preset check --parallel "$jobs" --no-tests=error "${select[@]}" 2>&1 |
+        tee "$logs/sanitizers" || failed=yes
+    printf '\nwith sanitizers: %s\n' "$(closing_line "$logs/sanitizers")"
+fi
+printf '\n%s\n' "$(closing_line "$logs/release")"
+[[ $failed == no ]]
