@@ -12,7 +12,8 @@ namespace {
 const std::vector<Key> kRamp{{0.2, 0.0}, {0.6, 0.8}, {1.0, 0.8}, {1.1, 0.1}, {2.0, 0.0}};
 
 TEST(Curve, PassesThroughItsKeysAndIsHeldOutside) {
-    for (Interpolation way : {Interpolation::kStep, Interpolation::kLinear, Interpolation::kSmooth}) {
+    for (Interpolation way :
+         {Interpolation::kStep, Interpolation::kLinear, Interpolation::kSmooth}) {
         const Curve curve(kRamp, way);
         for (const Key& key : kRamp) EXPECT_EQ(curve.at(key.time_s), key.value);
         EXPECT_EQ(curve.at(-5), 0.0);

@@ -170,22 +170,31 @@ TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {
             read_facs(JsonCursor::from_json(Json::parse(table), "facs.json"), tables().channels);
         });
     };
-    EXPECT_EQ(reading(R"({"action_units": {"AU1": {"name": "x", "sided": true, "muscles": {"frontalis_medal": 1}}}})"),
-              "facs.json:/action_units/AU1/muscles/frontalis_medal: expected a muscle of the rig (did you mean "
-              "\"frontalis_medial\"?), found \"frontalis_medal\"");
-    EXPECT_EQ(reading(R"({"action_units": {"AU1": {"name": "x", "sided": true, "muscles": {"mentalis": -0.5}}}})"),
-              "facs.json:/action_units/AU1/muscles/mentalis: expected [0, 1], found -0.5");
-    EXPECT_EQ(reading(R"({"action_units": {"AU29": {"name": "x", "sided": false, "jaw": {"protrude_mm": 12}}}})"),
-              "facs.json:/action_units/AU29/jaw/protrude_mm: expected [0, 9], found 12");
+    EXPECT_EQ(
+        reading(
+            R"({"action_units": {"AU1": {"name": "x", "sided": true, "muscles": {"frontalis_medal": 1}}}})"),
+        "facs.json:/action_units/AU1/muscles/frontalis_medal: expected a muscle of the rig (did "
+        "you mean "
+        "\"frontalis_medial\"?), found \"frontalis_medal\"");
+    EXPECT_EQ(
+        reading(
+            R"({"action_units": {"AU1": {"name": "x", "sided": true, "muscles": {"mentalis": -0.5}}}})"),
+        "facs.json:/action_units/AU1/muscles/mentalis: expected [0, 1], found -0.5");
+    EXPECT_EQ(
+        reading(
+            R"({"action_units": {"AU29": {"name": "x", "sided": false, "jaw": {"protrude_mm": 12}}}})"),
+        "facs.json:/action_units/AU29/jaw/protrude_mm: expected [0, 9], found 12");
     EXPECT_EQ(reading(R"({"action_units": {"AU1": {"name": "x", "sided": "yes"}}})"),
               "facs.json:/action_units/AU1/sided: expected true or false, found \"yes\"");
     EXPECT_EQ(reading(R"({"action_units": {}, "arkit": {"jawOpen": {"units": {"AU26": 1}}}})"),
-              "facs.json:/arkit/jawOpen/units/AU26: expected an action unit of the rig's FACS table, found \"AU26\"");
+              "facs.json:/arkit/jawOpen/units/AU26: expected an action unit of the rig's FACS "
+              "table, found \"AU26\"");
     EXPECT_EQ(message_of([] {
-                  read_expressions(JsonCursor::from_json(Json::parse(R"({"expressions": {"joy": {"onset_s": 0.4,
+                  read_expressions(
+                      JsonCursor::from_json(Json::parse(R"({"expressions": {"joy": {"onset_s": 0.4,
                       "hold_s": 1, "offset_s": 1, "units": {"AU12": {"value": 1, "delay": 1}}}}})"),
-                                                         "expressions.json"),
-                                   tables().facs);
+                                            "expressions.json"),
+                      tables().facs);
               }),
               "expressions.json:/expressions/joy/units/AU12/delay: expected [0, 0.9], found 1");
 }
