@@ -121,6 +121,11 @@ JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
                                       : "the end of the file";
         throw Error(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "valid JSON", found);
+    } catch (const Json::out_of_range& error) {
+        // Its text ends with the number in quotes: "number overflow parsing '1e999'".
+        const std::string text_of_error = error.what();
+        throw Error(file.string(), "numbers within +-1.8e308",
+                    text_of_error.substr(std::min(text_of_error.find('\''), text_of_error.size())));
     }
     if (!duplicates.duplicate.empty())
         throw Error(file.string(), "every key once in its object",

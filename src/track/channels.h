@@ -21,19 +21,25 @@ struct MuscleChannel {
 
 /// Channels that no muscle drives. The order is the order of Drive::kinematic.
 enum class Kinematic {
+    // Ratio of the rig's range; side > 0 is the subject's left
     kJawOpen,
     kJawForward,
-    kJawSide,  // ratio of the rig's range; side > 0 = subject left
+    kJawSide,
+    // deg; yaw > 0 looks to the subject's left, pitch > 0 up
     kGazeYawLeft,
     kGazeYawRight,
     kGazePitchLeft,
-    kGazePitchRight,  // deg, yaw > 0 = subject left, pitch > 0 = up
+    kGazePitchRight,
+    // deg; yaw > 0 turns to the subject's left, pitch > 0 up, roll > 0 tilts to the subject's left shoulder
     kHeadYaw,
     kHeadPitch,
-    kHeadRoll,  // deg, yaw > 0 turns to subject left, pitch > 0 up, roll > 0 tilts to subject left
-    kHeadForward,    // mm
-    kMouthPressure,  // Pa in the oral cavity, > 0 puffs the cheeks
-    kTongueOut,      // ratio of the rig's protrusion range
+    kHeadRoll,
+    // mm
+    kHeadForward,
+    // Pa in the oral cavity, > 0 puffs the cheeks
+    kMouthPressure,
+    // Ratio of the rig's protrusion range
+    kTongueOut,
     kCount
 };
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);

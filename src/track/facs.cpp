@@ -159,6 +159,11 @@ MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
     return {sided.id, sided.side, 1.0};
 }
 
+bool is_unit_number(std::string_view name) {
+    return name.size() > 2 && name.starts_with("AU") &&
+           name.find_first_not_of("0123456789", 2) == std::string_view::npos;
+}
+
 UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsTable& facs) {
     std::optional<Side> side;
     const ActionUnit* unit = facs.find(name);
@@ -171,9 +176,12 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
         // "AU30" alone: the units that name their side are the nearest thing to what was meant.
         if (facs.find(name + ".l") && facs.find(name + ".r"))
             place.fail(quoted(name + ".l") + " or " + quoted(name + ".r"), quoted(name));
+        // A number near another number is no likely slip.
         std::vector<std::string_view> known;
-        for (const ActionUnit& u : facs.units) known.push_back(u.id);
-        place.fail("an action unit of the rig" + did_you_mean(name, known), quoted(name));
+        if (!is_unit_number(split_side(name).id))
+            for (const ActionUnit& u : facs.units) known.push_back(u.id);
+        place.fail("an action unit of the rig's FACS table" + did_you_mean(name, known),
+                   quoted(name));
     }
     if (side && !unit->sided) place.fail(quoted(unit->id) + ", which has no sides", quoted(name));
     if (!unit->unsupported.empty())

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -109,6 +110,9 @@ Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTa
 /// "zygomaticus_major.l" as a share of weight 1. Throws at `place` for an unknown muscle or a side it does not have.
 MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
                          const ChannelTable& channels);
+
+/// "AU" and a number, whether or not a table has it.
+bool is_unit_number(std::string_view name);
 
 /// "AU12.l" as a use of value 1. Throws at `place` for a unit that is unknown, has no sides, or cannot be moved by a rig.
 UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsTable& facs);

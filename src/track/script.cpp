@@ -42,14 +42,17 @@ ScriptHeader read_header(const JsonCursor& json) {
     json.allow_keys(
         {"format", "version", "rig", "fps", "duration_s", "seed", "channels", "events", "view"});
     json.at("format").one_of({"risorius-script"});
-    json.at("version").integer(1, 1);
+    const JsonCursor version = json.at("version");
+    if (version.json() != 1) version.fail("1, the version of the format this program reads");
     ScriptHeader header;
     header.rig = json.at("rig").string();
     if (header.rig.empty()) json.at("rig").fail("the path of a rig file");
     header.rig_file = json.at("rig").path();
     if (const auto v = json.find("fps")) header.fps = v->integer(1, 240);
     const JsonCursor duration = json.at("duration_s");
-    header.duration_s = duration.number({0, kLongest_s});
+    header.duration_s = duration.number();
+    if (!(header.duration_s > 0 && header.duration_s <= kLongest_s))
+        duration.fail("(0, " + format_number(kLongest_s) + "]");
     if (header.frame_count() < 1)
         duration.fail("at least one frame at " + std::to_string(header.fps) + " fps");
     if (const auto v = json.find("seed")) header.seed = v->integer(0, 2147483647);
@@ -158,7 +161,7 @@ class Reader {
             range = {muscle->min, 1};
             return expand(muscle_named(json, name, channels_), channels_);
         }
-        if (facs_.find(id) || facs_.find(name) || facs_.find(id + ".l")) {
+        if (facs_.find(id) || facs_.find(name) || facs_.find(id + ".l") || is_unit_number(id)) {
             const UnitUse use = unit_named(json, name, facs_);
             return expand(*facs_.find(use.unit), use.side, channels_);
         }
@@ -234,7 +237,8 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     if (const auto events = json.find("events"))
         for (const JsonCursor& event : events->items()) {
             if (event.has("expression") == event.has("blink"))
-                event.fail("an event with either \"expression\" or \"blink\"");
+                event.fail("an event with either \"expression\" or \"blink\"",
+                           event.has("blink") ? "both" : "neither");
             if (event.has("expression"))
                 script.expressions.push_back(reader.expression(event, script.header.duration_s));
             else

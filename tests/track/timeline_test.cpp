@@ -1,0 +1,189 @@
+#include "track/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "track/standard_tables.h"
+
+namespace risorius::track {
+namespace {
+
+const StandardTables& tables() { return StandardTables::get(); }
+
+ScriptDescription script_of(const std::string& channels, const std::string& events = "[]") {
+    Json json = Json::parse(
+        R"({"format": "risorius-script", "version": 1, "rig": "rig.json", "duration_s": 4})");
+    json["channels"] = Json::parse(channels);
+    json["events"] = Json::parse(events);
+    return read_script(JsonCursor::from_json(json, "script.json"), tables().channels, tables().facs,
+                       tables().expressions);
+}
+
+Timeline timeline(const std::string& channels, const std::string& events = "[]") {
+    return Timeline(script_of(channels, events), tables().channels);
+}
+
+double excitation(const Drive& drive, const std::string& column) {
+    return drive.excitation[tables().column(column)];
+}
+
+double activity(const Drive& drive) {
+    double sum = drive.excitation.cwiseAbs().sum();
+    for (double k : drive.kinematic) sum += std::abs(k);
+    return sum;
+}
+
+TEST(Timeline, OfAnEmptyScriptIsRest) {
+    const Drive drive = timeline("{}").at(1.0);
+    EXPECT_EQ(activity(drive), 0.0);
+    EXPECT_EQ(drive.excitation.size(), 84);
+    for (double a : drive.activation) EXPECT_TRUE(std::isnan(a));
+}
+
+TEST(Timeline, SourcesAddUpAndAreClamped) {
+    const Timeline face = timeline(R"({
+        "zygomaticus_major":   {"keys": [[0, 0.3]]},
+        "zygomaticus_major.l": {"keys": [[0, 0.2]]},
+        "AU12":                {"keys": [[0, 0.6]]}})");
+    const Drive drive = face.at(0.5);
+    EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 1.0);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_major.r"), 0.9, 1e-15);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_minor.r"), 0.06, 1e-15);
+}
+
+TEST(Timeline, LevatorMayGoToMinusOneAndKinematicsStayInTheirRange) {
+    const Timeline face = timeline(R"({
+        "levator_palpebrae_superioris": {"keys": [[0, -0.8]]}, "AU43": {"keys": [[0, 1]]},
+        "jaw_open": {"keys": [[0, 0.7]]}, "AU27": {"keys": [[0, 1]]},
+        "jaw_side": {"keys": [[0, -0.6]]}, "AU30.r": {"keys": [[0, 1]]},
+        "head_yaw_deg": {"keys": [[0, 60]]}, "AU51": {"keys": [[0, 1]]}})");
+    const Drive drive = face.at(0);
+    EXPECT_EQ(excitation(drive, "levator_palpebrae_superioris.r"), -1.0);
+    EXPECT_EQ(drive.at(Kinematic::kJawOpen), 1.0);
+    EXPECT_EQ(drive.at(Kinematic::kJawSide), -1.0);
+    EXPECT_EQ(drive.at(Kinematic::kHeadYaw), 75.0);
+}
+
+TEST(Timeline, GazeChannelsDriveOneEyeOrBoth) {
+    const Drive drive = timeline(R"({"gaze_yaw_deg": {"keys": [[0, 10]]},
+        "gaze_yaw_deg.l": {"keys": [[0, 2]]}, "gaze_pitch_deg.r": {"keys": [[0, -5]]}})")
+                            .at(0);
+    EXPECT_EQ(drive.at(Kinematic::kGazeYawLeft), 12.0);
+    EXPECT_EQ(drive.at(Kinematic::kGazeYawRight), 10.0);
+    EXPECT_EQ(drive.at(Kinematic::kGazePitchLeft), 0.0);
+    EXPECT_EQ(drive.at(Kinematic::kGazePitchRight), -5.0);
+}
+
+TEST(Timeline, DirectActivationIsSetOnlyWhereTheScriptSetsIt) {
+    const Timeline face = timeline(R"({"mentalis.l": {"keys": [[0, 0.7]], "activation": true},
+        "mentalis": {"keys": [[0, 0.2]]}})");
+    const Drive drive = face.at(1);
+    EXPECT_EQ(drive.activation[tables().column("mentalis.l")], 0.7);
+    EXPECT_TRUE(std::isnan(drive.activation[tables().column("mentalis.r")]));
+    EXPECT_EQ(excitation(drive, "mentalis.l"), 0.2);
+    int set = 0;
+    for (double a : drive.activation) set += std::isnan(a) ? 0 : 1;
+    EXPECT_EQ(set, 1);
+}
+
+const char* kSmile = R"([{"expression": "happiness", "intensity": 0.5, "start_s": 1.0,
+                          "onset_s": 0.4, "hold_s": 0.6, "offset_s": 0.8}])";
+
+TEST(Timeline, ExpressionIsZeroOutsideAndItsIntensityAtTheApex) {
+    const Timeline face = timeline("{}", kSmile);
+    EXPECT_EQ(activity(face.at(1.0)), 0.0);
+    EXPECT_EQ(activity(face.at(2.8)), 0.0);
+    for (double t : {1.4, 1.7, 1.99}) {
+        EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8, 1e-15);
+        EXPECT_NEAR(excitation(face.at(t), "orbicularis_oculi_orbital.r"), 0.5 * 0.6, 1e-15);
+    }
+    // Halfway through the onset and through the slower offset.
+    EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 / 2, 1e-12);
+    EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 / 2, 1e-12);
+}
+
+TEST(Timeline, CheekRaiserTrailsTheLipCornersInASmile) {
+    const Timeline face = timeline("{}", kSmile);
+    const Drive early = face.at(1.05);  // the delay of AU6 is 15 % of 0.4 s
+    EXPECT_GT(excitation(early, "zygomaticus_major.l"), 0.0);
+    EXPECT_EQ(excitation(early, "orbicularis_oculi_orbital.l"), 0.0);
+    EXPECT_GT(excitation(face.at(1.1), "orbicularis_oculi_orbital.l"), 0.0);
+}
+
+TEST(Timeline, ExpressionHasNoJumps) {
+    const Timeline face = timeline("{}", kSmile);
+    const double h = 1e-3;
+    Drive previous = face.at(0.9);
+    for (double t = 0.9 + h; t < 3; t += h) {
+        const Drive now = face.at(t);
+        // Peak speed of a minimum-jerk rise of 0.4 in 0.34 s is 2.2 per second.
+        ASSERT_LT((now.excitation - previous.excitation).cwiseAbs().maxCoeff(), 2.3 * h) << t;
+        previous = now;
+    }
+}
+
+TEST(Timeline, ExpressionWithoutOnsetOrOffsetSwitches) {
+    const Timeline face = timeline("{}", R"([{"expression": "disgust", "start_s": 1, "onset_s": 0,
+                                              "hold_s": 0.5, "offset_s": 0}])");
+    EXPECT_EQ(activity(face.at(0.999)), 0.0);
+    EXPECT_GT(activity(face.at(1.0)), 0.0);
+    EXPECT_EQ(activity(face.at(1.5)), 0.0);
+}
+
+TEST(Timeline, OneSidedExpressionLeavesTheOtherSideAtRest) {
+    const Drive drive =
+        timeline("{}", R"([{"expression": "happiness", "start_s": 0, "onset_s": 0, "side": "r"}])")
+            .at(0.1);
+    EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 0.0);
+    EXPECT_GT(excitation(drive, "zygomaticus_major.r"), 0.7);
+}
+
+TEST(Timeline, BlinkSilencesTheLevatorThenFiresOrbicularisAndEndsBoth) {
+    const Timeline face = timeline("{}", R"([{"blink": {}, "start_s": 1.0}])");
+    const char* levator = "levator_palpebrae_superioris.l";
+    const char* orbicularis = "orbicularis_oculi_palpebral_upper.l";
+    EXPECT_EQ(activity(face.at(0.999)), 0.0);
+    EXPECT_EQ(excitation(face.at(1.005), levator), -1.0);
+    EXPECT_EQ(excitation(face.at(1.005), orbicularis), 0.0);
+    EXPECT_EQ(excitation(face.at(1.011), orbicularis), 1.0);
+    EXPECT_EQ(excitation(face.at(1.079), levator), -1.0);
+    EXPECT_EQ(excitation(face.at(1.079), orbicularis), 1.0);
+    EXPECT_EQ(activity(face.at(1.0801)), 0.0);
+}
+
+TEST(Timeline, BlinkHasASideAnIntensityAndADuration) {
+    const Timeline face = timeline("{}", R"([
+        {"blink": {"side": "r", "intensity": 0.5, "duration_s": 0.5}, "start_s": 1.0}])");
+    const Drive drive = face.at(1.3);
+    EXPECT_EQ(excitation(drive, "orbicularis_oculi_palpebral_upper.l"), 0.0);
+    EXPECT_EQ(excitation(drive, "orbicularis_oculi_palpebral_upper.r"), 0.5);
+    EXPECT_EQ(excitation(drive, "levator_palpebrae_superioris.r"), -0.5);
+    EXPECT_EQ(activity(face.at(1.361)), 0.0);
+}
+
+TEST(Timeline, GivesTheSameBitsEveryTimeAndInAnyOrder) {
+    const Timeline a = timeline(R"({"AU12": {"keys": [[0, 0], [0.4, 0.8], [3, 0]]}})", kSmile);
+    const Timeline b = timeline(R"({"AU12": {"keys": [[0, 0], [0.4, 0.8], [3, 0]]}})", kSmile);
+    a.at(2.9);
+    for (double t : {0.3, 1.3, 2.2}) EXPECT_EQ(a.at(t).excitation, b.at(t).excitation);
+}
+
+TEST(Timeline, HelloStartsAndEndsAtRestAndShowsItsPartsApart) {
+    const ScriptDescription hello =
+        read_script(std::filesystem::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json",
+                    tables().channels, tables().facs, tables().expressions);
+    const Timeline face(hello, tables().channels);
+    for (double t : {0.0, 0.2, 3.8, 4.0}) EXPECT_EQ(activity(face.at(t)), 0.0) << t;
+    EXPECT_GT(excitation(face.at(0.7), "zygomaticus_major.l"), 0.6);
+    EXPECT_EQ(excitation(face.at(1.5), "zygomaticus_major.l"), 0.0);
+    EXPECT_GT(excitation(face.at(1.5), "frontalis_medial.r"), 0.8);
+    EXPECT_EQ(excitation(face.at(1.8), "orbicularis_oculi_palpebral_upper.r"), 1.0);
+    EXPECT_NEAR(face.at(2.3).at(Kinematic::kJawOpen), 0.42, 1e-12);
+    EXPECT_GT(excitation(face.at(2.95), "corrugator_supercilii.l"), 0.7);
+    EXPECT_GT(excitation(face.at(3.45), "zygomaticus_major.l"), 0.6);
+    EXPECT_EQ(excitation(face.at(3.45), "zygomaticus_major.r"), 0.0);
+}
+
+}  // namespace
+}  // namespace risorius::track
