@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "geom/closest_point.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -16,6 +17,10 @@ namespace {
 class TissueLocator {
   public:
     TissueLocator(const Shell& shell, const TissueMesh& mesh) : shell_(shell), mesh_(mesh) {
+        Points skin(static_cast<long>(shell.vertex.size()), 3);
+        for (long v = 0; v < skin.rows(); ++v)
+            skin.row(v) = mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
+        skin_ = geom::SurfaceTree(skin, shell.triangles);
         centres_.resize(mesh.tets.rows(), 3);
         for (long t = 0; t < mesh.tets.rows(); ++t) {
             centres_.row(t).setZero();
@@ -29,25 +34,15 @@ class TissueLocator {
         double thickness;
     };
     Column column_at(const Vec3& p) const {
-        Column best{};
-        double best_squared = 1e300;
-        for (long f = 0; f < shell_.triangles.rows(); ++f) {
-            std::array<Vec3, 3> corner;
-            for (int k = 0; k < 3; ++k)
-                corner[k] = mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose();
-            const Vec3 b = closest(p, corner);
-            const Vec3 q = b[0] * corner[0] + b[1] * corner[1] + b[2] * corner[2];
-            const double squared = (p - q).squaredNorm();
-            if (squared >= best_squared) continue;
-            best_squared = squared;
-            best = {q, Vec3::Zero(), 0};
-            for (int k = 0; k < 3; ++k) {
-                best.outward += b[k] * mesh_.direction[shell_.triangles(f, k)];
-                best.thickness += b[k] * mesh_.thickness_m[shell_.triangles(f, k)];
-            }
-            best.outward.normalize();
+        const geom::SurfacePoint foot = *skin_.closest(p);
+        Column out{foot.point, Vec3::Zero(), 0};
+        for (int k = 0; k < 3; ++k) {
+            const int v = shell_.triangles(foot.triangle, k);
+            out.outward += foot.barycentric[k] * mesh_.direction[v];
+            out.thickness += foot.barycentric[k] * mesh_.thickness_m[v];
         }
-        return best;
+        out.outward.normalize();
+        return out;
     }
 
     // Weights on the tet that holds p, or on the nearest one when p lies outside the tissue.
@@ -100,32 +95,9 @@ class TissueLocator {
         return Eigen::Vector4d(1 - b.sum(), b[0], b[1], b[2]);
     }
 
-    // Barycentric coordinates of the point of a triangle nearest to p (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-    static Vec3 closest(const Vec3& p, const std::array<Vec3, 3>& c) {
-        const Vec3 ab = c[1] - c[0], ac = c[2] - c[0], ap = p - c[0];
-        const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-        if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-        const Vec3 bp = p - c[1];
-        const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-        if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-        const double vc = d1 * d4 - d3 * d2;
-        if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-        const Vec3 cp = p - c[2];
-        const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-        if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-        const double vb = d5 * d2 - d1 * d6;
-        if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-        const double va = d3 * d6 - d5 * d4;
-        if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-            const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-            return {0, 1 - w, w};
-        }
-        const double sum = va + vb + vc;
-        return {va / sum, vb / sum, vc / sum};
-    }
-
     const Shell& shell_;
     const TissueMesh& mesh_;
+    geom::SurfaceTree skin_;
     Points centres_;
 };
 

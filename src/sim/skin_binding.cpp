@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "geom/closest_point.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -50,35 +51,6 @@ struct Terms {
     }
 };
 
-Vec3 barycentric_clamped(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double& squared) {
-    // Coordinates of the projection, pulled back to the nearest point of the triangle edge by edge.
-    const Vec3 ab = b - a, ac = c - a, ap = p - a;
-    const double d00 = ab.dot(ab), d01 = ab.dot(ac), d11 = ac.dot(ac), d20 = ap.dot(ab), d21 = ap.dot(ac);
-    const double det = d00 * d11 - d01 * d01;
-    Vec3 best(1, 0, 0);
-    if (det > 1e-30) {
-        const double v = (d11 * d20 - d01 * d21) / det, w = (d00 * d21 - d01 * d20) / det;
-        best = Vec3(1 - v - w, v, w);
-    }
-    if (best.minCoeff() < 0) {
-        double least = 1e300;
-        const std::array<Vec3, 3> corner{a, b, c};
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 along = corner[(k + 1) % 3] - corner[k];
-            const double t = std::clamp((p - corner[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-            const double far = (p - corner[k] - t * along).squaredNorm();
-            if (far < least) {
-                least = far;
-                best = Vec3::Zero();
-                best[k] = 1 - t;
-                best[(k + 1) % 3] = t;
-            }
-        }
-    }
-    squared = (p - best[0] * a - best[1] * b - best[2] * c).squaredNorm();
-    return best;
-}
-
 }  // namespace
 
 SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
@@ -88,7 +60,7 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
 
     // Surface graph of skin and lining
     std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
-    std::vector<char> on_surface(static_cast<std::size_t>(count), 0), on_skin(static_cast<std::size_t>(count), 0);
+    std::vector<char> on_surface(static_cast<std::size_t>(count), 0);
     for (const Triangles* triangles : {&head.skin, &head.lining})
         for (long f = 0; f < triangles->rows(); ++f)
             for (int k = 0; k < 3; ++k) {
@@ -96,7 +68,6 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
                 neighbours[a].insert(b);
                 neighbours[b].insert(a);
                 on_surface[a] = 1;
-                if (triangles == &head.skin) on_skin[a] = 1;
             }
 
     // On the shell: nearest triangle in the two rings around the vertex it collapsed to
@@ -115,11 +86,11 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
         double best_squared = 1e300;
         for (long f : near) {
             const int a = shell.triangles(f, 0), b = shell.triangles(f, 1), c = shell.triangles(f, 2);
-            double squared = 0;
-            const Vec3 w = barycentric_clamped(at(static_cast<int>(v)), at(shell.vertex[a]), at(shell.vertex[b]),
-                                               at(shell.vertex[c]), squared);
-            if (squared >= best_squared) continue;
-            best_squared = squared;
+            const geom::TrianglePoint foot = geom::closest_point_on_triangle(
+                at(static_cast<int>(v)), at(shell.vertex[a]), at(shell.vertex[b]), at(shell.vertex[c]));
+            if (foot.squared_distance >= best_squared) continue;
+            best_squared = foot.squared_distance;
+            const Vec3& w = foot.barycentric;
             terms[v].nodes = {{a, w[0]}, {b, w[1]}, {c, w[2]}};
         }
         std::sort(terms[v].nodes.begin(), terms[v].nodes.end());
@@ -127,23 +98,50 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
         on_shell[v] = 1;
     }
 
-    // Which of the rest is held, and by what
+    // What lies off the shell falls into pieces: the rest of the head, the mouth, the eye sockets, the nostrils
+    std::vector<int> piece(static_cast<std::size_t>(count), -1);
+    std::vector<Vec3> low, high;
+    for (long seed = 0; seed < count; ++seed) {
+        if (!on_surface[seed] || on_shell[seed] || piece[seed] >= 0) continue;
+        const int id = static_cast<int>(low.size());
+        low.push_back(at(static_cast<int>(seed)));
+        high.push_back(low.back());
+        std::vector<int> open{static_cast<int>(seed)};
+        piece[seed] = id;
+        while (!open.empty()) {
+            const int v = open.back();
+            open.pop_back();
+            low[id] = low[id].cwiseMin(at(v));
+            high[id] = high[id].cwiseMax(at(v));
+            for (int w : neighbours[v])
+                if (!on_shell[w] && piece[w] < 0) {
+                    piece[w] = id;
+                    open.push_back(w);
+                }
+        }
+    }
+    int outside_piece = -1;
+    for (std::size_t id = 0; id < low.size(); ++id)
+        if (outside_piece < 0 || (high[id] - low[id]).norm() > (high[outside_piece] - low[outside_piece]).norm())
+            outside_piece = static_cast<int>(id);
+
+    // Which of them is held, and by what
     const std::vector<Vec3> lips = lip_line(head);
     std::vector<char> held(static_cast<std::size_t>(count), 0);
     for (long v = 0; v < count; ++v) {
         if (!on_surface[v] || on_shell[v]) continue;
         const Vec3 p = at(static_cast<int>(v));
-        const bool outside = on_skin[v] && (p.z() <= head.mm(8) || p.y() <= head.mm(-135) || p.y() >= head.mm(112));
-        double to_eye = 1e9;
-        for (int side = 0; side < 2; ++side)
-            to_eye = std::min(to_eye, (p - head.eyes[side].centre).norm() - head.eyes[side].radius_m);
+        if (piece[v] == outside_piece) {
+            held[v] = p.z() <= head.mm(8) || p.y() <= head.mm(-135) || p.y() >= head.mm(112);
+            continue;
+        }
         const double from_lips = distance_to_polyline(p, lips);
-        if (outside) {
-            held[v] = 1;
-        } else if (!on_skin[v] && to_eye < head.mm(12) && from_lips > head.mm(30)) {
+        if (from_lips > head.mm(30) && p.y() > head.landmark("sn").y()) {
             // Eye sockets: still, but for what lies right behind the lids
-            held[v] = p.z() < head.eyes[p.x() > 0 ? 0 : 1].centre.z() + 0.3 * head.eyes[0].radius_m;
-        } else if (!on_skin[v] && from_lips > head.mm(16) && p.z() < lips[2].z() - head.mm(16)) {
+            for (const rig::EyeGeometry& eye : head.eyes)
+                if ((p - eye.centre).norm() < eye.radius_m + head.mm(12))
+                    held[v] = held[v] || p.z() < eye.centre.z() + 0.3 * eye.radius_m;
+        } else if (from_lips > head.mm(16) && p.z() < lips[2].z() - head.mm(16)) {
             held[v] = 1;
             terms[v].jaw = 1.0 - smoothstep(-head.mm(4), head.mm(4), jaw.height_over_bite(p));
             terms[v].jaw_point = terms[v].jaw * p;

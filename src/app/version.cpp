@@ -1,0 +1,2 @@
+// The version of the toolkit, as run records name it.
+#include "app/version.h"

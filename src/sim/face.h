@@ -1,0 +1,102 @@
+// The simulated face: soft tissue, skin, muscles, jaw, lids and eyes of one rig, stepped in time by implicit Euler.
+//
+// Each step minimises over the node positions x
+//   E = |x - x_n - h v_n|^2_M / (2 h^2) + beta/(2 h) |x - x_n|^2_Ks + tissue + skin + attachments + fibres + contact + air
+// by L-BFGS with one prefactored matrix. The state is a function of the drives alone: same drives, same bytes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+#include "geom/polygon_mesh.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "track/channels.h"
+
+namespace risorius::sim {
+
+/// Steps are fixed, independent of the frame rate of a video.
+inline constexpr double kStep_s = 1.0 / 60.0;
+
+struct Quality {
+    std::string name;
+    int shell_vertices = 800;        ///< three nodes each
+    int iterations = 6;              ///< per step, at most
+    double tolerance_rms_m = 0.0;    ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
+};
+/// "preview": six iterations, real time. "video": until the step changes less than 0.05 mm RMS.
+/// "fine": as video, with 1,700 skin vertices.
+Quality quality_named(const std::string& name);
+
+/// The drive at any time, s.
+using DriveAt = std::function<track::Drive(double t_s)>;
+
+struct StepFigures {
+    int iterations = 0;
+    int evaluations = 0;
+    double last_step_rms_m = 0;
+    double contact_depth_m = 0;      ///< deepest penetration left
+    bool converged = false;
+};
+
+/// Where everything is, in the head frame; the head's own turn is already applied to the vertices.
+struct FacePose {
+    Points vertices;                               ///< V x 3, m, the mesh's own order
+    std::array<Mat3, 2> eye_rotation;              ///< world from rest, left and right
+    Rigid head = Rigid::Identity();
+    double jaw_open = 0;                           ///< ratio
+};
+
+class Face {
+  public:
+    /// `place` names the rig in messages. Throws Error when the mesh and the rig do not fit.
+    Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const Quality& quality,
+         const std::string& place);
+    ~Face();
+    Face(Face&&) noexcept;
+
+    /// Time 0: activation and tissue in equilibrium with the drive, at rest.
+    void start(const DriveAt& drive);
+
+    /// One step of kStep_s.
+    StepFigures step(const DriveAt& drive);
+
+    /// Steps until t, and the pose at t: between steps it is interpolated, so that frame rates share their common times.
+    FacePose pose_at(double t_s, const DriveAt& drive);
+
+    /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
+    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic, int iterations = 400);
+
+    FacePose pose() const;                         ///< after the last step
+    double time_s() const;
+    const Eigen::VectorXd& activation() const;     ///< per column, at the last step
+    Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
+    int node_count() const;
+    int tet_count() const;
+    int inverted_tets() const;
+    int dropped_tets() const;
+    int fibre_count() const;
+    double build_s() const;                        ///< wall time of the construction, for benchmarks
+    const rig::Head& head() const;
+    const std::vector<StepFigures>& history() const;  ///< of every step since start()
+
+    /// Scales the force of every fibre of a muscle, for calibration.
+    void scale_muscle(const std::string& muscle, double factor);
+    /// Mean length of a muscle's fibres over their rest length, now.
+    double mean_stretch(const std::string& muscle) const;
+
+    /// Skin nodes, for tests and evaluation: current N x 3 and rest.
+    Points skin_nodes() const;
+    Points rest_skin_nodes() const;
+    double kinetic_energy_j() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace risorius::sim

@@ -1,0 +1,156 @@
+#include "sim/follow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/polyline.h"
+
+namespace risorius::sim {
+
+namespace {
+
+constexpr double kNotKept = -1.0;  // m; no lid lies this far inside its eye
+
+}  // namespace
+
+Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std::array<EyeLids, 2>& lids,
+               SkinBinding& binding)
+    : head_(head), lids_(lids), rest_(head.vertices) {
+    tongue_range_m_ = 1e-3 * rig.facs.ranges.tongue_out_mm * head.size;
+    const long count = head.vertices.rows();
+    const std::vector<char> moving = binding.moving();
+
+    // Lids: skin near a margin rides on its tarsal plate, more firmly the nearer
+    std::vector<int> skin_near_eye[2];
+    for (long v = 0; v < count; ++v) {
+        if (head.carrier[v] != rig::Carrier::kSkin) continue;
+        const Vec3 p = head.vertices.row(v).transpose();
+        for (int side = 0; side < 2; ++side) {
+            const double from_centre = (p - lids[side].centre()).norm();
+            if (from_centre > lids[side].zone_m() + head.mm(4)) continue;
+            if (p.z() < lids[side].centre().z()) continue;
+            skin_near_eye[side].push_back(static_cast<int>(v));
+            LidMember member = lids[side].classify(p, head.mm(0.8), head.mm(4.5), head.mm(3.2));
+            member.vertex = static_cast<int>(v);
+            const Vec3 r = p - lids[side].centre();
+            const Vec3 gaze = head.eyes[side].forward;
+            const double surface = head.eyes[side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze)));
+            // Never more than at rest, so that rest stays as it was imported
+            const double clearance = std::min(from_centre - surface, head.mm(1.6));
+            lid_vertices_.push_back({side, member, from_centre < lids[side].zone_m() + head.mm(1) ? clearance : kNotKept});
+        }
+    }
+
+    // Lashes: as the skin at their root, and on the tarsal plate
+    std::vector<int> lashes;
+    for (long v = 0; v < count; ++v)
+        if (head.carrier[v] == rig::Carrier::kLashes) lashes.push_back(static_cast<int>(v));
+    for (int v : lashes) {
+        const Vec3 p = head.vertices.row(v).transpose();
+        const int side = p.x() >= 0 ? 0 : 1;
+        const double upper = distance_to_polyline(p, lids[side].upper_margin());
+        const double lower = distance_to_polyline(p, lids[side].lower_margin());
+        LidMember member = lids[side].classify(p, head.mm(30), head.mm(1), head.mm(1));
+        member.vertex = v;
+        member.upper = upper < lower;
+        lid_vertices_.push_back({side, member, kNotKept});
+        int nearest = -1;
+        double least = 1e300;
+        for (int w : skin_near_eye[side]) {
+            const double squared = (head.vertices.row(w) - head.vertices.row(v)).squaredNorm();
+            if (moving[w] && squared < least) {
+                least = squared;
+                nearest = w;
+            }
+        }
+        if (nearest >= 0) binding.follow(v, nearest);
+    }
+
+    // Tongue: its root stays behind, the rest goes with the mandible, the tip comes out
+    double back = 1e300, front = -1e300;
+    for (long v = 0; v < count; ++v)
+        if (head.carrier[v] == rig::Carrier::kTongue) {
+            back = std::min(back, head.vertices(v, 2));
+            front = std::max(front, head.vertices(v, 2));
+        }
+    for (long v = 0; v < count; ++v) {
+        switch (head.carrier[v]) {
+            case rig::Carrier::kTongue: {
+                const double along = (head.vertices(v, 2) - back) / std::max(1e-6, front - back);
+                tongue_.push_back({static_cast<int>(v), along * along, 0.55 + 0.4 * smoothstep(0.0, 0.7, along)});
+                break;
+            }
+            case rig::Carrier::kMandible: mandible_.push_back(static_cast<int>(v)); break;
+            case rig::Carrier::kEyeLeft: eye_[0].push_back(static_cast<int>(v)); break;
+            case rig::Carrier::kEyeRight: eye_[1].push_back(static_cast<int>(v)); break;
+            default: break;
+        }
+    }
+
+    // The head turns above the jaw line; the neck gives way down to its base
+    const double top = head.mm(-70), base = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
+    head_share_.resize(static_cast<std::size_t>(count));
+    for (long v = 0; v < count; ++v) {
+        const Vec3 p = head.vertices.row(v).transpose();
+        // Behind the jaw the neck begins higher up than under the chin.
+        const double under_chin = smoothstep(head.mm(10), head.mm(60), p.z());
+        const double start = top - head.mm(30) * under_chin;
+        head_share_[v] = head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
+                             ? smoothstep(base, start, p.y())
+                             : 1.0;
+    }
+}
+
+void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
+    for (const LidVertex& lid : lid_vertices_) {
+        const int v = lid.member.vertex;
+        const Vec3 rest = rest_.row(v).transpose();
+        if (lid.member.weight > 0) {
+            const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member.upper, lid.member.place, drive.lid[lid.side]);
+            vertices.row(v) = (1 - lid.member.weight) * vertices.row(v) + lid.member.weight * ride.transpose();
+        }
+        if (lid.clearance == kNotKept) continue;
+        // The lid slides over the cornea: it is lifted where the eye's surface comes closer than at rest
+        const Vec3 r = Vec3(vertices.row(v).transpose()) - lids_[lid.side].centre();
+        const double distance = r.norm();
+        const Vec3 gaze = drive.gaze[lid.side] * head_.eyes[lid.side].forward;
+        const double wanted =
+            head_.eyes[lid.side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze))) + lid.clearance;
+        if (distance < wanted && distance > 0) vertices.row(v) += ((wanted / distance - 1) * r).transpose();
+    }
+}
+
+void Follow::apply(const FollowDrive& drive, Points& vertices) const {
+    apply_lids(drive, vertices);
+    for (int side = 0; side < 2; ++side) {
+        const Vec3& centre = head_.eyes[side].centre;
+        for (int v : eye_[side])
+            vertices.row(v) = (centre + drive.gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
+    }
+    for (int v : mandible_) vertices.row(v) = (drive.mandible * Vec3(rest_.row(v).transpose())).transpose();
+    for (const TongueVertex& t : tongue_) {
+        const Vec3 rest = rest_.row(t.vertex).transpose();
+        const Vec3 out = drive.tongue_out * tongue_range_m_ * t.tip * Vec3(0, -0.12, 1.0);
+        vertices.row(t.vertex) =
+            (rest + out + t.over_jaw * (drive.mandible * (rest + out) - (rest + out))).transpose();
+    }
+    if (drive.head.isApprox(Rigid::Identity(), 0.0)) return;
+    const Eigen::Quaterniond turn(drive.head.linear());
+    for (long v = 0; v < vertices.rows(); ++v) {
+        const double share = head_share_[v];
+        const Vec3 p = vertices.row(v).transpose();
+        if (share <= 0) continue;
+        if (share >= 1) {
+            vertices.row(v) = (drive.head * p).transpose();
+            continue;
+        }
+        // Part of the turn about the same pivot
+        const Vec3 pivot(0, head_.mm(-30), head_.mm(-10));
+        const Vec3 moved_pivot = drive.head * pivot;
+        const Eigen::Quaterniond part = Eigen::Quaterniond::Identity().slerp(share, turn);
+        vertices.row(v) = (part * (p - pivot) + pivot + share * (moved_pivot - pivot)).transpose();
+    }
+}
+
+}  // namespace risorius::sim

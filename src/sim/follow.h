@@ -1,0 +1,57 @@
+// Everything of the mesh that is not tissue: lids on their tarsal plates over the moving cornea, eyes, teeth, tongue, lashes,
+// and the neck that joins the turning head to the shoulders.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "sim/lids.h"
+#include "sim/skin_binding.h"
+
+namespace risorius::sim {
+
+struct FollowDrive {
+    Rigid mandible = Rigid::Identity();
+    std::array<Mat3, 2> gaze;
+    std::array<LidPose, 2> lid;
+    double tongue_out = 0;
+    Rigid head = Rigid::Identity();
+};
+
+class Follow {
+  public:
+    /// Binds lashes through `binding`.
+    Follow(const rig::Head& head, const rig::RigDescription& rig, const std::array<EyeLids, 2>& lids,
+           SkinBinding& binding);
+
+    /// `vertices` come with the skin already moved.
+    void apply(const FollowDrive& drive, Points& vertices) const;
+
+  private:
+    struct LidVertex {
+        int side;
+        LidMember member;
+        double clearance;    ///< kept from the eye's surface, m
+    };
+    struct TongueVertex {
+        int vertex;
+        double tip;          ///< 0 at the root, 1 at the tip
+        double over_jaw;     ///< share of the mandible's motion
+    };
+    void apply_lids(const FollowDrive& drive, Points& vertices) const;
+
+    const rig::Head& head_;
+    const std::array<EyeLids, 2>& lids_;
+    Points rest_;
+    std::vector<LidVertex> lid_vertices_;
+    std::vector<TongueVertex> tongue_;
+    std::vector<int> mandible_;
+    std::array<std::vector<int>, 2> eye_;
+    std::vector<double> head_share_;     ///< V, of the head's turn
+    double tongue_range_m_;
+};
+
+}  // namespace risorius::sim
