@@ -124,6 +124,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
     const track::ChannelTable channels = rig.channels();
     MusclePlacement out;
 
+    // The width given is the whole muscle's; its bands lie side by side
     const auto place_band = [&](const rig::MuscleBand& band, Side side) {
         const int column = channels.column(band.muscle, side);
         // The centre line, and the skin above it
@@ -136,11 +137,11 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                                              : Vec3(tissue.skin - point.depth * tissue.thickness * tissue.outward));
         }
         // Parallel fibres across the width: each point moves sideways along the skin at its own depth
-        const int strands = std::max(2, static_cast<int>(std::lround(band.width_m * 1e3 / kFibreSpacing_mm)));
-        const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size * head.size /
-                             (strands * bands_of(rig.atlas, band.muscle));
+        const int bands = bands_of(rig.atlas, band.muscle);
+        const int strands = std::max(2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
+        const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size * head.size / (strands * bands);
         for (int strand = 0; strand < strands; ++strand) {
-            const double across = band.width_m * head.size * ((strand + 0.5) / strands - 0.5);
+            const double across = band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
             std::vector<Vec3> through;
             for (std::size_t i = 0; i < centre.size(); ++i) {
                 const Vec3 along = (centre[std::min(i + 1, centre.size() - 1)] - centre[i > 0 ? i - 1 : 0]).normalized();
@@ -159,32 +160,41 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                 if ((path[i] - spaced.back()).norm() > head.mm(1.5) && (path[i] - path.back()).norm() > head.mm(1.5))
                     spaced.push_back(path[i]);
             spaced.push_back(path.back());
-            if ((spaced.front() - spaced.back()).norm() < head.mm(1.0) && spaced.size() == 2) continue;
-
+            // Ends on bone ride on it; the rest is embedded, and what fell together outside the tissue is one point
+            std::vector<muscle::FibrePoint> points;
+            std::vector<Vec3> places;
+            for (std::size_t i = 0; i < spaced.size(); ++i) {
+                const bool first = i == 0, last = i + 1 == spaced.size();
+                const rig::Body body = first ? band.origin : last ? band.insertion : rig::Body::kSoft;
+                const bool on_bone = (first && band.origin_attach == "bone") || (last && band.insertion_attach == "bone");
+                muscle::FibrePoint point;
+                Vec3 place = spaced[i];
+                if (on_bone && (body == rig::Body::kSkull || body == rig::Body::kMandible)) {
+                    point.body = body == rig::Body::kMandible ? kMandibleBody : kSkullBody;
+                    point.body_rest = place;
+                } else {
+                    point = locator.embed(place);
+                    place.setZero();
+                    for (int k = 0; k < 4; ++k)
+                        place += point.weights[k] * mesh.nodes.row(point.nodes[k]).transpose();
+                }
+                if (!places.empty() && (place - places.back()).norm() < head.mm(1.0)) {
+                    if (!last || points.size() < 2) continue;
+                    points.pop_back();
+                    places.pop_back();
+                }
+                points.push_back(point);
+                places.push_back(place);
+            }
+            if (points.size() < 2) continue;
             muscle::Fibre fibre;
             fibre.first_point = static_cast<int>(out.points.size());
-            fibre.point_count = static_cast<int>(spaced.size());
+            fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.f0_n = force;
-            for (std::size_t i = 0; i < spaced.size(); ++i) {
-                const rig::Body body = i == 0                     ? band.origin
-                                       : i + 1 == spaced.size() ? band.insertion
-                                                                : rig::Body::kSoft;
-                const std::string& attach = i == 0 ? band.origin_attach : band.insertion_attach;
-                const bool end = i == 0 || i + 1 == spaced.size();
-                const bool on_bone = end && (attach == "bone");
-                muscle::FibrePoint point;
-                if (on_bone && (body == rig::Body::kSkull || body == rig::Body::kMandible)) {
-                    point.count = 0;
-                    point.body = body == rig::Body::kMandible ? kMandibleBody : kSkullBody;
-                    point.body_rest = spaced[i];
-                } else {
-                    point = locator.embed(spaced[i]);
-                }
-                out.points.push_back(point);
-            }
+            out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
-            out.paths.push_back(spaced);
+            out.paths.push_back(places);
         }
     };
     for (const rig::MuscleBand& band : rig.atlas.bands) {
