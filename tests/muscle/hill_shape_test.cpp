@@ -99,6 +99,22 @@ TEST(HillShape, VelocitySlopeAndIntegralAgreeWithTheCurve) {
     EXPECT_EQ(velocity_force_integral(-2.0, kShape), velocity_force_integral(-1.1, kShape));
 }
 
+TEST(HillShape, TheCurvesOfTheInnerLoopAreTheSameCurves) {
+    HillShape shape;
+    shape.active_width = 0.5;
+    shape.passive_exponent = 3;
+    for (const HillShape& s : {kShape, shape}) {
+        const LengthCurves curves(s);
+        for (double l = 0.1; l < 3.5; l += 0.037) {
+            // Both are right to rounding; the passive curve grows to some 100
+            EXPECT_NEAR(curves.active(l).force, active_force(l, s), 1e-15);
+            EXPECT_NEAR(curves.active(l).integral, active_force_integral(l, s), 1e-15);
+            EXPECT_NEAR(curves.passive(l).force, passive_force(l, s), 1e-12);
+            EXPECT_NEAR(curves.passive(l).integral, passive_force_integral(l, s), 1e-12);
+        }
+    }
+}
+
 TEST(HillShape, OtherConstantsKeepTheLaws) {
     HillShape shape;
     shape.velocity_curvature = 0.4;
