@@ -13,6 +13,7 @@
 
 #include "core/types.h"
 #include "muscle/hill_shape.h"
+#include "solve/lanes.h"
 #include "solve/metric_builder.h"
 
 namespace risorius::muscle {
@@ -64,13 +65,15 @@ class FibreSet {
 
   private:
     void place_points(const Points& x) const;
+    double length(int segment) const;
 
     std::vector<FibrePoint> points_;
     std::vector<Fibre> fibres_;
-    HillShape shape_;
-    std::vector<double> optimal_length_m_;  ///< l0 of the segment that begins at a point
-    Points body_position_;                  ///< P x 3, of points that ride on bodies
-    mutable Points position_, force_;       ///< P x 3
+    LengthCurves curves_;
+    std::vector<double> optimal_length_m_;          ///< l0 of the segment that begins at a point
+    Points body_position_;                          ///< P x 3, of points that ride on bodies
+    mutable solve::PaddedPoints x_, gradient_;      ///< nodes
+    mutable solve::PaddedPoints position_, force_;  ///< points
 };
 
 }  // namespace risorius::muscle

@@ -124,4 +124,34 @@ double velocity_force_integral(double v, const HillShape& shape) {
     return most * v - (most - 1.0) / k * std::log1p(k * v);
 }
 
+LengthCurves::LengthCurves(const HillShape& shape)
+    : inverse_width_(1.0 / shape.active_width),
+      width_integral_(0.5 * shape.active_width / std::numbers::inv_sqrtpi),
+      inverse_strain_(1.0 / shape.passive_strain),
+      exponent_(shape.passive_exponent),
+      inverse_exponent_(1.0 / shape.passive_exponent),
+      knee_(shape.passive_linear),
+      inverse_full_(1.0 / std::expm1(shape.passive_exponent)),
+      strain_over_full_(shape.passive_strain * inverse_full_) {}
+
+LengthCurves::Value LengthCurves::active(double l) const {
+    const double u = (l - 1.0) * inverse_width_;
+    return {std::exp(-u * u), width_integral_ * std::erf(u)};
+}
+
+LengthCurves::Value LengthCurves::passive(double l) const {
+    if (l <= 1.0) return {0.0, 0.0};
+    const double e = (l - 1.0) * inverse_strain_;
+    const double toe = std::fmin(e, knee_);
+    const double grown = std::expm1(exponent_ * toe);
+    Value value{grown, grown * inverse_exponent_ - toe};
+    const double beyond = e - toe;
+    if (beyond > 0) {
+        const double slope = exponent_ * (grown + 1.0);
+        value.force += slope * beyond;
+        value.integral += (grown + 0.5 * slope * beyond) * beyond;
+    }
+    return {value.force * inverse_full_, value.integral * strain_over_full_};
+}
+
 }  // namespace risorius::muscle

@@ -34,4 +34,20 @@ double velocity_force(double v, const HillShape& shape);  ///< 1 at v = 0
 double velocity_force_slope(double v, const HillShape& shape);
 double velocity_force_integral(double v, const HillShape& shape);  ///< 0 at v = 0
 
+/// The length curves for inner loops: force and integral together, constants worked out once.
+class LengthCurves {
+  public:
+    struct Value {
+        double force;
+        double integral;
+    };
+    explicit LengthCurves(const HillShape& shape);
+    Value active(double l) const;
+    Value passive(double l) const;
+
+  private:
+    double inverse_width_, width_integral_;
+    double inverse_strain_, exponent_, inverse_exponent_, knee_, inverse_full_, strain_over_full_;
+};
+
 }  // namespace risorius::muscle

@@ -10,8 +10,6 @@ namespace risorius::solve {
 
 typedef double Lanes __attribute__((vector_size(32)));
 
-inline Lanes all_lanes(double value) { return Lanes{value, value, value, value}; }
-
 /// Sum of the lanes, always in this order.
 inline double sum_lanes(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 

@@ -10,22 +10,40 @@
 
 namespace risorius::solve {
 
-// L is copied out of CHOLMOD so that the three right-hand sides can be swept together: one point is
-// one group of lanes, and each entry of L is read once per sweep instead of three times.
+// L is copied out of CHOLMOD so that the three right-hand sides can be swept together: one point is one group of lanes,
+// and each entry of L is read once per sweep instead of three times. Neighbouring columns whose patterns nest are kept as one
+// panel, filled up with a few zeros, so that a point is fetched once for up to kWidest entries.
 struct SparseCholesky::Impl {
+    struct Panel {
+        std::int32_t first = 0;      ///< column
+        std::int32_t width = 0;      ///< columns, 1..kWidest
+        std::int32_t row_begin = 0;  ///< rows below the panel's own
+        std::int32_t row_end = 0;
+        std::int64_t value_begin =
+            0;  ///< width x width, diagonal inverted, then width values per row
+    };
     int n = 0;
-    std::vector<std::int32_t> order;         // row of the factor -> row of A
-    std::vector<std::int32_t> column_begin;  // n + 1
-    std::vector<std::int32_t> row;           // below the diagonal
+    long nonzeros = 0;
+    std::vector<std::int32_t> order;  // row of the factor -> row of A
+    std::vector<Panel> panels;
+    std::vector<std::int32_t> row;
     std::vector<double> value;
-    std::vector<double> inverse_diagonal;
     mutable PaddedPoints y;
 
     void factorise(const Eigen::SparseMatrix<double>& A);
+    void copy_panels(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& rows,
+                     const std::vector<double>& values);
     void solve(const Points& B, Points& X) const;
+    template <int W>
+    void forward(const Panel& panel) const;
+    template <int W>
+    void backward(const Panel& panel) const;
 };
 
 namespace {
+
+constexpr int kWidest = 4;
+constexpr double kZerosAllowed = 0.2;  ///< of a panel's entries
 
 struct Cholmod {
     cholmod_common common;
@@ -37,7 +55,7 @@ struct Cholmod {
             CHOLMOD_SIMPLICIAL;  // no BLAS: its bits depend on the library installed
         common.final_ll = 1;
         common.nmethods = 1;
-        common.method[0].ordering = CHOLMOD_AMD;
+        common.method[0].ordering = CHOLMOD_NESDIS;
         common.postorder = 1;
         common.print = 0;
     }
@@ -84,15 +102,119 @@ void SparseCholesky::Impl::factorise(const Eigen::SparseMatrix<double>& A) {
     const auto* rows = static_cast<const int*>(L.i);
     const auto* values = static_cast<const double*>(L.x);
     order.assign(perm, perm + n);
-    inverse_diagonal.resize(static_cast<std::size_t>(n));
-    column_begin.assign(1, 0);
+    std::vector<std::int32_t> packed_begin{0}, packed_rows;
+    std::vector<double> packed_values;
     for (int j = 0; j < n; ++j) {
-        inverse_diagonal[static_cast<std::size_t>(j)] = 1.0 / values[begin[j]];
-        for (int k = begin[j] + 1; k < begin[j] + count[j]; ++k) {
-            row.push_back(rows[k]);
-            value.push_back(values[k]);
+        for (int k = begin[j]; k < begin[j] + count[j]; ++k) {
+            packed_rows.push_back(rows[k]);
+            packed_values.push_back(values[k]);
         }
-        column_begin.push_back(static_cast<std::int32_t>(row.size()));
+        packed_begin.push_back(static_cast<std::int32_t>(packed_rows.size()));
+    }
+    nonzeros = static_cast<long>(packed_rows.size());
+    copy_panels(packed_begin, packed_rows, packed_values);
+}
+
+// Columns [begin[j], begin[j + 1]) start with their diagonal, rows ascending.
+void SparseCholesky::Impl::copy_panels(const std::vector<std::int32_t>& begin,
+                                       const std::vector<std::int32_t>& rows,
+                                       const std::vector<double>& values) {
+    const auto entries = [&](int j) {
+        return begin[static_cast<std::size_t>(j) + 1] - begin[static_cast<std::size_t>(j)];
+    };
+    std::vector<std::int32_t> place(static_cast<std::size_t>(n), 0);  // of a row in its panel
+    for (int first = 0; first < n;) {
+        // If the first row below column j is j + 1, the rest of its pattern is part of that of column j + 1.
+        int last = first;
+        long used = entries(first);
+        while (last + 1 < n && last + 1 - first < kWidest && entries(last) > 1 &&
+               rows[static_cast<std::size_t>(begin[static_cast<std::size_t>(last)]) + 1] ==
+                   last + 1) {
+            const long width = last + 2 - first;
+            const long below = entries(last + 1) - 1;
+            const long size = width * (width + 1) / 2 + width * below;
+            if (size - used - entries(last + 1) > kZerosAllowed * static_cast<double>(size)) break;
+            used += entries(++last);
+        }
+
+        Panel panel;
+        panel.first = first;
+        panel.width = last + 1 - first;
+        panel.row_begin = static_cast<std::int32_t>(row.size());
+        panel.value_begin = static_cast<std::int64_t>(value.size());
+        for (std::int32_t k = begin[static_cast<std::size_t>(last)] + 1;
+             k < begin[static_cast<std::size_t>(last) + 1]; ++k) {
+            place[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])] =
+                static_cast<std::int32_t>(row.size()) - panel.row_begin + panel.width;
+            row.push_back(rows[static_cast<std::size_t>(k)]);
+        }
+        panel.row_end = static_cast<std::int32_t>(row.size());
+        for (int k = first; k <= last; ++k) place[static_cast<std::size_t>(k)] = k - first;
+
+        const int height = panel.width + panel.row_end - panel.row_begin;
+        value.resize(value.size() + static_cast<std::size_t>(height * panel.width), 0.0);
+        double* const to = value.data() + panel.value_begin;
+        for (int j = first; j <= last; ++j) {
+            for (std::int32_t k = begin[static_cast<std::size_t>(j)];
+                 k < begin[static_cast<std::size_t>(j) + 1]; ++k) {
+                const std::int32_t r = rows[static_cast<std::size_t>(k)];
+                const double v = values[static_cast<std::size_t>(k)];
+                to[place[static_cast<std::size_t>(r)] * panel.width + (j - first)] =
+                    r == j ? 1.0 / v : v;
+            }
+        }
+        panels.push_back(panel);
+        first = last + 1;
+    }
+}
+
+template <int W>
+void SparseCholesky::Impl::forward(const Panel& panel) const {
+    const double* v = value.data() + panel.value_begin;
+    Lanes z[W];
+    for (int k = 0; k < W; ++k) {
+        Lanes s = y[panel.first + k];
+        for (int m = 0; m < k; ++m) s -= v[k * W + m] * z[m];
+        z[k] = s * v[k * W + k];
+        y[panel.first + k] = z[k];
+    }
+    v += W * W;
+    const std::int32_t* const end = row.data() + panel.row_end;
+    for (const std::int32_t* r = row.data() + panel.row_begin; r < end; ++r, v += W) {
+        Lanes s = v[0] * z[0];
+        for (int k = 1; k < W; ++k) s += v[k] * z[k];
+        y[*r] -= s;
+    }
+}
+
+template <int W>
+void SparseCholesky::Impl::backward(const Panel& panel) const {
+    const double* const block = value.data() + panel.value_begin;
+    const double* v = block + W * W;
+    // Two partial sums per column hide the latency of the additions
+    Lanes even[W], odd[W];
+    for (int k = 0; k < W; ++k) {
+        even[k] = y[panel.first + k];
+        odd[k] = Lanes{};
+    }
+    const std::int32_t* r = row.data() + panel.row_begin;
+    const std::int32_t* const end = row.data() + panel.row_end;
+    for (; r + 1 < end; r += 2, v += 2 * W) {
+        const Lanes y0 = y[r[0]], y1 = y[r[1]];
+        for (int k = 0; k < W; ++k) {
+            even[k] -= v[k] * y0;
+            odd[k] -= v[W + k] * y1;
+        }
+    }
+    if (r < end) {
+        const Lanes y0 = y[*r];
+        for (int k = 0; k < W; ++k) even[k] -= v[k] * y0;
+    }
+    for (int k = W - 1; k >= 0; --k) {
+        Lanes s = even[k] + odd[k];
+        for (int m = k + 1; m < W; ++m) s -= block[m * W + k] * even[m];
+        even[k] = s * block[k * W + k];
+        y[panel.first + k] = even[k];
     }
 }
 
@@ -102,28 +224,39 @@ void SparseCholesky::Impl::solve(const Points& B, Points& X) const {
         const double* b = B.data() + 3L * order[static_cast<std::size_t>(i)];
         y[i] = Lanes{b[0], b[1], b[2], 0.0};
     }
-    const std::int32_t* const r = row.data();
-    const double* const v = value.data();
-    const std::int32_t* const begin = column_begin.data();
-
-    // L z = b, column by column
-    for (int j = 0; j < n; ++j) {
-        const Lanes z = y[j] * inverse_diagonal[static_cast<std::size_t>(j)];
-        y[j] = z;
-        for (std::int32_t k = begin[j]; k < begin[j + 1]; ++k) y[r[k]] -= v[k] * z;
-    }
-    // L^T x = z; four partial sums hide the latency of the additions
-    for (int j = n - 1; j >= 0; --j) {
-        Lanes s0 = y[j], s1{}, s2{}, s3{};
-        std::int32_t k = begin[j];
-        for (; k + 3 < begin[j + 1]; k += 4) {
-            s0 -= v[k] * y[r[k]];
-            s1 -= v[k + 1] * y[r[k + 1]];
-            s2 -= v[k + 2] * y[r[k + 2]];
-            s3 -= v[k + 3] * y[r[k + 3]];
+    // L z = b
+    for (const Panel& panel : panels) {
+        switch (panel.width) {
+            case 1:
+                forward<1>(panel);
+                break;
+            case 2:
+                forward<2>(panel);
+                break;
+            case 3:
+                forward<3>(panel);
+                break;
+            default:
+                forward<kWidest>(panel);
+                break;
         }
-        for (; k < begin[j + 1]; ++k) s0 -= v[k] * y[r[k]];
-        y[j] = ((s0 + s1) + (s2 + s3)) * inverse_diagonal[static_cast<std::size_t>(j)];
+    }
+    // L^T x = z
+    for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
+        switch (panel->width) {
+            case 1:
+                backward<1>(*panel);
+                break;
+            case 2:
+                backward<2>(*panel);
+                break;
+            case 3:
+                backward<3>(*panel);
+                break;
+            default:
+                backward<kWidest>(*panel);
+                break;
+        }
     }
 
     X.resize(n, 3);
@@ -145,8 +278,6 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 void SparseCholesky::solve(const Points& B, Points& X) const { impl_->solve(B, X); }
 int SparseCholesky::size() const { return impl_->n; }
-long SparseCholesky::nonzeros() const {
-    return static_cast<long>(impl_->value.size()) + static_cast<long>(impl_->n);
-}
+long SparseCholesky::nonzeros() const { return impl_->nonzeros; }
 
 }  // namespace risorius::solve

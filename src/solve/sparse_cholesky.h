@@ -1,7 +1,7 @@
 // Sparse Cholesky factor of a constant n x n matrix, solved for three right-hand sides at once.
 //
-//   A   symmetric positive definite, n x n      L   its factor after an AMD ordering, A = P^T L L^T
-//   P
+//   A   symmetric positive definite, n x n
+//   L   its factor after a nested-dissection ordering P, A = P^T L L^T P
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -20,7 +20,8 @@ class SparseCholesky {
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-    /// X = A^-1 B, n x 3 each. Deterministic, no allocation after the first call.
+    /// X = A^-1 B, n x 3 each; X may be B. Deterministic, no allocation after the first call. One thread at a time: it
+    /// keeps a scratch array.
     void solve(const Points& B, Points& X) const;
     int size() const;
     long nonzeros() const;  ///< of L

@@ -117,7 +117,7 @@ void SkinSheet::add_hinges(const Triangles& triangles, const Points& rest,
 }
 
 double SkinSheet::membrane_energy() const {
-    const Lanes one = solve::all_lanes(1.0);
+    const Lanes one = Lanes{} + 1.0;
     Lanes energy{};
     for (const TriangleGroup& g : triangles_) {
         Lanes e1[3], e2[3];

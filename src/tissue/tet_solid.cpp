@@ -52,7 +52,7 @@ double TetSolid::add_energy(const Points& x, Points& gradient) const {
     assert(gradient.rows() == x.rows());
     x_.copy(x);
     gradient_.set_zero(x.rows());
-    const Lanes one = solve::all_lanes(1.0);
+    const Lanes one = Lanes{} + 1.0;
     Lanes energy{};
 
     for (const Group& g : groups_) {

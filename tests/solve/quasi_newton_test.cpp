@@ -1,0 +1,190 @@
+#include "solve/quasi_newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "solve/metric_builder.h"
+
+namespace risorius::solve {
+namespace {
+
+/// A chain of n nodes from the origin along x, node 0 fixed.
+std::vector<char> first_fixed(int n) {
+    std::vector<char> fixed(static_cast<std::size_t>(n), 0);
+    fixed[0] = 1;
+    return fixed;
+}
+
+SparseCholesky chain_metric(int n, double stiffness) {
+    MetricBuilder builder(n);
+    const double c[2] = {-1, 1};
+    for (int i = 0; i + 1 < n; ++i) {
+        const int nodes[2] = {i, i + 1};
+        builder.add_outer(nodes, c, 2, stiffness);
+    }
+    return SparseCholesky(builder.build(first_fixed(n)));
+}
+
+TEST(QuasiNewton, AQuadraticWithItsOwnHessianIsDoneInOneStep) {
+    // Linear springs of zero rest length between neighbours, and a weight on every node
+    const int n = 12;
+    const double k = 40;
+    const SparseCholesky metric = chain_metric(n, k);
+    const auto energy = [&](const Points& x, Points& gradient) {
+        gradient.setZero();
+        double e = 0;
+        for (int i = 0; i + 1 < n; ++i) {
+            const Eigen::RowVector3d d = x.row(i + 1) - x.row(i);
+            e += 0.5 * k * d.squaredNorm() - 0.01 * x(i + 1, 1);
+            gradient.row(i + 1) += k * d;
+            gradient.row(i) -= k * d;
+            gradient(i + 1, 1) -= 0.01;
+        }
+        gradient.row(0).setZero();
+        return e;
+    };
+    Points x = Points::Zero(n, 3);
+    for (int i = 0; i < n; ++i) x(i, 0) = 1e-3 * i;
+    const StepReport report = minimise(energy, metric, x, {.iterations = 1, .step_cap_m = 1.0});
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_EQ(report.backtracks, 0);
+    // Node i hangs by sum over the springs above it of the weight they carry
+    double expected = 0;
+    for (int i = 1; i < n; ++i) {
+        expected += 0.01 * (n - i) / k;
+        EXPECT_NEAR(x(i, 1), expected, 1e-14);
+        EXPECT_NEAR(x(i, 0), 0.0, 1e-16);
+    }
+}
+
+/// A hanging bar of links with energy lambda L/4 (s^2 - 1)^2 each, s = length / L: the metric-tensor law in one dimension.
+/// The link that carries T stretches to s^3 - s = T / lambda.
+struct HangingBar {
+    static constexpr int n = 9;
+    static constexpr double length = 1e-2, lambda = 2.0, weight = 0.15;
+
+    static double energy(const Points& x, Points& gradient) {
+        gradient.setZero();
+        double e = 0;
+        for (int i = 0; i + 1 < n; ++i) {
+            const Eigen::RowVector3d d = (x.row(i + 1) - x.row(i)) / length;
+            const double strain = d.squaredNorm() - 1;
+            e += lambda * length / 4 * strain * strain - weight * x(i + 1, 0);
+            gradient.row(i + 1) += lambda * strain * d;
+            gradient.row(i) -= lambda * strain * d;
+            gradient(i + 1, 0) -= weight;
+        }
+        gradient.row(0).setZero();
+        return e;
+    }
+    static Points rest() {
+        Points x = Points::Zero(n, 3);
+        for (int i = 0; i < n; ++i) x(i, 0) = length * i;
+        return x;
+    }
+};
+
+TEST(QuasiNewton, AStretchedBarReachesItsAnalyticLength) {
+    Points x = HangingBar::rest();
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    const StepReport report =
+        minimise(HangingBar::energy, metric, x, {.iterations = 100, .tolerance_rms_m = 1e-10});
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.iterations, 30);
+    double expected = 0;
+    for (int i = 1; i < HangingBar::n; ++i) {
+        const double carried = HangingBar::weight * (HangingBar::n - i) / HangingBar::lambda;
+        double s = 1.0;
+        for (int newton = 0; newton < 50; ++newton)
+            s -= (s * s * s - s - carried) / (3 * s * s - 1);
+        expected += s * HangingBar::length;
+        EXPECT_NEAR(x(i, 0), expected, 1e-9);
+    }
+    Points gradient(HangingBar::n, 3);
+    EXPECT_EQ(report.energy_j, HangingBar::energy(x, gradient));
+}
+
+TEST(QuasiNewton, MemorySavesIterations) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    int iterations[2];
+    for (int memory : {0, 6}) {
+        Points x = HangingBar::rest();
+        const StepReport report =
+            minimise(HangingBar::energy, metric, x,
+                     {.iterations = 1000, .memory = memory, .tolerance_rms_m = 1e-10});
+        EXPECT_TRUE(report.converged);
+        iterations[memory == 0 ? 0 : 1] = report.iterations;
+    }
+    EXPECT_LT(2 * iterations[1], iterations[0]);
+}
+
+TEST(QuasiNewton, EveryStepLowersTheEnergyAndStaysUnderTheCap) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 0.3 * HangingBar::lambda / HangingBar::length);
+    Points x = HangingBar::rest(), gradient(HangingBar::n, 3);
+    double last = HangingBar::energy(x, gradient);
+    for (int step = 0; step < 8; ++step) {
+        const Points before = x;
+        const StepReport report =
+            minimise(HangingBar::energy, metric, x, {.iterations = 1, .step_cap_m = 1e-3});
+        EXPECT_LT(report.energy_j, last);
+        EXPECT_LE((x - before).rowwise().norm().maxCoeff(), 1e-3 * (1 + 1e-12));
+        last = report.energy_j;
+    }
+}
+
+TEST(QuasiNewton, RestNeedsNoStep) {
+    const SparseCholesky metric = chain_metric(4, 1.0);
+    Points x = Points::Ones(4, 3);
+    const StepReport report = minimise(
+        [](const Points&, Points& gradient) {
+            gradient.setZero();
+            return 0.0;
+        },
+        metric, x, {});
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, 0);
+    EXPECT_TRUE((x.array() == 1.0).all());
+}
+
+TEST(QuasiNewton, AnEnergyThatCannotBeLoweredIsReportedAsStalled) {
+    const SparseCholesky metric = chain_metric(4, 1.0);
+    Points x = Points::Ones(4, 3);
+    const StepReport report = minimise(
+        [](const Points& at, Points& gradient) {
+            gradient.setConstant(1.0);
+            gradient.row(0).setZero();
+            return (at.array() == 1.0).all() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+        },
+        metric, x, {});
+    EXPECT_TRUE(report.stalled);
+    EXPECT_FALSE(report.converged);
+    EXPECT_TRUE((x.array() == 1.0).all());
+}
+
+TEST(QuasiNewton, FixedNodesStayWhereTheyAre) {
+    Points x = HangingBar::rest();
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    minimise(HangingBar::energy, metric, x, {.iterations = 20});
+    EXPECT_EQ(x.row(0).norm(), 0.0);
+}
+
+TEST(QuasiNewton, ReusedBuffersLeaveNoTrace) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    QuasiNewton used;
+    Points warm = HangingBar::rest() * 1.7;
+    used.minimise(HangingBar::energy, metric, warm, {.iterations = 9});
+    Points a = HangingBar::rest(), b = HangingBar::rest();
+    used.minimise(HangingBar::energy, metric, a, {.iterations = 7});
+    minimise(HangingBar::energy, metric, b, {.iterations = 7});
+    EXPECT_TRUE((a.array() == b.array()).all());
+}
+
+}  // namespace
+}  // namespace risorius::solve

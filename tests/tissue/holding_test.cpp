@@ -1,0 +1,135 @@
+// Tethers, contacts and dead loads: what holds and pushes the tissue from outside.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "tissue/contacts.h"
+#include "tissue/dead_loads.h"
+#include "tissue/layered_block.h"
+#include "tissue/tethers.h"
+
+namespace risorius::tissue {
+namespace {
+
+const LayeredBlock kBlock(3, 3, 2);
+
+Tethers some_tethers() {
+    std::vector<Tethers::Tether> list;
+    for (int node = 0; node < 9; ++node)
+        list.push_back({node, kBlock.rest.row(node).transpose(),
+                        Vec3(0.1 * node, 0.5, 1.0).normalized(), 200.0, 3.0 * node});
+    return Tethers(list);
+}
+
+TEST(Tethers, HoldNothingAtTheirTargets) {
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    EXPECT_EQ(some_tethers().add_energy(kBlock.rest, gradient), 0.0);
+    EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(Tethers, ForcesAreTheSlopeOfTheEnergy) {
+    expect_gradient_is_exact(some_tethers(), shaken(kBlock.rest, 1e-3, 1));
+}
+
+TEST(Tethers, PullFirmlyAlongTheNormalAndLooselyAcross) {
+    const Tethers tethers({{0, Vec3::Zero(), Vec3::UnitY(), 500.0, 20.0}});
+    Points x(1, 3);
+    x << 1e-3, 2e-3, -3e-3;
+    const Points gradient = gradient_of(tethers, x);
+    EXPECT_NEAR(gradient(0, 0), 0.02, 1e-15);
+    EXPECT_NEAR(gradient(0, 1), 1.0, 1e-15);
+    EXPECT_NEAR(gradient(0, 2), -0.06, 1e-15);
+}
+
+TEST(Tethers, CanBeMovedWithTheJaw) {
+    Tethers tethers = some_tethers();
+    const Rigid jaw = some_motion();
+    for (Tethers::Tether& tether : tethers.list()) {
+        tether.target = jaw * tether.target;
+        tether.normal = jaw.linear() * tether.normal;
+    }
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    EXPECT_LT(tethers.add_energy(moved(kBlock.rest, jaw), gradient), 1e-28);
+}
+
+TEST(Tethers, TheMetricBoundsBothDirections) {
+    const Tethers tethers({{1, Vec3::Zero(), Vec3::UnitY(), 5.0, 20.0}});
+    solve::MetricBuilder builder(3);
+    tethers.add_metric(builder);
+    const Eigen::MatrixXd metric = builder.build({});
+    EXPECT_EQ(metric(1, 1), 20.0);
+    EXPECT_EQ(metric.sum(), 20.0);
+}
+
+/// Node 17 over the triangle 0 1 3, and node 10 over a fixed plane.
+Contacts some_contacts() {
+    Contacts::Contact carried;
+    carried.node = 17;
+    carried.count = 3;
+    const int others[3] = {0, 1, 3};
+    const double weights[3] = {0.2, 0.5, 0.3};
+    for (int i = 0; i < 3; ++i) {
+        carried.others[i] = others[i];
+        carried.weights[i] = weights[i];
+    }
+    carried.normal = Vec3(0.2, -0.1, 1).normalized();
+    carried.stiffness_n_per_m = 30;
+    Contacts::Contact fixed;
+    fixed.node = 10;
+    fixed.point = kBlock.rest.row(10).transpose() + Vec3(0, 0, 4e-4);  // 0.4 mm inside at rest
+    fixed.normal = Vec3::UnitZ();
+    fixed.stiffness_n_per_m = 50;
+    Contacts contacts;
+    std::vector<Contacts::Contact> list{carried, fixed};
+    for (Contacts::Contact& contact : list)
+        contact.rest_gap_m = std::min(0.0, Contacts::gap(contact, kBlock.rest));
+    contacts.set(list);
+    return contacts;
+}
+
+TEST(Contacts, RestIsFreeOfForceEvenWhereItOverlaps) {
+    const Contacts contacts = some_contacts();
+    EXPECT_NEAR(contacts.list()[1].rest_gap_m, -4e-4, 1e-18);
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    EXPECT_EQ(contacts.add_energy(kBlock.rest, gradient), 0.0);
+    EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
+    EXPECT_EQ(contacts.max_penetration(kBlock.rest), 0.0);
+}
+
+TEST(Contacts, ForcesAreTheSlopeOfTheEnergyWhilePressed) {
+    Points x = kBlock.rest;
+    x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
+    x.row(10) -= Eigen::RowVector3d(1e-3, 0, 2e-3);
+    const Contacts contacts = some_contacts();
+    EXPECT_LT(Contacts::gap(contacts.list()[0], x), 0.0);
+    expect_gradient_is_exact(contacts, x);
+    EXPECT_GE(contacts.max_penetration(x), 2e-3 - 1e-12);
+}
+
+TEST(Contacts, BetweenTissueAndTissuePushBothAlike) {
+    Points x = kBlock.rest;
+    x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
+    const Points gradient = gradient_of(some_contacts(), x);
+    EXPECT_GT(gradient.cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_LT(gradient.colwise().sum().norm(), 1e-14);
+}
+
+TEST(Contacts, DoNotPullWhenApart) {
+    Points x = kBlock.rest;
+    x.row(17) += Eigen::RowVector3d(0, 0, 5e-3);
+    x.row(10) += Eigen::RowVector3d(0, 0, 5e-3);
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    EXPECT_EQ(some_contacts().add_energy(x, gradient), 0.0);
+    EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(DeadLoads, ForcesAreTheSlopeOfTheEnergy) {
+    DeadLoads loads;
+    loads.set({{2, Vec3(0.1, 0, -0.2)}, {5, Vec3(0, 0.05, 0)}});
+    expect_gradient_is_exact(loads, kBlock.rest);
+    const Points gradient = gradient_of(loads, kBlock.rest);
+    EXPECT_EQ(gradient(2, 2), 0.2);
+}
+
+}  // namespace
+}  // namespace risorius::tissue

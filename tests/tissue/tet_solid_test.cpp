@@ -1,0 +1,158 @@
+#include "tissue/tet_solid.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "tissue/layered_block.h"
+
+namespace risorius::tissue {
+namespace {
+
+// 5 x 4 x 3 nodes: 144 tets; one more block of 3 x 2 x 2 has 12, and a lone tet leaves three lanes of a group empty.
+const LayeredBlock kBlock(5, 4, 3);
+
+Eigen::VectorXd moduli(int count, double from, double to) {
+    return Eigen::VectorXd::LinSpaced(count, from, to);
+}
+
+TetSolid tissue_of(const LayeredBlock& block) {
+    const int count = static_cast<int>(block.tets.rows());
+    return TetSolid(block.tets, block.rest, moduli(count, 1e3, 3e3), moduli(count, 3e4, 2e4));
+}
+
+TetSolid lone_tet(Points* rest) {
+    rest->resize(4, 3);
+    *rest << 0, 0, 0, 3e-3, 0, 0, 1e-3, 4e-3, 0, 0, 1e-3, 2e-3;
+    Tets tets(1, 4);
+    tets << 0, 1, 2, 3;
+    return TetSolid(tets, *rest, moduli(1, 2e3, 2e3), moduli(1, 3e4, 3e4));
+}
+
+TEST(TetSolid, RestIsFreeOfStress) {
+    const TetSolid solid = tissue_of(kBlock);
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    const double energy = solid.add_energy(kBlock.rest, gradient);
+    // Strains of rounding size, squared: K V eps^2 is about 1e-33 J
+    EXPECT_LT(std::abs(energy), 1e-30);
+    // K V / edge is about 0.1 N, times 1e-16 of strain
+    EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(TetSolid, ForcesAreTheSlopeOfTheEnergy) {
+    expect_gradient_is_exact(tissue_of(kBlock), shaken(kBlock.rest, 8e-4, 1));
+}
+
+TEST(TetSolid, ALoneTetWorksThoughThreeLanesAreEmpty) {
+    Points rest;
+    const TetSolid solid = lone_tet(&rest);
+    expect_gradient_is_exact(solid, shaken(rest, 8e-4, 2));
+    EXPECT_NEAR(solid.volume(rest), 3e-3 * 4e-3 * 2e-3 / 6, 1e-20);
+}
+
+TEST(TetSolid, EnergyIsThatOfTheFormulaWrittenOut) {
+    Points rest;
+    const TetSolid solid = lone_tet(&rest);
+    const Points x = shaken(rest, 8e-4, 3);
+    Mat3 d, d0;
+    for (int k = 0; k < 3; ++k) {
+        d.col(k) = (x.row(k + 1) - x.row(0)).transpose();
+        d0.col(k) = (rest.row(k + 1) - rest.row(0)).transpose();
+    }
+    const Mat3 f = d * d0.inverse();
+    const double volume = d0.determinant() / 6;
+    const double expected =
+        volume * (2e3 / 4 * (f.transpose() * f - Mat3::Identity()).squaredNorm() +
+                  3e4 / 2 * std::pow(f.determinant() - 1, 2));
+    Points gradient = Points::Zero(4, 3);
+    EXPECT_NEAR(solid.add_energy(x, gradient), expected, 1e-12 * expected);
+}
+
+TEST(TetSolid, RigidMotionCostsNothing) {
+    const TetSolid solid = tissue_of(kBlock);
+    const Points x = moved(kBlock.rest, some_motion());
+    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    EXPECT_LT(std::abs(solid.add_energy(x, gradient)), 1e-28);
+    EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(TetSolid, InternalForcesAddUpToNothing) {
+    const Points x = shaken(kBlock.rest, 8e-4, 4);
+    expect_no_net_force_or_torque(x, gradient_of(tissue_of(kBlock), x));
+}
+
+TEST(TetSolid, TheMetricIsTheStiffnessUnderSmallShearAndMore) {
+    const TetSolid solid = tissue_of(kBlock);
+    solve::MetricBuilder builder(kBlock.nodes());
+    solid.add_metric(builder);
+    const Eigen::MatrixXd lower = builder.build({});
+    const Eigen::MatrixXd metric = lower.selfadjointView<Eigen::Lower>();
+    EXPECT_LT((metric * Eigen::VectorXd::Ones(kBlock.nodes())).cwiseAbs().maxCoeff(),
+              1e-10 * metric.cwiseAbs().maxCoeff());
+    // Energy of any small displacement, from the gradient: u . dE(rest + u) / 2 <= 1/2 u . A u
+    const Points u = shaken(Points::Zero(kBlock.nodes(), 3), 1e-9, 5);
+    const Points gradient = gradient_of(solid, kBlock.rest + u);
+    const double stored = 0.5 * (u.array() * gradient.array()).sum();
+    const double bound = 0.5 * (u.array() * (metric * u).array()).sum();
+    EXPECT_GT(stored, 0.05 * bound);
+    EXPECT_LE(stored, bound * 1.0001);
+}
+
+TEST(TetSolid, TheLaplacianIsTheMetricWithTheShearModulusAlone) {
+    const LayeredBlock block(3, 2, 2);
+    const int count = static_cast<int>(block.tets.rows());
+    const TetSolid solid(block.tets, block.rest, moduli(count, 2e3, 2e3), moduli(count, 6e3, 6e3));
+    solve::MetricBuilder metric(block.nodes()), laplacian(block.nodes());
+    solid.add_metric(metric);
+    solid.add_laplacian(laplacian, 5.0);  // 2 mu + K = 5 mu
+    const Eigen::MatrixXd difference =
+        Eigen::MatrixXd(metric.build({})) - Eigen::MatrixXd(laplacian.build({}));
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(TetSolid, SqueezingThroughItselfIsCountedAsInverted) {
+    Points rest;
+    const TetSolid solid = lone_tet(&rest);
+    Points x = rest;
+    x.col(2) *= -0.5;
+    EXPECT_EQ(solid.inverted_count(rest), 0);
+    EXPECT_EQ(solid.inverted_count(x), 1);
+    EXPECT_NEAR(solid.min_relative_volume(x), -0.5, 1e-12);
+    // and is no second rest
+    Points mirrored = rest, gradient = Points::Zero(4, 3);
+    mirrored.col(2) *= -1;
+    EXPECT_NEAR(solid.add_energy(mirrored, gradient), 4e-9 * 3e4 / 2 * 4, 1e-12);
+}
+
+TEST(TetSolid, MassIsDensityTimesVolume) {
+    const TetSolid solid = tissue_of(kBlock);
+    const double volume = solid.volume(kBlock.rest);
+    EXPECT_NEAR(volume, 16e-3 * 12e-3 * 8e-3, 0.05 * volume);
+    EXPECT_NEAR(solid.lumped_mass(1000.0, kBlock.nodes()).sum(), 1000.0 * volume, 1e-15);
+}
+
+TEST(TetSolid, TwoRunsGiveTheSameBits) {
+    const TetSolid solid = tissue_of(kBlock), other = tissue_of(kBlock);
+    const Points x = shaken(kBlock.rest, 8e-4, 6);
+    Points a = Points::Zero(kBlock.nodes(), 3), b = a;
+    other.add_energy(kBlock.rest, b);  // scratch left over from another state must not matter
+    b.setZero();
+    EXPECT_EQ(solid.add_energy(x, a), other.add_energy(x, b));
+    EXPECT_TRUE((a.array() == b.array()).all());
+}
+
+TEST(TetSolid, AFlatTetIsRefused) {
+    Points rest(4, 3);
+    rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
+    Tets tets(1, 4);
+    tets << 0, 1, 2, 3;
+    try {
+        TetSolid(tets, rest, moduli(1, 1, 1), moduli(1, 1, 1));
+        FAIL() << "accepted";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "TetSolid: tet 0 has no positive volume at rest");
+    }
+}
+
+}  // namespace
+}  // namespace risorius::tissue
