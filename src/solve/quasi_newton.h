@@ -1,10 +1,13 @@
-// L-BFGS over node positions with one prefactored matrix as the initial metric (Liu, Bouaziz & Kavan 2017, "Quasi-Newton
-// methods for real-time simulation of hyperelastic materials", ACM TOG 36(3)).
+// L-BFGS over node positions with one prefactored matrix as the initial metric (Liu, Bouaziz &
+// Kavan 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials", ACM TOG
+// 36(3)).
 //
-//   x   node positions, n x 3, m      E(x)   incremental potential, J      A   prefactored metric, N/m
+//   x   node positions, n x 3, m      E(x)   incremental potential, J      A   prefactored metric,
+//   N/m
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/types.h"
 #include "solve/sparse_cholesky.h"
@@ -15,10 +18,11 @@ namespace risorius::solve {
 using EnergyAndGradient = std::function<double(const Points& x, Points& gradient)>;
 
 struct QuasiNewtonOptions {
-    int iterations = 6;           ///< at most
-    int memory = 6;               ///< pairs kept
-    double step_cap_m = 6e-3;     ///< longest move of one node in one iteration
-    double tolerance_rms_m = 0;   ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
+    int iterations = 6;        ///< at most
+    int memory = 6;            ///< pairs kept
+    double step_cap_m = 6e-3;  ///< longest move of one node in one iteration
+    double tolerance_rms_m =
+        0;  ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
     double sufficient_decrease = 1e-4;
     int backtracks = 12;
 };
@@ -29,11 +33,35 @@ struct StepReport {
     int backtracks = 0;
     double energy_j = 0;
     double last_step_rms_m = 0;
-    bool converged = false;       ///< the tolerance was met
-    bool stalled = false;         ///< the line search found no lower energy
+    bool converged = false;  ///< the tolerance was met, or the gradient is exactly zero
+    bool stalled = false;    ///< the line search found no lower energy
 };
 
-/// Moves x downhill. Not converging is a result. No allocation that depends on the clock or the thread count.
+/// Keeps its buffers between calls, so that stepping a simulation allocates nothing after the first
+/// frame. Each call starts with an empty memory: frames do not depend on the ones before except
+/// through x.
+class QuasiNewton {
+  public:
+    StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
+                        const QuasiNewtonOptions& options);
+
+  private:
+    struct Pair {
+        Points step;             ///< s
+        Points gradient_change;  ///< y
+        double inverse_product;  ///< 1 / (s . y)
+        double alpha;
+    };
+    void direction(const SparseCholesky& metric);
+
+    std::vector<Pair> pairs_;  ///< ring of options.memory pairs
+    int newest_ = 0;
+    int kept_ = 0;
+    Points gradient_, trial_gradient_, trial_, work_, direction_;
+};
+
+/// Moves x downhill. Not converging is a result. No allocation that depends on the clock or the
+/// thread count.
 StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                     const QuasiNewtonOptions& options);
 

@@ -1,6 +1,7 @@
 // Sparse Cholesky factor of a constant n x n matrix, solved for three right-hand sides at once.
 //
-//   A   symmetric positive definite, n x n      L   its factor after an AMD ordering, A = P^T L L^T P
+//   A   symmetric positive definite, n x n      L   its factor after an AMD ordering, A = P^T L L^T
+//   P
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,7 +13,8 @@ namespace risorius::solve {
 
 class SparseCholesky {
   public:
-    /// Only the lower triangle of A is read. Throws std::invalid_argument when A is not positive definite.
+    /// Only the lower triangle of A is read. Throws std::invalid_argument when A is not positive
+    /// definite.
     explicit SparseCholesky(const Eigen::SparseMatrix<double>& A);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.h"
@@ -12,22 +14,50 @@
 namespace risorius::track {
 
 struct MuscleChannel {
-    std::string id;             ///< as in the rig's muscle table
+    std::string id;  ///< as in the rig's muscle table
     bool paired = true;
-    double min = 0.0;           ///< -1 for muscles with tonic drive that can be removed (levator palpebrae)
+    double min = 0.0;  ///< -1 for muscles with tonic drive that can be removed (levator palpebrae)
 };
 
 /// Channels that no muscle drives. The order is the order of Drive::kinematic.
 enum class Kinematic {
-    kJawOpen, kJawForward, kJawSide,                       // ratio of the rig's range; side > 0 = subject left
-    kGazeYawLeft, kGazeYawRight, kGazePitchLeft, kGazePitchRight,  // deg, yaw > 0 = subject left, pitch > 0 = up
-    kHeadYaw, kHeadPitch, kHeadRoll,                       // deg, yaw > 0 turns to subject left, pitch > 0 up, roll > 0 tilts to subject left
-    kHeadForward,                                          // mm
-    kMouthPressure,                                        // Pa in the oral cavity, > 0 puffs the cheeks
-    kTongueOut,                                            // ratio of the rig's protrusion range
+    kJawOpen,
+    kJawForward,
+    kJawSide,  // ratio of the rig's range; side > 0 = subject left
+    kGazeYawLeft,
+    kGazeYawRight,
+    kGazePitchLeft,
+    kGazePitchRight,  // deg, yaw > 0 = subject left, pitch > 0 = up
+    kHeadYaw,
+    kHeadPitch,
+    kHeadRoll,  // deg, yaw > 0 turns to subject left, pitch > 0 up, roll > 0 tilts to subject left
+    kHeadForward,    // mm
+    kMouthPressure,  // Pa in the oral cavity, > 0 puffs the cheeks
+    kTongueOut,      // ratio of the rig's protrusion range
     kCount
 };
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
+using KinematicValues = std::array<double, kKinematicCount>;
+
+/// How a script names a kinematic channel and how far it goes. Limits of gaze and head: adult norms.
+struct KinematicChannel {
+    std::string_view name;  ///< with its side, "gaze_yaw_deg.l"
+    double min;
+    double max;
+};
+
+/// In the order of Kinematic.
+const std::array<KinematicChannel, kKinematicCount>& kinematic_channels();
+
+/// The channels a script's name stands for: one, or both eyes when a gaze channel has no side; empty when unknown.
+std::vector<Kinematic> kinematic_named(std::string_view name);
+
+/// "zygomaticus_major.l" -> "zygomaticus_major" and left; without suffix no side.
+struct SidedName {
+    std::string id;
+    std::optional<Side> side;
+};
+SidedName split_side(std::string_view name);
 
 struct ChannelTable {
     std::vector<MuscleChannel> muscles;
@@ -35,15 +65,19 @@ struct ChannelTable {
     int column_count() const;
     /// Column of a muscle, -1 when unknown. For an unpaired muscle both sides give its one column.
     int column(const std::string& id, Side side) const;
+    /// Null when unknown.
+    const MuscleChannel* find(const std::string& id) const;
+    /// Lower limit of the excitation of each column.
+    Eigen::VectorXd column_min() const;
     /// "zygomaticus_major.l", "zygomaticus_major.r", "orbicularis_oris_upper_marginal", ...
     std::vector<std::string> column_names() const;
 };
 
 /// Everything that drives a face at one moment.
 struct Drive {
-    Eigen::VectorXd excitation;               ///< per column, ratio of maximal neural drive, [min, 1]
-    Eigen::VectorXd activation;               ///< per column, activation set directly; NaN where dynamics decide
-    std::array<double, kKinematicCount> kinematic{};
+    Eigen::VectorXd excitation;  ///< per column, ratio of maximal neural drive, [min, 1]
+    Eigen::VectorXd activation;  ///< per column, activation set directly; NaN where dynamics decide
+    KinematicValues kinematic{};
     double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }
 };
 

@@ -1,0 +1,76 @@
+// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or
+// ride on a bone.
+//
+//   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0
+//   greatest force, N E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]        tension T = F0 [
+//   a fl(lam) + fp(lam) ]
+//
+// fl and fp are the active and passive curves of muscle/hill_shape.h, Ifl and Ifp their integrals.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/types.h"
+#include "muscle/hill_shape.h"
+#include "solve/metric_builder.h"
+
+namespace risorius::muscle {
+
+struct FibrePoint {
+    int nodes[4] = {0, 0, 0, 0};
+    double weights[4] = {0, 0, 0, 0};  ///< sum 1
+    int count = 0;                     ///< of nodes, 1..4; 0: the point rides on a body
+    int body = 0;                      ///< which, when count is 0
+    Vec3 body_rest = Vec3::Zero();     ///< its place when the body is at rest, m
+};
+
+struct Fibre {
+    int first_point = 0;
+    int point_count = 0;      ///< consecutive points, 2 or more
+    int column = 0;           ///< of the activation vector
+    double f0_n = 0;          ///< F0                                       [0, inf)
+    double rest_stretch = 1;  ///< lam at rest: l0 = rest length / this     (0, inf)
+};
+
+/// One object serves one thread at a time: it keeps scratch arrays.
+class FibreSet {
+  public:
+    /// `rest` are the nodes at rest, n x 3, m; bodies are then at rest as well. Throws
+    /// std::invalid_argument on a fibre with fewer than two points or a segment without length.
+    FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, const Points& rest,
+             const HillShape& shape = {});
+
+    const std::vector<FibrePoint>& points() const { return points_; }
+    const std::vector<Fibre>& fibres() const { return fibres_; }
+    void set_f0(int fibre, double f0_n) { fibres_[static_cast<std::size_t>(fibre)].f0_n = f0_n; }
+
+    /// Moves the points that ride on bodies. `bodies` are motions from rest, indexed by
+    /// FibrePoint::body.
+    void set_body_positions(std::span<const Rigid> bodies);
+
+    /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by
+    /// Fibre::column.
+    double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
+
+    /// F0/(2 l0) per segment on the difference of its ends.
+    void add_metric(solve::MetricBuilder& builder) const;
+
+    /// lam of each fibre: its length over the sum of its optimal lengths.
+    Eigen::VectorXd mean_stretch(const Points& x) const;
+
+    /// Where the points are, P x 3, m: for drawing and measuring.
+    Points positions(const Points& x) const;
+
+  private:
+    void place_points(const Points& x) const;
+
+    std::vector<FibrePoint> points_;
+    std::vector<Fibre> fibres_;
+    HillShape shape_;
+    std::vector<double> optimal_length_m_;  ///< l0 of the segment that begins at a point
+    Points body_position_;                  ///< P x 3, of points that ride on bodies
+    mutable Points position_, force_;       ///< P x 3
+};
+
+}  // namespace risorius::muscle

@@ -1,0 +1,86 @@
+#include "render/detail/gl_context.h"
+
+#include <cstdlib>
+#include <mutex>
+
+#include "core/error.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr int kWindowSide = 16;
+
+std::mutex& creation_mutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+GLuint compile(const std::string& name, GLenum stage, const std::string& source) {
+    const GLuint shader = glCreateShader(stage);
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint compiled = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (!compiled) {
+        char log[4096] = "";
+        glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+        glDeleteShader(shader);
+        throw RunError("shader " + name + ": " + log);
+    }
+    return shader;
+}
+
+}  // namespace
+
+GlContext::GlContext(int threads) : window_(kWindowSide * kWindowSide * 4) {
+    // The driver reads its thread count from the environment when its one screen is made.
+    const std::lock_guard<std::mutex> lock(creation_mutex());
+    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              0,
+                              OSMESA_PROFILE,
+                              OSMESA_CORE_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              4,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              5,
+                              0};
+    context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+    if (!context_) throw RunError("no OpenGL 4.5 context (OSMesa)");
+}
+
+GlContext::~GlContext() { OSMesaDestroyContext(context_); }
+
+GlContext::Current::Current(GlContext& context) {
+    if (!OSMesaMakeCurrent(context.context_, context.window_.data(), GL_UNSIGNED_BYTE, kWindowSide,
+                           kWindowSide))
+        throw RunError("the OpenGL context cannot be bound to this thread");
+}
+
+GlContext::Current::~Current() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+GlProgram::GlProgram(const std::string& name, const std::string& vertex,
+                     const std::string& fragment) {
+    const GLuint vertex_shader = compile(name + " (vertex)", GL_VERTEX_SHADER, vertex);
+    id_ = glCreateProgram();
+    glAttachShader(id_, vertex_shader);
+    glDeleteShader(vertex_shader);
+    if (!fragment.empty()) {
+        const GLuint fragment_shader = compile(name + " (fragment)", GL_FRAGMENT_SHADER, fragment);
+        glAttachShader(id_, fragment_shader);
+        glDeleteShader(fragment_shader);
+    }
+    glLinkProgram(id_);
+    GLint linked = 0;
+    glGetProgramiv(id_, GL_LINK_STATUS, &linked);
+    if (!linked) {
+        char log[4096] = "";
+        glGetProgramInfoLog(id_, sizeof log, nullptr, log);
+        throw RunError("shader " + name + ": " + log);
+    }
+}
+
+}  // namespace risorius::render

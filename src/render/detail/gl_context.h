@@ -1,0 +1,49 @@
+// A GL 4.5 core context without a window, and the little ownership GL objects need.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/detail/gl.h"
+
+namespace risorius::render {
+
+class GlContext {
+  public:
+    /// `threads` are llvmpipe workers; the first context of a process decides for all later ones.
+    /// Throws RunError when there is no such context.
+    explicit GlContext(int threads);
+    ~GlContext();
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    /// Binds to the calling thread for a scope; draws go to framebuffer objects.
+    class Current {
+      public:
+        explicit Current(GlContext& context);
+        ~Current();
+        Current(const Current&) = delete;
+        Current& operator=(const Current&) = delete;
+    };
+
+  private:
+    OSMesaContext context_ = nullptr;
+    std::vector<unsigned char> window_;  ///< OSMesa insists on a window; nothing is drawn there
+};
+
+/// Compiles and links; throws RunError with the compiler's words. An empty fragment source draws depth only.
+class GlProgram {
+  public:
+    GlProgram(const std::string& name, const std::string& vertex, const std::string& fragment);
+    ~GlProgram() { glDeleteProgram(id_); }
+    GlProgram(const GlProgram&) = delete;
+    GlProgram& operator=(const GlProgram&) = delete;
+
+    void use() const { glUseProgram(id_); }
+    GLint location(const char* uniform) const { return glGetUniformLocation(id_, uniform); }
+
+  private:
+    GLuint id_ = 0;
+};
+
+}  // namespace risorius::render

@@ -1,0 +1,107 @@
+#include "render/detail/lights.h"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace risorius::render {
+namespace {
+
+constexpr int kShadowSide = 1024;
+constexpr double kShadowReachPerFrame =
+    0.62;  ///< half width of the map over the height of the frame
+
+Vec3 direction(double azimuth_deg, double elevation_deg) {
+    const double a = azimuth_deg * std::numbers::pi / 180,
+                 e = elevation_deg * std::numbers::pi / 180;
+    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+}
+
+void put(float* to, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
+}
+
+}  // namespace
+
+Lights::Lights(const Camera& camera, const Vec3& head_centre)
+    : program_("shadow", depth_vertex_shader(), "") {
+    // The key stands on the side the face looks to, so that cheek and nose model; mirrored with the camera.
+    const double azimuth = camera.azimuth_rad * 180 / std::numbers::pi;
+    const double side = azimuth < -1 ? -1 : 1;
+    const Vec3 key = direction(azimuth - side * 38, 34);
+    put(frame_.camera, camera.position);
+    put(frame_.key_direction, key);
+    put(frame_.key_radiance, Vec3(1.00, 0.955, 0.90) * 1.30);
+    put(frame_.fill_direction, direction(azimuth + side * 48, 8));
+    put(frame_.fill_radiance, Vec3(0.88, 0.94, 1.00) * 0.34);
+    put(frame_.rim_direction, direction(azimuth + side * 142, 32));
+    put(frame_.rim_radiance, Vec3(0.92, 0.97, 1.00) * 0.75);
+    put(frame_.sky, Vec3(0.95, 0.98, 1.00) * 0.36);
+    put(frame_.ground, Vec3(1.00, 0.90, 0.82) * 0.17);
+
+    const double reach = kShadowReachPerFrame * camera.frame_height_m;
+    const Vec3 across = Vec3::UnitY().cross(key).normalized(), up = key.cross(across);
+    Mat4 clip = Mat4::Identity();
+    clip.block<1, 3>(0, 0) = across.transpose() / reach;
+    clip.block<1, 3>(1, 0) = up.transpose() / reach;
+    clip.block<1, 3>(2, 0) = -key.transpose() / (2 * reach);
+    clip.block<3, 1>(0, 3) = -clip.block<3, 3>(0, 0) * head_centre;
+    clip_from_world_ = clip.cast<float>();
+    Mat4 texture = Mat4::Identity();
+    texture.block<3, 3>(0, 0) *= 0.5;
+    texture.block<3, 1>(0, 3).setConstant(0.5);
+    const Eigen::Matrix4f shadow = (texture * clip).cast<float>();
+    std::memcpy(frame_.shadow_from_world, shadow.data(), sizeof frame_.shadow_from_world);
+    frame_.mouth_axis[3] = static_cast<float>(2 * reach / kShadowSide);
+
+    glGenTextures(1, &shadow_map_);
+    glBindTexture(GL_TEXTURE_2D, shadow_map_);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, kShadowSide, kShadowSide);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glGenFramebuffers(1, &framebuffer_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map_, 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+}
+
+Lights::~Lights() {
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteTextures(1, &shadow_map_);
+}
+
+FrameUniforms Lights::uniforms(const MouthGap& gap) const {
+    FrameUniforms frame = frame_;
+    put(frame.mouth_centre, gap.centre);
+    frame.mouth_centre[3] = static_cast<float>(gap.area_m2);
+    put(frame.mouth_axis, gap.half_axis);
+    return frame;
+}
+
+void Lights::draw_shadow(const SceneBuffers& buffers) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, kShadowSide, kShadowSide);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(2.0F, 4.0F);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    program_.use();
+    glUniformMatrix4fv(program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world_.data());
+    for (const Batch& batch : buffers.batches()) {
+        // Clear, or finer than a texel of the map
+        if (batch.material == Material::kCornea || batch.material == Material::kLashes) continue;
+        glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(static_cast<std::size_t>(batch.first_index) *
+                                                     sizeof(unsigned)));
+    }
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glActiveTexture(GL_TEXTURE0 + kShadowUnit);
+    glBindTexture(GL_TEXTURE_2D, shadow_map_);
+}
+
+}  // namespace risorius::render

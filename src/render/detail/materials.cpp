@@ -1,0 +1,142 @@
+#include "render/detail/materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/detail/shaders.h"
+#include "render/detail/skin_paint.h"
+
+namespace risorius::render {
+namespace {
+
+std::string fragment_shader(Material material) {
+    switch (material) {
+        case Material::kSkin:
+            return skin_shader();
+        case Material::kEye:
+            return eye_shader();
+        case Material::kCornea:
+            return cornea_shader();
+        case Material::kTeeth:
+            return teeth_shader();
+        case Material::kGums:
+        case Material::kTongue:
+        case Material::kMouth:
+            return mucosa_shader();
+        case Material::kLashes:
+            return lash_shader();
+    }
+    return {};
+}
+
+bool inside_mouth(Material material) {
+    return material == Material::kTeeth || material == Material::kGums ||
+           material == Material::kTongue || material == Material::kMouth;
+}
+
+// Linear albedo of the mucosa
+const Vec3 kGums(0.42, 0.12, 0.11), kTongue(0.38, 0.10, 0.09), kMouth(0.24, 0.045, 0.04);
+
+void set(GLint location, const Vec3& v) {
+    const Eigen::Vector3f f = v.cast<float>();
+    glUniform3fv(location, 1, f.data());
+}
+void set(GLint location, const Mat3& m) {
+    const Eigen::Matrix3f f = m.cast<float>();
+    glUniformMatrix3fv(location, 1, GL_FALSE, f.data());
+}
+
+/// Rows are the axes of the eye: across, up, forward.
+Mat3 eye_axes(const Eye& eye) {
+    const Vec3 forward = eye.forward.normalized();
+    const Vec3 across = Vec3::UnitY().cross(forward).normalized();
+    Mat3 axes;
+    axes << across.transpose(), forward.cross(across).transpose(), forward.transpose();
+    return axes;
+}
+
+}  // namespace
+
+Materials::Materials(const Scene& scene, const SceneBuffers& buffers)
+    : eyes_(scene.eyes), look_(scene.look) {
+    for (const Batch& batch : buffers.batches()) {
+        if (batch.material == Material::kCornea)
+            separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
+        if (programs_.contains(batch.material)) continue;
+        const std::string name = "material " + std::to_string(static_cast<int>(batch.material));
+        auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(),
+                                                   fragment_shader(batch.material));
+        program->use();
+        glUniform1i(program->location("inside_mouth"), inside_mouth(batch.material));
+        if (batch.material == Material::kGums) set(program->location("albedo"), kGums);
+        if (batch.material == Material::kTongue) set(program->location("albedo"), kTongue);
+        if (batch.material == Material::kMouth) set(program->location("albedo"), kMouth);
+        if (batch.material == Material::kLashes)
+            set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
+        glUniform1f(program->location("bumps"),
+                    batch.material == Material::kTongue ? 0.55F : 0.12F);
+        programs_.emplace(batch.material, std::move(program));
+    }
+
+    // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Eye& eye = eyes_[side];
+        const Mat3 axes = eye_axes(eye);
+        double nearest = 1e9;
+        iris_depth_m_[side] = std::sqrt(
+            std::max(eye.radius_m * eye.radius_m - eye.iris_radius_m * eye.iris_radius_m, 0.0));
+        for (const Surface& surface : scene.surfaces) {
+            if (surface.material != Material::kEye ||
+                std::max(surface.eye, 0) != static_cast<int>(side))
+                continue;
+            for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
+                const Vec3 q =
+                    axes * (scene.rest.row(surface.triangles.data()[i]).transpose() - eye.centre);
+                const double off = std::abs(q.head<2>().norm() - eye.iris_radius_m);
+                if (q.z() > 0 && off < nearest) {
+                    nearest = off;
+                    iris_depth_m_[side] = q.z();
+                }
+            }
+        }
+    }
+}
+
+void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
+                        const PosedMarks& marks) const {
+    const auto index = static_cast<std::size_t>(side);
+    const Eye& eye = eyes_[index];
+    const Mat3 axes = eye_axes(eye);
+    set(program.location("eye_from_rest"), axes);
+    set(program.location("eye_from_world"), Mat3(axes * pose.eye_rotation[index].transpose()));
+    set(program.location("centre"), eye.centre);
+    glUniform1f(program.location("iris_radius"), static_cast<float>(eye.iris_radius_m));
+    glUniform1f(program.location("pupil_radius"), static_cast<float>(eye.pupil_radius_m));
+    glUniform1f(program.location("iris_depth"), static_cast<float>(iris_depth_m_[index]));
+    glUniform1i(program.location("separate_cornea"), separate_cornea_[index]);
+    set(program.location("iris_tone"), linear_from_srgb(look_.iris_tone));
+    const LidMarks lids = marks.lids(pose, side);
+    set(program.location("lid_inner"), lids.inner);
+    set(program.location("lid_outer"), lids.outer);
+    set(program.location("lid_upper"), lids.upper);
+    set(program.location("lid_lower"), lids.lower);
+    glUniform1f(program.location("lids"), lids.known ? 1.0F : 0.0F);
+}
+
+void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const {
+    const GlProgram& program = *programs_.at(batch.material);
+    program.use();
+    if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);
+    if (batch.material == Material::kCornea) {
+        glEnable(GL_BLEND);
+        glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+        glDepthMask(GL_FALSE);
+    }
+}
+
+void Materials::done() const {
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+}
+
+}  // namespace risorius::render

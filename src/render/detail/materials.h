@@ -1,0 +1,34 @@
+// The shader program of each material and what it needs to know of the head.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+
+#include "render/detail/gl_context.h"
+#include "render/detail/posed_marks.h"
+#include "render/detail/scene_buffers.h"
+#include "render/scene.h"
+
+namespace risorius::render {
+
+class Materials {
+  public:
+    Materials(const Scene& scene, const SceneBuffers& buffers);
+
+    /// Makes the batch's program current, with blending for the cornea.
+    void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
+    void done() const;
+
+  private:
+    void set_eye(const GlProgram& program, int side, const Pose& pose,
+                 const PosedMarks& marks) const;
+
+    std::map<Material, std::unique_ptr<GlProgram>> programs_;
+    std::array<Eye, 2> eyes_;
+    std::array<bool, 2> separate_cornea_{false, false};
+    std::array<double, 2> iris_depth_m_{0, 0};
+    Look look_;
+};
+
+}  // namespace risorius::render

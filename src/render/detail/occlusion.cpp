@@ -1,0 +1,83 @@
+#include "render/detail/occlusion.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "render/detail/shaders.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr int kSide = 512;
+constexpr int kDirections = 48;
+constexpr double kLift_m = 0.0012;  ///< off the surface, against shadowing itself
+constexpr double kBias_m = 0.0010;
+
+}  // namespace
+
+std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>& normals,
+                                    int index_count, const Vec3& centre, double radius_m) {
+    const auto vertices = static_cast<std::size_t>(rest.rows());
+    std::vector<float> seen(vertices, 0.0F), weight(vertices, 0.0F);
+
+    GLuint depth = 0, framebuffer = 0;
+    glGenRenderbuffers(1, &depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, kSide, kSide);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    glViewport(0, 0, kSide, kSide);
+    glEnable(GL_DEPTH_TEST);
+    const GlProgram program("occlusion", depth_vertex_shader(), "");
+    program.use();
+    std::vector<float> image(static_cast<std::size_t>(kSide) * kSide);
+
+    for (int i = 0; i < kDirections; ++i) {
+        // Fibonacci sphere
+        const double y = 1 - 2 * (i + 0.5) / kDirections;
+        const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double level = std::sqrt(1 - y * y);
+        const Vec3 towards(level * std::cos(turn), y, level * std::sin(turn));
+        const Vec3 across =
+            towards.cross(std::abs(y) < 0.9 ? Vec3::UnitY() : Vec3::UnitX()).normalized();
+        const Vec3 up = across.cross(towards);
+        Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
+        clip.block<1, 3>(0, 0) = across.transpose() / radius_m;
+        clip.block<1, 3>(1, 0) = up.transpose() / radius_m;
+        clip.block<1, 3>(2, 0) = -towards.transpose() / (2 * radius_m);
+        clip.block<3, 1>(0, 3) = -clip.block<3, 3>(0, 0) * centre;
+        const Eigen::Matrix4f clip_f = clip.cast<float>();
+        glUniformMatrix4fv(program.location("clip_from_world"), 1, GL_FALSE, clip_f.data());
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+        glReadPixels(0, 0, kSide, kSide, GL_DEPTH_COMPONENT, GL_FLOAT, image.data());
+
+        const double bias = kBias_m / (4 * radius_m);
+        for (std::size_t v = 0; v < vertices; ++v) {
+            const Vec3 normal(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
+            const double cosine = normal.dot(towards);
+            if (cosine <= 0) continue;
+            const Vec3 p = rest.row(static_cast<Eigen::Index>(v)).transpose() + kLift_m * normal;
+            const Vec3 c = clip.block<3, 3>(0, 0) * p + clip.block<3, 1>(0, 3);
+            const int px = static_cast<int>((c.x() * 0.5 + 0.5) * kSide);
+            const int py = static_cast<int>((c.y() * 0.5 + 0.5) * kSide);
+            const bool inside = px >= 0 && px < kSide && py >= 0 && py < kSide;
+            const float blocker =
+                inside ? image[static_cast<std::size_t>(py) * kSide + static_cast<std::size_t>(px)]
+                       : 1.0F;
+            weight[v] += static_cast<float>(cosine);
+            if (c.z() * 0.5 + 0.5 - bias <= blocker) seen[v] += static_cast<float>(cosine);
+        }
+    }
+    for (std::size_t v = 0; v < vertices; ++v) seen[v] = weight[v] > 0 ? seen[v] / weight[v] : 1.0F;
+
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(1, &depth);
+    return seen;
+}
+
+}  // namespace risorius::render

@@ -1,0 +1,187 @@
+#include "render/detail/paint_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "render/detail/gl_context.h"
+#include "render/detail/shader_paint.h"
+#include "render/detail/skin_paint.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr double kMapPerMetre =
+    2.5;  ///< length on the map of a metre on a sphere of 0.1 m at its centre
+
+class StrokePad {
+  public:
+    /// A tapering quad from root to tip on the map.
+    void add(const Vec2& root, const Vec2& tip, double half_width, const Vec3& linear,
+             double opacity) {
+        const Vec2 along = tip - root;
+        const double length = along.norm();
+        if (length <= 0) return;
+        const Vec2 across = Vec2(-along.y(), along.x()) * (half_width / length);
+        const Eigen::Vector3f c = linear.cwiseSqrt().cast<float>();
+        const auto corner = [&](const Vec2& p, float t, float s) {
+            vertices_.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y())},
+                                 {t, s},
+                                 {c.x(), c.y(), c.z(), static_cast<float>(opacity)}});
+        };
+        corner(root - across, 0, -1);
+        corner(root + across, 0, 1);
+        corner(tip + across, 1, 1);
+        corner(root - across, 0, -1);
+        corner(tip + across, 1, 1);
+        corner(tip - across, 1, -1);
+    }
+    std::vector<StrokeVertex> take() { return std::move(vertices_); }
+
+  private:
+    std::vector<StrokeVertex> vertices_;
+};
+
+/// Hairs of the brow: upright at the nose, then more and more along it; the upper rows lean down, the lower ones up.
+void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
+          StrokeRandom& random, StrokePad& pad) {
+    if (line.size() < 3) return;
+    constexpr int kHairs = 620;
+    const Vec3 hair = linear_from_srgb(scene.look.hair_tone);
+    std::vector<Vec2> map;
+    for (const Vec3& p : line) map.push_back(paint_place(p, centre));
+    const double mirrored = map.back().x() < map.front().x() ? -1 : 1;
+    for (int i = 0; i < kHairs; ++i) {
+        const double t = std::pow(random.next(), 0.85);
+        const double at = t * static_cast<double>(map.size() - 1);
+        const auto k = std::min(static_cast<std::size_t>(at), map.size() - 2);
+        const Vec2 axis = (map[k + 1] - map[k]).normalized();
+        const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
+        // Full in the middle, thin at the tail, ragged at the head
+        const double half_band =
+            0.0048 * (0.55 + 0.45 * std::min(1.0, t / 0.18)) * (1.0 - 0.78 * std::pow(t, 1.6));
+        const double offset = random.next() + random.next() - 1.0;
+        const double band_s = offset * half_band;
+        const Vec2 root = map[k] + (at - static_cast<double>(k)) * (map[k + 1] - map[k]) +
+                          kMapPerMetre * (band_s - 0.0006) * up;
+        const double lean = (70.0 - 58.0 * std::min(1.0, t / 0.45)) -
+                            42.0 * offset * std::min(1.0, t / 0.3) + 22.0 * (random.next() - 0.5);
+        const double angle = lean * std::numbers::pi / 180;
+        const double length = (0.0058 + 0.0038 * random.next()) * (1.0 - 0.42 * t);
+        const Vec2 direction = std::cos(angle) * axis + std::sin(angle) * up;
+        const double shade = 0.7 + 0.7 * random.next();
+        const double density = 0.52 + 0.25 * random.next();
+        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00022,
+                hair * shade, density * std::min(1.0, 0.55 + t / 0.15));
+    }
+}
+
+/// Cropped hair beyond the hairline, lying away from the whorl at the crown.
+void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, StrokeRandom& random,
+           StrokePad& pad) {
+    if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
+    constexpr int kHairs = 60000;
+    const Vec3 hair = linear_from_srgb(scene.look.hair_tone);
+    const auto crown = scene.landmarks.find("v");
+    const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
+    const Vec2 whorl = paint_place(top + Vec3(0.008, 0, -0.03), centre);
+    for (int i = 0; i < kHairs; ++i) {
+        const double radius = 0.5 * std::sqrt(random.next());
+        const double turn = 2 * std::numbers::pi * random.next();
+        const double keep = random.next(), length_draw = random.next(), bend = random.next(),
+                     shade = random.next();
+        const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
+        const double inside = (radius - hairline_radius(plan, root)) / 0.030;
+        if (keep > std::clamp(inside + 0.25, 0.0, 1.0)) continue;
+        bool on_ear = false;
+        for (const EarPatch& ear : plan.ears) {
+            const Vec2 d = root - ear.place;
+            if (ear.half_size.x() > 0 && ear.half_size.y() > 0)
+                on_ear |= std::pow(d.x() / ear.half_size.x(), 2) +
+                              std::pow(d.y() / ear.half_size.y(), 2) <
+                          1;
+        }
+        if (on_ear) continue;
+        Vec2 away = root - whorl;
+        const double distance = away.norm();
+        away = distance > 1e-4 ? Vec2(away / distance) : Vec2(0, 1);
+        const double angle = (bend - 0.5) * 0.8;
+        const Vec2 direction(std::cos(angle) * away.x() - std::sin(angle) * away.y(),
+                             std::sin(angle) * away.x() + std::cos(angle) * away.y());
+        const double length = 0.0022 + 0.0025 * length_draw;
+        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00020,
+                hair * (0.6 + 0.8 * shade),
+                scene.look.scalp_hair * (0.45 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
+    }
+}
+
+void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, StrokePad& pad) {
+    const int count = static_cast<int>(900 * std::clamp(scene.look.freckles, 0.0, 1.0));
+    const Vec3 tint = linear_from_srgb(scene.look.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
+    const bool hairless = plan.hairline[0] > 1;
+    for (int i = 0; i < count; ++i) {
+        // Densest across nose and cheeks, a little below the map's centre
+        const double turn = 2 * std::numbers::pi * random.next();
+        const double r = std::sqrt(-2 * std::log(1 - random.next()));
+        const double size = random.next(), strength = random.next();
+        const Vec2 place =
+            Vec2(0.5, 0.475) + r * Vec2(0.105 * std::sin(turn), 0.075 * std::cos(turn));
+        if (!hairless && (place - Vec2(0.5, 0.5)).norm() > hairline_radius(plan, place)) continue;
+        const double half = kMapPerMetre * (0.00035 + 0.0006 * size * size);
+        pad.add(place - Vec2(half, 0), place + Vec2(half, 0), half, tint, 0.10 + 0.22 * strength);
+    }
+}
+
+}  // namespace
+
+double StrokeRandom::next() {
+    state_ += 0x9E3779B97F4A7C15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
+}
+
+std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
+                                       const Vec3& centre) {
+    StrokeRandom random(scene.look.seed);
+    StrokePad pad;
+    freckles(scene, plan, random, pad);
+    scalp(scene, plan, centre, random, pad);
+    for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
+    return pad.take();
+}
+
+void draw_strokes(const std::vector<StrokeVertex>& strokes) {
+    if (strokes.empty()) return;
+    GLint outer = 0;
+    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &outer);
+    GLuint array = 0, buffer = 0;
+    glGenVertexArrays(1, &array);
+    glBindVertexArray(array);
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(strokes.size() * sizeof(StrokeVertex)),
+                 strokes.data(), GL_STATIC_DRAW);
+    const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
+        glEnableVertexAttribArray(index);
+        glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(StrokeVertex),
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 2, offsetof(StrokeVertex, place));
+    attribute(1, 2, offsetof(StrokeVertex, local));
+    attribute(2, 4, offsetof(StrokeVertex, rgba));
+    const GlProgram program("strokes", stroke_vertex_shader(), stroke_fragment_shader());
+    program.use();
+    glEnable(GL_BLEND);
+    // Colour goes over what is there; its oil is dulled.
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strokes.size()));
+    glDisable(GL_BLEND);
+    glBindVertexArray(static_cast<GLuint>(outer));
+    glDeleteBuffers(1, &buffer);
+    glDeleteVertexArrays(1, &array);
+}
+
+}  // namespace risorius::render

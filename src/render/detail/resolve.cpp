@@ -1,0 +1,71 @@
+#include "render/detail/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace risorius::render {
+namespace {
+
+// IEC 61966-2-1
+double linear_of_srgb(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+double srgb_of_linear(double l) {
+    return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+Resolve::Resolve(const Background& background)
+    : transparent_(background.transparent), byte_of_linear_(65536) {
+    for (std::size_t i = 0; i < 256; ++i)
+        linear_of_byte_[i] = static_cast<std::uint16_t>(
+            std::lround(65535 * linear_of_srgb(static_cast<double>(i) / 255)));
+    for (std::size_t i = 0; i < 65536; ++i)
+        byte_of_linear_[i] = static_cast<std::uint8_t>(
+            std::lround(255 * srgb_of_linear(static_cast<double>(i) / 65535)));
+    for (std::size_t k = 0; k < 3; ++k)
+        background_[k] =
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(background.rgb[k], 0.0, 1.0)));
+}
+
+void Resolve::operator()(const std::vector<std::uint8_t>& samples, int supersampling,
+                         const Tile& tile, Image& image) const {
+    const auto n = static_cast<std::size_t>(supersampling);
+    const auto width = static_cast<std::size_t>(tile.width);
+    const std::size_t sample_row = width * n * 4;
+    const auto count = static_cast<std::uint32_t>(n * n);
+    const std::array<std::uint32_t, 3> behind{linear_of_byte_[background_[0]],
+                                              linear_of_byte_[background_[1]],
+                                              linear_of_byte_[background_[2]]};
+    for (int y = 0; y < tile.height; ++y) {
+        const std::uint8_t* rows =
+            samples.data() + static_cast<std::size_t>(tile.height - 1 - y) * n * sample_row;
+        std::uint8_t* out = image.pixel(tile.x, tile.y + y);
+        for (std::size_t x = 0; x < width; ++x, out += 4) {
+            std::uint32_t sum[3] = {0, 0, 0};
+            std::uint32_t covered = 0;
+            for (std::size_t j = 0; j < n; ++j) {
+                const std::uint8_t* s = rows + j * sample_row + x * n * 4;
+                for (std::size_t i = 0; i < n; ++i, s += 4) {
+                    if (s[3] == 0) continue;
+                    ++covered;
+                    for (std::size_t k = 0; k < 3; ++k) sum[k] += linear_of_byte_[s[k]];
+                }
+            }
+            if (transparent_) {
+                if (covered > 0)
+                    for (std::size_t k = 0; k < 3; ++k)
+                        out[k] = byte_of_linear_[(sum[k] + covered / 2) / covered];
+                out[3] = static_cast<std::uint8_t>((255 * covered + count / 2) / count);
+            } else {
+                for (std::size_t k = 0; k < 3; ++k)
+                    out[k] = byte_of_linear_[(sum[k] + (count - covered) * behind[k] + count / 2) /
+                                             count];
+                out[3] = 255;
+            }
+        }
+    }
+}
+
+}  // namespace risorius::render

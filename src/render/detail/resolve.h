@@ -1,0 +1,34 @@
+// From samples to pixels: averages N x N samples in linear light over the background.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "render/offscreen_view.h"
+
+namespace risorius::render {
+
+/// Part of a picture, px from its top left corner.
+struct Tile {
+    int x, y, width, height;
+};
+
+class Resolve {
+  public:
+    explicit Resolve(const Background& background);
+
+    /// `samples`: rows from the bottom, sRGB colour, alpha 0 or 255, supersampling times as wide and high as the tile of
+    /// the picture they cover.
+    void operator()(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
+                    Image& image) const;
+
+  private:
+    bool transparent_;
+    std::array<std::uint8_t, 3> background_;
+    std::array<std::uint16_t, 256> linear_of_byte_;  ///< sRGB byte -> linear, 65535 = 1
+    std::vector<std::uint8_t> byte_of_linear_;       ///< and back, nearest
+};
+
+}  // namespace risorius::render

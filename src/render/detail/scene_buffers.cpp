@@ -1,0 +1,168 @@
+#include "render/detail/scene_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "core/error.h"
+#include "render/detail/shaders.h"
+#include "render/detail/skin_paint.h"
+
+namespace risorius::render {
+namespace {
+
+std::vector<const Triangles*> triangle_lists(const Scene& scene) {
+    std::vector<const Triangles*> lists;
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const Triangles& triangles = scene.surfaces[i].triangles;
+        if (triangles.size() > 0 &&
+            (triangles.minCoeff() < 0 || triangles.maxCoeff() >= scene.rest.rows()))
+            throw Error(
+                "scene/surfaces/" + std::to_string(i) + "/triangles",
+                "vertices 0.." + std::to_string(scene.rest.rows() - 1),
+                std::to_string(triangles.minCoeff()) + ".." + std::to_string(triangles.maxCoeff()));
+        lists.push_back(&triangles);
+    }
+    return lists;
+}
+
+// Skin first, as it hides most of the rest; what is blended last.
+constexpr Material kDrawOrder[] = {Material::kSkin,   Material::kEye,   Material::kTeeth,
+                                   Material::kTongue, Material::kGums,  Material::kMouth,
+                                   Material::kLashes, Material::kCornea};
+
+void attribute(VertexAttribute index, GLint size, int floats_per_vertex, int offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(
+        index, size, GL_FLOAT, GL_FALSE,
+        static_cast<GLsizei>(static_cast<std::size_t>(floats_per_vertex) * sizeof(float)),
+        reinterpret_cast<const void*>(static_cast<std::size_t>(offset) * sizeof(float)));
+}
+
+GLsizeiptr bytes(const std::vector<float>& values) {
+    return static_cast<GLsizeiptr>(values.size() * sizeof(float));
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre)
+    : smooth_(scene.rest, triangle_lists(scene)) {
+    // Batches: near triangles first, so that hidden ones fail the depth test before they are shaded.
+    for (const Material material : kDrawOrder)
+        for (const int eye : {-1, 0, 1}) {
+            std::vector<std::array<int, 3>> faces;
+            for (const Surface& surface : scene.surfaces) {
+                const bool of_eye = material == Material::kEye || material == Material::kCornea;
+                if (surface.material != material || (of_eye ? std::max(surface.eye, 0) : -1) != eye)
+                    continue;
+                for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+                    faces.push_back({surface.triangles(f, 0), surface.triangles(f, 1),
+                                     surface.triangles(f, 2)});
+            }
+            if (faces.empty()) continue;
+            std::vector<double> distance(faces.size());
+            for (std::size_t f = 0; f < faces.size(); ++f)
+                distance[f] = ((scene.rest.row(faces[f][0]) + scene.rest.row(faces[f][1]) +
+                                scene.rest.row(faces[f][2]))
+                                       .transpose() /
+                                   3 -
+                               camera)
+                                  .squaredNorm();
+            std::vector<std::size_t> order(faces.size());
+            std::iota(order.begin(), order.end(), 0);
+            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+                return distance[a] < distance[b];
+            });
+            batches_.push_back({material, eye, static_cast<int>(indices_.size()),
+                                static_cast<int>(3 * faces.size())});
+            for (const std::size_t f : order)
+                for (const int v : faces[f]) indices_.push_back(static_cast<unsigned>(v));
+        }
+    index_count_ = static_cast<int>(indices_.size());
+
+    const auto vertices = static_cast<std::size_t>(scene.rest.rows());
+    std::vector<float> fixed;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const Vec3 p = scene.rest.row(static_cast<Eigen::Index>(v)).transpose();
+        const Vec2 place = paint_place(p, paint_centre);
+        for (int k = 0; k < 3; ++k) fixed.push_back(static_cast<float>(p[k]));
+        for (int k = 0; k < 2; ++k) {
+            fixed.push_back(static_cast<float>(place[k]));
+            paint_.push_back(static_cast<float>(place[k]));
+        }
+    }
+
+    glGenVertexArrays(1, &array_);
+    glBindVertexArray(array_);
+    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &elements_})
+        glGenBuffers(1, buffer);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(indices_.size() * sizeof(unsigned)), indices_.data(),
+                 GL_STATIC_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, fixed_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(fixed), fixed.data(), GL_STATIC_DRAW);
+    attribute(kRest, 3, 5, 0);
+    attribute(kPaintPlace, 2, 5, 3);
+    set_occlusion(std::vector<float>(vertices, 1.0F), std::vector<float>(vertices, 0.0F));
+    attribute(kOcclusion, 2, 2, 0);
+    upload(scene.rest);
+    attribute(kPosition, 3, 6, 0);
+    attribute(kNormal, 3, 6, 3);
+}
+
+SceneBuffers::~SceneBuffers() {
+    const GLuint buffers[] = {moving_buffer_, fixed_buffer_, occlusion_buffer_, elements_};
+    glDeleteBuffers(4, buffers);
+    glDeleteVertexArrays(1, &array_);
+}
+
+void SceneBuffers::upload(const Points& positions) {
+    const auto vertices = static_cast<std::size_t>(positions.rows());
+    positions_.resize(3 * vertices);
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+        positions_[i] = static_cast<float>(positions.data()[i]);
+    smooth_.compute(positions_, normals_);
+    moving_.resize(6 * vertices);
+    for (std::size_t v = 0; v < vertices; ++v)
+        for (std::size_t k = 0; k < 3; ++k) {
+            moving_[6 * v + k] = positions_[3 * v + k];
+            moving_[6 * v + 3 + k] = normals_[3 * v + k];
+        }
+    glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(moving_), moving_.data(), GL_STREAM_DRAW);
+}
+
+void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
+                                 const std::vector<float>& inside_mouth) {
+    std::vector<float> both(2 * sky_seen.size());
+    for (std::size_t v = 0; v < sky_seen.size(); ++v) {
+        both[2 * v] = sky_seen[v];
+        both[2 * v + 1] = inside_mouth[v];
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(both), both.data(), GL_STATIC_DRAW);
+}
+
+int SceneBuffers::skin_index_count() const {
+    return batches_.front().material == Material::kSkin ? batches_.front().index_count : 0;
+}
+
+std::vector<unsigned> SceneBuffers::paintable_triangles() const {
+    // Around the back of the head a triangle may span the whole rim of the map.
+    constexpr float kWidest = 0.15F;
+    std::vector<unsigned> triangles;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(skin_index_count()); i += 3) {
+        float widest = 0;
+        for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t k = 0; k < 2; ++k)
+                widest = std::max(widest, std::abs(paint_[2 * indices_[i + a] + k] -
+                                                   paint_[2 * indices_[i + (a + 1) % 3] + k]));
+        if (widest < kWidest)
+            triangles.insert(triangles.end(), {indices_[i], indices_[i + 1], indices_[i + 2]});
+    }
+    return triangles;
+}
+
+}  // namespace risorius::render

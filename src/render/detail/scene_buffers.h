@@ -1,0 +1,50 @@
+// The scene as GL holds it: one vertex array, the triangles of each draw ordered front to back.
+#pragma once
+
+#include <vector>
+
+#include "render/detail/gl_context.h"
+#include "render/detail/smooth_normals.h"
+#include "render/scene.h"
+
+namespace risorius::render {
+
+/// Triangles of one material (and one eye): a range of the element buffer.
+struct Batch {
+    Material material;
+    int eye;
+    int first_index;
+    int index_count;
+};
+
+class SceneBuffers {
+  public:
+    /// Throws Error for triangles that name a vertex there is not. The context must be current from here on.
+    SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre);
+    ~SceneBuffers();
+    SceneBuffers(const SceneBuffers&) = delete;
+    SceneBuffers& operator=(const SceneBuffers&) = delete;
+
+    void bind() const { glBindVertexArray(array_); }
+    void upload(const Points& positions);
+    void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
+
+    const std::vector<Batch>& batches() const { return batches_; }
+    int index_count() const { return index_count_; }
+    int skin_index_count() const;
+    const std::vector<float>& normals() const { return normals_; }
+
+    /// Skin triangles that the map of the paint shows unbroken.
+    std::vector<unsigned> paintable_triangles() const;
+
+  private:
+    SmoothNormals smooth_;
+    std::vector<Batch> batches_;
+    std::vector<unsigned> indices_;
+    std::vector<float> paint_;
+    std::vector<float> positions_, normals_, moving_;
+    int index_count_ = 0;
+    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0, elements_ = 0;
+};
+
+}  // namespace risorius::render

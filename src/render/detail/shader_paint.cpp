@@ -1,0 +1,133 @@
+#include "render/detail/shader_paint.h"
+
+#include "render/detail/shaders.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr const char* kPaintVertex = R"(#version 450 core
+layout(location = 2) in vec3 in_rest;
+layout(location = 3) in vec2 in_paint;
+out vec3 rest;
+out vec2 place;
+uniform vec3 centre;
+void main() {
+    rest = in_rest;
+    place = in_paint;
+    // The farther out, the nearer: what the surface hides under its folds is not painted.
+    gl_Position = vec4(2.0 * in_paint - 1.0, 1.0 - 2.0 * min(length(in_rest - centre) / 0.5, 1.0), 1.0);
+}
+)";
+
+constexpr const char* kPaint = R"(
+in vec3 rest;
+in vec2 place;
+out vec4 colour;
+uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
+uniform float scalp_hair, seed;
+uniform int zones;
+uniform vec4 zone_place[48];
+uniform vec4 zone_tint[48];
+uniform int lip_points;
+uniform vec2 lip_outline[96];
+uniform vec4 lip_box;
+uniform float lip_back;
+uniform float hairline[32];
+uniform vec4 ears[2];
+
+// Signed distance to the closed outline of the lips, negative inside, m.
+float outside_lips(vec2 p) {
+    float nearest = 1.0;
+    bool inside = false;
+    for (int i = 0; i < lip_points; ++i) {
+        vec2 a = lip_outline[i], b = lip_outline[i + 1 < lip_points ? i + 1 : 0];
+        vec2 e = b - a, w = p - a;
+        vec2 d = w - e * clamp(dot(w, e) / max(dot(e, e), 1e-12), 0.0, 1.0);
+        nearest = min(nearest, dot(d, d));
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + e.x * (p.y - a.y) / e.y) inside = !inside;
+    }
+    return inside ? -sqrt(nearest) : sqrt(nearest);
+}
+
+float hair_start(vec2 d) {
+    float turn = atan(d.x, d.y) / 6.2831853;
+    float at = fract(turn) * 32.0;
+    int i = int(at) % 32;
+    return mix(hairline[i], hairline[(i + 1) % 32], fract(at));
+}
+
+void main() {
+    vec3 p = rest * 1000.0 + 500.0 + seed;   // mm, positive for the noise
+    vec3 tint = vec3(0.0);
+    float oil = 0.32;
+    for (int i = 0; i < zones; ++i) {
+        vec3 d = rest - zone_place[i].xyz;
+        float w = exp(-dot(d, d) * zone_place[i].w);
+        tint += w * zone_tint[i].rgb;
+        oil += w * zone_tint[i].a;
+    }
+    // Mottling: patches of blood a centimetre wide, of pigment a few millimetres wide, and grain
+    float blood = noise(p * 0.11) + 0.6 * noise(p * 0.27 + 9.0) - 0.8;
+    float pigment = noise(p * 0.55 + 70.0) + 0.7 * noise(p * 1.3 + 30.0) - 0.85;
+    float grain = noise(p * 3.1) - 0.5;
+    tint += blood * vec3(0.00, -0.060, -0.045) + pigment * vec3(-0.030, -0.040, -0.050) + grain * 0.05;
+    vec3 albedo = skin_tone * exp(tint);
+
+    vec2 from_middle = place - 0.5;
+    float r = length(from_middle);
+    float hair = smoothstep(-0.006, 0.034, r - hair_start(from_middle) + 0.010 * (noise(p * 0.35 + 3.0) - 0.5));
+    for (int i = 0; i < 2; ++i) {
+        vec2 d = (place - ears[i].xy) / max(ears[i].zw, vec2(1e-4));
+        if (ears[i].z > 0.0) hair *= smoothstep(0.85, 1.15, length(d));
+    }
+    vec3 under_hair = mix(albedo, hair_tone, 0.42) * vec3(0.88, 0.90, 0.93);
+    albedo = mix(albedo, under_hair, hair * scalp_hair);
+    oil *= 1.0 - 0.7 * hair;
+
+    bool near_lips = lip_points > 0 && all(greaterThan(rest.xy, lip_box.xy)) && all(lessThan(rest.xy, lip_box.zw)) && rest.z > lip_back;
+    if (near_lips) {
+        float d = outside_lips(rest.xy) + 0.0006 * (noise(p * 0.9) - 0.5);
+        float lip = smoothstep(0.0008, -0.0016, d);
+        float fold = noise(vec3(p.x * 1.1, p.y * 0.22, p.z * 0.22)) - 0.5;
+        float rim = exp(-d * d / 1.4e-6);      // the pale roll of the border
+        vec3 red = lip_tone * (1.0 + 0.16 * fold) * mix(vec3(1.10, 1.16, 1.16), vec3(0.94, 0.84, 0.84), smoothstep(-0.0005, -0.006, d));
+        albedo = mix(albedo * (1.0 + 0.05 * rim), red, lip * 0.92);
+        oil = mix(oil, 0.80, lip);
+    }
+    colour = vec4(sqrt(clamp(albedo, 0.0, 1.0)), clamp(oil, 0.0, 1.0));
+}
+)";
+
+constexpr const char* kStrokeVertex = R"(#version 450 core
+layout(location = 0) in vec2 in_place;
+layout(location = 1) in vec2 in_local;
+layout(location = 2) in vec4 in_colour;
+out vec2 local;
+out vec4 tone;
+void main() {
+    local = in_local;
+    tone = in_colour;
+    gl_Position = vec4(2.0 * in_place - 1.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kStroke = R"(#version 450 core
+in vec2 local;
+in vec4 tone;
+out vec4 colour;
+void main() {
+    // Soft at the root, full in the shaft, thinning to the tip
+    float shaft = smoothstep(0.0, 0.25, local.x) * smoothstep(1.0, 0.55, local.x);
+    float width = 1.0 - local.y * local.y;
+    colour = vec4(tone.rgb, tone.a * shaft * width);
+}
+)";
+
+}  // namespace
+
+std::string paint_vertex_shader() { return kPaintVertex; }
+std::string paint_fragment_shader() { return "#version 450 core\n" + noise_chunk() + kPaint; }
+std::string stroke_vertex_shader() { return kStrokeVertex; }
+std::string stroke_fragment_shader() { return kStroke; }
+
+}  // namespace risorius::render

@@ -1,0 +1,13 @@
+// Programs that paint the skin map once: the skin itself, and strokes over it.
+#pragma once
+
+#include <string>
+
+namespace risorius::render {
+
+std::string paint_vertex_shader();
+std::string paint_fragment_shader();
+std::string stroke_vertex_shader();
+std::string stroke_fragment_shader();
+
+}  // namespace risorius::render

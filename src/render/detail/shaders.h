@@ -1,0 +1,47 @@
+// Sources of the shader programs, one file per material; what all share is in shader_lighting.cpp.
+#pragma once
+
+#include <string>
+
+namespace risorius::render {
+
+/// What every frame tells all programs; the std140 block `Frame` of shader_lighting.cpp, field for field.
+struct FrameUniforms {
+    float clip_from_world[16];
+    float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
+    float camera[4];              ///< xyz m
+    float key_direction[4];       ///< towards the light
+    float key_radiance[4];
+    float fill_direction[4];
+    float fill_radiance[4];
+    float rim_direction[4];
+    float rim_radiance[4];
+    float sky[4];           ///< ambient from above
+    float ground[4];        ///< and from below
+    float mouth_centre[4];  ///< xyz m of the gap between the lips, w its area in m^2
+    float mouth_axis[4];    ///< half its width, m; w metres per shadow texel
+};
+
+/// Texture units and vertex attributes
+enum TextureUnit { kShadowUnit = 0, kPaintUnit = 1, kPoreUnit = 2 };
+enum VertexAttribute {
+    kPosition = 0,
+    kNormal = 1,
+    kRest = 2,
+    kPaintPlace = 3,  ///< where on the painted skin, see paint_place()
+    kOcclusion = 4    ///< x: share of the sky seen at rest, y: 1 inside the mouth
+};
+
+std::string surface_vertex_shader();  ///< for every material
+std::string depth_vertex_shader();    ///< shadow map and occlusion
+std::string skin_shader();
+std::string eye_shader();
+std::string cornea_shader();
+std::string teeth_shader();
+std::string mucosa_shader();  ///< gums, tongue and the wall of the mouth
+std::string lash_shader();
+
+std::string lighting_chunk();  ///< version, frame block, lights
+std::string noise_chunk();
+
+}  // namespace risorius::render

@@ -1,0 +1,190 @@
+#include "render/detail/skin_paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "render/detail/gl_context.h"
+#include "render/detail/paint_strokes.h"
+#include "render/detail/shader_paint.h"
+#include "render/detail/skin_plan.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr int kMapSide = 2048;  ///< 0.2 mm per texel on the face
+
+void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) {
+    const auto colour = [&](const char* name, const Vec3& srgb) {
+        const Eigen::Vector3f linear = linear_from_srgb(srgb).cast<float>();
+        glUniform3fv(program.location(name), 1, linear.data());
+    };
+    colour("skin_tone", look.skin_tone);
+    colour("lip_tone", look.lip_tone);
+    colour("hair_tone", look.hair_tone);
+    glUniform1f(program.location("scalp_hair"), static_cast<float>(look.scalp_hair));
+    glUniform1f(program.location("seed"), static_cast<float>(look.seed % 1000));
+
+    std::vector<float> place, log_tint, oil;
+    for (const SkinZone& zone : plan.zones) {
+        for (int k = 0; k < 3; ++k) place.push_back(static_cast<float>(zone.centre[k]));
+        place.push_back(static_cast<float>(0.5 / (zone.spread_m * zone.spread_m)));
+        for (int k = 0; k < 3; ++k) log_tint.push_back(static_cast<float>(zone.log_tint[k]));
+        log_tint.push_back(static_cast<float>(zone.oil));
+    }
+    const auto zones = static_cast<GLsizei>(plan.zones.size());
+    glUniform1i(program.location("zones"), zones);
+    if (zones > 0) {
+        glUniform4fv(program.location("zone_place"), zones, place.data());
+        glUniform4fv(program.location("zone_tint"), zones, log_tint.data());
+    }
+
+    std::vector<float> lips;
+    Vec2 low(1e3, 1e3), high(-1e3, -1e3);
+    for (const Vec2& p : plan.lip_outline) {
+        lips.push_back(static_cast<float>(p.x()));
+        lips.push_back(static_cast<float>(p.y()));
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    const auto points = static_cast<GLsizei>(plan.lip_outline.size());
+    glUniform1i(program.location("lip_points"), points);
+    if (points > 0) glUniform2fv(program.location("lip_outline"), points, lips.data());
+    glUniform4f(program.location("lip_box"), static_cast<float>(low.x() - 0.006),
+                static_cast<float>(low.y() - 0.006), static_cast<float>(high.x() + 0.006),
+                static_cast<float>(high.y() + 0.006));
+    glUniform1f(program.location("lip_back"), static_cast<float>(plan.lip_back_m));
+
+    std::vector<float> hairline;
+    for (const double r : plan.hairline) hairline.push_back(static_cast<float>(r));
+    glUniform1fv(program.location("hairline"), static_cast<GLsizei>(hairline.size()),
+                 hairline.data());
+    std::vector<float> ears;
+    for (const auto& ear : plan.ears)
+        for (const double x : {ear.place.x(), ear.place.y(), ear.half_size.x(), ear.half_size.y()})
+            ears.push_back(static_cast<float>(x));
+    glUniform4fv(program.location("ears"), 2, ears.data());
+}
+
+}  // namespace
+
+Vec3 linear_from_srgb(const Vec3& srgb) {
+    return srgb.unaryExpr(
+        [](double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); });
+}
+
+Vec2 paint_place(const Vec3& rest, const Vec3& centre) {
+    const Vec3 d = (rest - centre).normalized();
+    const double scale = std::sqrt(2 / std::max(1 + d.z(), 1e-6));
+    return Vec2(0.5, 0.5) + 0.25 * scale * d.head<2>();
+}
+
+Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max) {
+    const auto left = scene.landmarks.find("t_l"), right = scene.landmarks.find("t_r");
+    if (left != scene.landmarks.end() && right != scene.landmarks.end())
+        return (left->second + right->second) / 2;
+    return (skin_min + skin_max) / 2;
+}
+
+GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles) {
+    GLuint map = 0, depth = 0, framebuffer = 0, elements = 0;
+    glGenTextures(1, &map);
+    glBindTexture(GL_TEXTURE_2D, map);
+    int levels = 1;
+    while ((kMapSide >> levels) > 0) ++levels;
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, kMapSide, kMapSide);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glGenRenderbuffers(1, &depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, kMapSide, kMapSide);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+
+    const SkinPlan plan = plan_skin(scene, centre);
+    const Eigen::Vector3f bare = linear_from_srgb(scene.look.skin_tone).cwiseSqrt().cast<float>();
+    glViewport(0, 0, kMapSide, kMapSide);
+    glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+
+    // Skin: where the surface folds, the outermost layer is what can be seen.
+    {
+        const GlProgram program("paint", paint_vertex_shader(), paint_fragment_shader());
+        program.use();
+        const Eigen::Vector3f middle = centre.cast<float>();
+        glUniform3fv(program.location("centre"), 1, middle.data());
+        set_plan(program, plan, scene.look);
+        GLint outer = 0;  // belongs to the vertex array, which is not ours
+        glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &outer);
+        glGenBuffers(1, &elements);
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements);
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                     static_cast<GLsizeiptr>(triangles.size() * sizeof(unsigned)), triangles.data(),
+                     GL_STATIC_DRAW);
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.size()), GL_UNSIGNED_INT,
+                       nullptr);
+        glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLuint>(outer));
+        glDeleteBuffers(1, &elements);
+    }
+
+    // Hair and freckles over it
+    glDisable(GL_DEPTH_TEST);
+    draw_strokes(plan_strokes(scene, plan, centre));
+    glEnable(GL_DEPTH_TEST);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(1, &depth);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    return map;
+}
+
+GLuint make_pores(unsigned seed) {
+    constexpr int kSide = 256;  // of a 20 mm tile
+    constexpr int kPores = 1500;
+    constexpr auto kCount = static_cast<std::size_t>(kSide) * kSide;
+    std::vector<float> height(kCount, 0.0F);
+    StrokeRandom random(seed * 7919U + 17U);
+    const auto wrap = [](int i) { return static_cast<std::size_t>((i + 4 * kSide) % kSide); };
+
+    // Pits, about a hundredth of a square millimetre each, and the gentle lattice between them
+    for (int i = 0; i < kPores; ++i) {
+        const double cx = random.next() * kSide, cy = random.next() * kSide;
+        const double radius = 1.6 + 2.2 * random.next(), depth = 0.5 + 0.7 * random.next();
+        const int reach = static_cast<int>(3 * radius);
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx) {
+                const int x = static_cast<int>(cx) + dx, y = static_cast<int>(cy) + dy;
+                const double q = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / (radius * radius);
+                height[wrap(y) * kSide + wrap(x)] -= static_cast<float>(depth * std::exp(-q));
+            }
+    }
+    std::vector<std::uint8_t> slopes(2 * kCount);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const auto at = [&](int i, int j) { return height[wrap(j) * kSide + wrap(i)]; };
+            const float sx = at(x + 1, y) - at(x - 1, y), sy = at(x, y + 1) - at(x, y - 1);
+            const std::size_t i = 2 * (wrap(y) * kSide + wrap(x));
+            slopes[i] = static_cast<std::uint8_t>(std::clamp(127.5F + 110 * sx, 0.0F, 255.0F));
+            slopes[i + 1] = static_cast<std::uint8_t>(std::clamp(127.5F + 110 * sy, 0.0F, 255.0F));
+        }
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexStorage2D(GL_TEXTURE_2D, 9, GL_RG8, kSide, kSide);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RG, GL_UNSIGNED_BYTE, slopes.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    return texture;
+}
+
+}  // namespace risorius::render

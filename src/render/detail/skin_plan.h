@@ -1,0 +1,44 @@
+// Where lips, redness, hairline and ears are on a head, derived from its landmarks. What a head does not mark is left out.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/scene.h"
+
+namespace risorius::render {
+
+/// A soft spot of another tint: albedo is multiplied by exp(log_tint) at its middle.
+struct SkinZone {
+    Vec3 centre;      ///< rest, m
+    double spread_m;  ///< standard deviation
+    Vec3 log_tint;
+    double oil;  ///< added gloss
+};
+
+struct EarPatch {
+    Vec2 place{0, 0};  ///< on the map
+    Vec2 half_size{0, 0};
+};
+
+struct SkinPlan {
+    static constexpr int kHairlineSteps = 32;
+
+    std::vector<SkinZone> zones;
+    std::vector<Vec2> lip_outline;  ///< closed, frontal projection, m; empty when not marked
+    double lip_back_m = 0.0;        ///< lips lie in front of this z
+    /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
+    std::array<double, kHairlineSteps> hairline;
+    std::array<EarPatch, 2> ears;
+    std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from the middle outwards, rest, m
+};
+
+SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
+
+/// Radius at which hair starts in a direction on the map.
+double hairline_radius(const SkinPlan& plan, const Vec2& place);
+
+/// Points on a Catmull-Rom curve through `knots`, `steps` per span, ends included.
+std::vector<Vec3> smooth_curve(const std::vector<Vec3>& knots, int steps);
+
+}  // namespace risorius::render

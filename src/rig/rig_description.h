@@ -1,0 +1,115 @@
+// A rig file as read: which mesh, what its parts are, where its landmarks lie, and the anatomy that moves it.
+// The format is described in rigs/README.md; field names are the JSON keys.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json_cursor.h"
+#include "geom/polygon_mesh.h"
+#include "rig/atlas.h"
+#include "rig/muscle_table.h"
+#include "track/channels.h"
+#include "track/facs.h"
+
+namespace risorius::rig {
+
+/// What a group of mesh faces is. `teeth` and `gums_tongue` groups hold upper and lower pieces together: each connected
+/// piece is given to the skull or the mandible by where it lies.
+const std::vector<std::string_view>& part_roles();
+
+struct Landmark {
+    int vertex = -1;                  ///< of the mesh file, or -1 when xyz is given
+    Vec3 xyz = Vec3::Zero();          ///< mesh units
+};
+
+/// Mandible motion: rotation about the hinge axis plus a slide of the condyles, growing with the opening ratio.
+struct JawDescription {
+    Vec3 hinge_mm{0, -4, 13};          ///< head frame at atlas size, on the axis through both condyles
+    double open_deg = 25.3;            ///< rotation at jaw_open = 1
+    Vec3 open_slide_mm{0, -4.8, 3.4};  ///< at jaw_open = 1
+    Vec3 forward_mm{0, -2.7, 8.6};     ///< at jaw_forward = 1
+    double side_mm = 7.0;              ///< at jaw_side = 1, to the subject's left
+};
+
+struct EyesDescription {
+    double gaze_limit_deg = 50;
+    double iris_radius_mm = 5.95;
+    double pupil_radius_mm = 1.8;
+    double upper_lid_per_gaze_down = 0.75;  ///< lid angle per gaze angle, ratio
+    double upper_lid_per_gaze_up = 0.48;
+    double lower_lid_per_gaze_down = 0.29;
+    double lower_lid_per_gaze_up = 0.19;
+    double wide_deg = 11.5;                 ///< upper lid raised by a fully active levator
+    double lid_closed_share = 0.96;         ///< share of the fissure the upper lid travels, the lower does the rest
+};
+
+/// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
+struct TissueDescription {
+    double deep_shear_pa = 1000;
+    double superficial_shear_pa = 3000;
+    double bulk_pa = 30000;
+    double density_kg_m3 = 1000;
+    double damping_s = 0.02;                ///< stiffness-proportional damping
+    double contact_pa_per_m = 1.5e7;       ///< deep tissue against bone and teeth, lip against lip
+    double lid_shear_ratio = 0.05;          ///< lid tissue against the rest
+    double modiolus_shear_ratio = 6.0;
+    double force_scale = 1.5;               ///< on every muscle, on top of its strength
+};
+
+struct SkinDescription {
+    double membrane_n_per_m = 20;
+    double bending_n_m = 2e-5;
+    double lid_membrane_ratio = 0.02;
+};
+
+/// Appearance generated for heads without textures; colours sRGB 0..1.
+struct LookDescription {
+    Vec3 skin_tone{0.80, 0.60, 0.50};
+    Vec3 lip_tone{0.72, 0.42, 0.40};
+    Vec3 hair_tone{0.22, 0.15, 0.10};
+    Vec3 iris_tone{0.35, 0.50, 0.60};
+    double freckles = 0.15;
+    double scalp_hair = 0.6;
+    int seed = 1;
+};
+
+struct RigDescription {
+    std::string name;
+    std::filesystem::path mesh_file;
+    double metres_per_unit = 1.0;
+    std::map<std::string, std::vector<std::string>> parts;  ///< role -> mesh groups
+    std::map<std::string, Landmark> landmarks;
+    Atlas atlas;                      ///< landmarks, thickness, attachments, muscle bands
+    MuscleTable muscles;
+    JawDescription jaw;
+    EyesDescription eyes;
+    TissueDescription tissue;
+    SkinDescription skin;
+    track::FacsTable facs;
+    track::Expressions expressions;
+    LookDescription look;
+
+    track::ChannelTable channels() const { return muscles.channels(); }
+};
+
+/// Throws Error naming file, place, expected and found.
+RigDescription read_rig(const std::filesystem::path& file);
+
+/// What `fit` writes: the tables of `standard` are referred to by path when `tables_folder` is given, otherwise written inline.
+/// Written beside and renamed, never half.
+struct RigWriteOptions {
+    std::filesystem::path standard_folder;   ///< where muscles.json, facs.json, ... are
+    bool inline_tables = true;
+};
+void write_rig(const RigDescription& rig, const std::filesystem::path& file, const RigWriteOptions& options);
+
+/// Landmark files: {"format": "risorius-landmarks", "version": 1, "landmarks": {id: {"vertex": n} | {"xyz": [..]}}}.
+std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file);
+std::map<std::string, Landmark> read_landmark_table(JsonCursor table);
+
+}  // namespace risorius::rig

@@ -1,0 +1,26 @@
+// How the deep tissue is held: sliding and lifting stiffness over the bone, interpolated from landmarks; bone moves with
+// skull or mandible.
+#pragma once
+
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "sim/jaw.h"
+#include "sim/tissue_mesh.h"
+
+namespace risorius::sim {
+
+struct Attachment {
+    int shell_vertex;
+    double normal_n_per_m;
+    double tangential_n_per_m;
+    double jaw_weight;          ///< share of the mandible's motion its bone follows
+};
+
+/// One per shell vertex that is not fixed.
+std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+                                          const Shell& shell, const TissueMesh& mesh);
+
+}  // namespace risorius::sim

@@ -1,0 +1,174 @@
+#include "sim/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/polyline.h"
+
+namespace risorius::sim {
+
+namespace {
+
+constexpr int kCandidates = 40;
+
+std::vector<int> nearest(const Vec3& p, const auto& points) {
+    std::vector<std::pair<double, int>> order;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        order.push_back({(points[i].point - p).squaredNorm(), static_cast<int>(i)});
+    const std::size_t count = std::min<std::size_t>(kCandidates, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<long>(count), order.end());
+    std::vector<int> out;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(order[i].second);
+    return out;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell, const TissueMesh& mesh,
+                             const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m)
+    : rest_(mesh.nodes) {
+    const std::vector<Vec3> lips = lip_line(head);
+    const int count = static_cast<int>(shell.vertex.size());
+    std::vector<std::pair<int, double>> touching;
+    lip_gap_m_ = std::max(0.0, (head.landmark("stos") - head.landmark("stoi")).y());
+    lip_reach_m_ = head.mm(9);
+    for (int side = 0; side < 2; ++side) {
+        eye_centre_[side] = head.eyes[side].centre;
+        eye_radius_[side] = head.eyes[side].radius_m;
+    }
+    for (int v = 0; v < count; ++v) {
+        const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
+        const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
+        if (distance_to_polyline(skin, lips) < head.mm(60)) {
+            const double share = jaw.weight(skin);
+            if (share < 0.6) skull_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
+            if (share > 0.4) mandible_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
+        }
+    }
+    for (int v = 0; v < count; ++v) {
+        if (shell.fixed[v]) continue;
+        const double stiffness = stiffness_pa_per_m * mesh.area_m2[v];
+        const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
+        const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
+        const double from_mouth = distance_to_polyline(skin, lips);
+        if (from_mouth < head.mm(50)) {
+            DeepNode node{node_of(v, kDeep), stiffness, nearest(deep, skull_), nearest(deep, mandible_)};
+            deep_.push_back(node);
+            touching.push_back({node.node, stiffness});
+        }
+        if (from_mouth < head.mm(7)) {
+            (jaw.height_over_bite(skin) >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
+            touching.push_back({node_of(v, kSkin), stiffness});
+        }
+        for (int side = 0; side < 2; ++side) {
+            if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
+            const double gap = (deep - eye_centre_[side]).norm() - eye_radius_[side];
+            lid_.push_back({node_of(v, kDeep), side, stiffness, std::min(0.0, gap)});
+            touching.push_back({node_of(v, kDeep), stiffness});
+        }
+    }
+    std::sort(touching.begin(), touching.end());
+    for (const auto& [node, stiffness] : touching) {
+        if (!nodes_.empty() && nodes_.back() == node) {
+            node_stiffness_.back() = std::max(node_stiffness_.back(), stiffness);
+            continue;
+        }
+        nodes_.push_back(node);
+        node_stiffness_.push_back(stiffness);
+    }
+}
+
+std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible) const {
+    std::vector<tissue::Contacts::Contact> out;
+    const Rigid to_mandible = mandible.inverse();
+
+    // Bone and teeth: the plane at the nearest bone point, where this node lies below it
+    const auto against_bone = [&](const DeepNode& node, const std::vector<int>& candidates,
+                                  const std::vector<BonePoint>& bone, const Rigid* carried) {
+        Vec3 p = x.row(node.node).transpose();
+        if (carried) p = to_mandible * p;
+        int best = -1;
+        double best_squared = 1e300;
+        for (int c : candidates) {
+            const double squared = (bone[c].point - p).squaredNorm();
+            if (squared < best_squared) {
+                best_squared = squared;
+                best = c;
+            }
+        }
+        if (best < 0) return;
+        const BonePoint& at = bone[best];
+        const double gap = (p - at.point).dot(at.normal);
+        const double rest_gap =
+            std::min(0.0, (Vec3(rest_.row(node.node).transpose()) - at.point).dot(at.normal));
+        if (gap - rest_gap > 3e-3) return;  // too far to matter within one step
+        tissue::Contacts::Contact contact;
+        contact.node = node.node;
+        contact.point = carried ? Vec3(*carried * at.point) : at.point;
+        contact.normal = carried ? Vec3(carried->linear() * at.normal) : at.normal;
+        contact.rest_gap_m = rest_gap;
+        contact.stiffness_n_per_m = node.stiffness;
+        out.push_back(contact);
+    };
+    for (const DeepNode& node : deep_) {
+        against_bone(node, node.skull, skull_, nullptr);
+        against_bone(node, node.mandible, mandible_, &mandible);
+    }
+
+    // Lips: each node against the nearest of the other lip, along the bite's normal half-way between the jaws
+    const Eigen::Quaterniond half = Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(mandible.linear()));
+    const Vec3 up = half * Vec3::UnitY();
+    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other, double sign) {
+        for (const LipNode& node : lip) {
+            const Vec3 p = x.row(node.node).transpose();
+            const LipNode* best = nullptr;
+            double best_squared = lip_reach_m_ * lip_reach_m_;
+            for (const LipNode& o : other) {
+                const double squared = (Vec3(x.row(o.node).transpose()) - p).squaredNorm();
+                if (squared < best_squared) {
+                    best_squared = squared;
+                    best = &o;
+                }
+            }
+            if (!best) continue;
+            const double rest_height =
+                sign * (rest_.row(node.node) - rest_.row(best->node)).dot(Vec3::UnitY().transpose());
+            const double threshold = rest_height - lip_gap_m_;
+            tissue::Contacts::Contact contact;
+            contact.node = node.node;
+            contact.others[0] = best->node;
+            contact.weights[0] = 1.0;
+            contact.count = 1;
+            contact.normal = sign * up;
+            contact.rest_gap_m = threshold;
+            contact.stiffness_n_per_m = 0.5 * std::min(node.stiffness, best->stiffness);
+            out.push_back(contact);
+        }
+    };
+    against_lip(upper_, lower_, 1.0);
+    against_lip(lower_, upper_, -1.0);
+
+    // Lids: the tangent plane of the globe below the node
+    for (const LidNode& node : lid_) {
+        const Vec3 r = Vec3(x.row(node.node).transpose()) - eye_centre_[node.side];
+        const double distance = r.norm();
+        if (distance - eye_radius_[node.side] > 3e-3) continue;
+        tissue::Contacts::Contact contact;
+        contact.node = node.node;
+        contact.normal = r / distance;
+        contact.point = eye_centre_[node.side] + eye_radius_[node.side] * contact.normal;
+        contact.rest_gap_m = node.rest_gap;
+        contact.stiffness_n_per_m = node.stiffness;
+        out.push_back(contact);
+    }
+    return out;
+}
+
+double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x) {
+    double deepest = 0;
+    for (const auto& pair : pairs)
+        deepest = std::max(deepest, pair.rest_gap_m - tissue::Contacts::gap(pair, x));
+    return deepest;
+}
+
+}  // namespace risorius::sim

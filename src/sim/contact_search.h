@@ -1,0 +1,68 @@
+// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue against bone and teeth (skull and
+// mandible apart), upper lip against lower, lids against the eyeball.
+//
+// The penetration every pair has at rest is subtracted, so that rest is free of force.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+#include "sim/attachments.h"
+#include "sim/jaw.h"
+#include "sim/lids.h"
+#include "sim/tissue_mesh.h"
+#include "tissue/contacts.h"
+
+namespace risorius::sim {
+
+class ContactSearch {
+  public:
+    ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell, const TissueMesh& mesh,
+                  const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
+
+    /// Pairs for node positions x with the mandible moved.
+    std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible) const;
+
+    /// Nodes that may ever touch something and the greatest stiffness they may see, for the constant metric.
+    const std::vector<int>& nodes() const { return nodes_; }
+    const std::vector<double>& node_stiffness() const { return node_stiffness_; }
+
+    /// Deepest lip and teeth penetration of the pairs, m.
+    static double deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x);
+
+  private:
+    struct BonePoint {
+        Vec3 point, normal;
+        int node;
+    };
+    struct DeepNode {
+        int node;
+        double stiffness;
+        std::vector<int> skull, mandible;   // nearest bone points at rest
+    };
+    struct LipNode {
+        int node;
+        double stiffness;
+    };
+    struct LidNode {
+        int node;
+        int side;
+        double stiffness;
+        double rest_gap;
+    };
+
+    Points rest_;
+    std::vector<BonePoint> skull_, mandible_;
+    std::vector<DeepNode> deep_;
+    std::vector<LipNode> upper_, lower_;
+    std::vector<LidNode> lid_;
+    std::array<Vec3, 2> eye_centre_;
+    std::array<double, 2> eye_radius_;
+    double lip_gap_m_;          // opening between the lips at rest
+    double lip_reach_m_;
+    std::vector<int> nodes_;
+    std::vector<double> node_stiffness_;
+};
+
+}  // namespace risorius::sim

@@ -1,0 +1,37 @@
+// The mandible: its rigid motion, and how much of it each point of the face follows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+
+namespace risorius::sim {
+
+class Jaw {
+  public:
+    Jaw(const rig::Head& head, const rig::JawDescription& description);
+
+    /// Motion of the mandible from rest. open 0..1, forward -0.2..1, side -1..1 (positive to the subject's left).
+    Rigid motion(double open, double forward, double side) const;
+
+    /// Share of the mandible's motion that tissue at its bone side follows: 1 on the lower lip and chin, 0 above the occlusal
+    /// line, blended over the cheek and ramus, fading down the neck.
+    double weight(const Vec3& p) const;
+
+    /// Signed height over the line on which the lips meet and, behind them, the occlusal plane, m.
+    double height_over_bite(const Vec3& p) const;
+
+  private:
+    double border_height(const Vec3& p) const;
+
+    double size_;
+    Vec3 hinge_, slide_, forward_;
+    double open_rad_, side_m_;
+    Vec3 stomion_, corner_l_, corner_r_;
+    std::vector<Vec3> border_;   // the lower edge of the mandible, both sides
+};
+
+}  // namespace risorius::sim

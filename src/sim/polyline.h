@@ -1,0 +1,22 @@
+// Distance to open polylines in space, and smooth curves through landmarks.
+#pragma once
+
+#include <vector>
+
+#include "core/types.h"
+
+namespace risorius::sim {
+
+/// Distance of p to the polyline, m.
+double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line);
+
+/// Catmull-Rom curve through the points, sampled no further apart than `spacing_m`; keeps the end points.
+std::vector<Vec3> sample_curve(const std::vector<Vec3>& through, double spacing_m);
+
+/// 0 below a, 1 above b, C1 between.
+inline double smoothstep(double a, double b, double x) {
+    const double t = x <= a ? 0.0 : x >= b ? 1.0 : (x - a) / (b - a);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace risorius::sim

@@ -1,0 +1,238 @@
+#include "sim/shell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "geom/decimate.h"
+#include "sim/polyline.h"
+
+namespace risorius::sim {
+
+namespace {
+
+// Mean of area-weighted triangle normals around each vertex, weighted by a Gaussian of distance.
+Points smooth_normals(const Points& vertices, const Triangles& triangles,
+                      const std::vector<char>& wanted, double sigma) {
+    struct Face {
+        Vec3 centre, area_normal;
+    };
+    const double reach = 2.5 * sigma;
+    std::map<std::array<int, 3>, std::vector<Face>> cells;
+    const auto cell_of = [&](const Vec3& p) {
+        return std::array<int, 3>{static_cast<int>(std::floor(p.x() / reach)),
+                                  static_cast<int>(std::floor(p.y() / reach)),
+                                  static_cast<int>(std::floor(p.z() / reach))};
+    };
+    for (long f = 0; f < triangles.rows(); ++f) {
+        const Vec3 a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
+                   c = vertices.row(triangles(f, 2));
+        const Vec3 centre = (a + b + c) / 3.0;
+        cells[cell_of(centre)].push_back({centre, 0.5 * (b - a).cross(c - a)});
+    }
+    Points out = Points::Zero(vertices.rows(), 3);
+    for (long v = 0; v < vertices.rows(); ++v) {
+        if (!wanted[v]) continue;
+        const Vec3 p = vertices.row(v).transpose();
+        const auto home = cell_of(p);
+        Vec3 sum = Vec3::Zero();
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j)
+                for (int k = -1; k <= 1; ++k) {
+                    const auto found = cells.find({home[0] + i, home[1] + j, home[2] + k});
+                    if (found == cells.end()) continue;
+                    for (const Face& face : found->second)
+                        sum += std::exp(-(face.centre - p).squaredNorm() / (2 * sigma * sigma)) *
+                               face.area_normal;
+                }
+        if (sum.norm() > 0) out.row(v) = sum.normalized().transpose();
+    }
+    return out;
+}
+
+// Largest connected piece of a triangle list.
+Triangles largest_piece(const Triangles& triangles, long vertex_count) {
+    std::vector<int> parent(static_cast<std::size_t>(vertex_count));
+    for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
+    const auto find = [&](int v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (long f = 0; f < triangles.rows(); ++f)
+        for (int k = 1; k < 3; ++k) {
+            const int a = find(triangles(f, 0)), b = find(triangles(f, k));
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    std::map<int, long> size;
+    for (long f = 0; f < triangles.rows(); ++f) ++size[find(triangles(f, 0))];
+    int best = -1;
+    for (const auto& [root, count] : size)
+        if (best < 0 || count > size[best]) best = root;
+    std::vector<long> keep;
+    for (long f = 0; f < triangles.rows(); ++f)
+        if (find(triangles(f, 0)) == best) keep.push_back(f);
+    Triangles out(static_cast<long>(keep.size()), 3);
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        out.row(static_cast<long>(i)) = triangles.row(keep[i]);
+    return out;
+}
+
+// Corners that touch the shell with a single triangle fan twice (bow ties) make prisms meet in a line; drop such fans.
+Triangles without_bow_ties(const Triangles& triangles) {
+    Triangles current = triangles;
+    for (int pass = 0; pass < 10; ++pass) {
+        std::unordered_map<int, std::vector<long>> around;
+        for (long f = 0; f < current.rows(); ++f)
+            for (int k = 0; k < 3; ++k) around[current(f, k)].push_back(f);
+        std::set<long> drop;
+        for (const auto& [v, faces] : around) {
+            // Fans: faces joined by a shared edge at v.
+            std::vector<int> fan(faces.size());
+            for (std::size_t i = 0; i < fan.size(); ++i) fan[i] = static_cast<int>(i);
+            const auto find = [&](int i) {
+                while (fan[i] != i) i = fan[i];
+                return i;
+            };
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                for (std::size_t j = i + 1; j < faces.size(); ++j) {
+                    int shared = 0;
+                    for (int a = 0; a < 3; ++a)
+                        for (int b = 0; b < 3; ++b)
+                            shared += current(faces[i], a) == current(faces[j], b);
+                    if (shared >= 2) {
+                        const int x = find(static_cast<int>(i)), y = find(static_cast<int>(j));
+                        fan[std::max(x, y)] = std::min(x, y);
+                    }
+                }
+            std::map<int, std::vector<long>> fans;
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                fans[find(static_cast<int>(i))].push_back(faces[i]);
+            if (fans.size() < 2) continue;
+            std::size_t largest = 0;
+            for (const auto& [root, members] : fans) largest = std::max(largest, members.size());
+            bool kept = false;
+            for (const auto& [root, members] : fans) {
+                if (!kept && members.size() == largest) {
+                    kept = true;
+                    continue;
+                }
+                drop.insert(members.begin(), members.end());
+            }
+        }
+        if (drop.empty()) break;
+        Triangles next(current.rows() - static_cast<long>(drop.size()), 3);
+        long row = 0;
+        for (long f = 0; f < current.rows(); ++f)
+            if (!drop.count(f)) next.row(row++) = current.row(f);
+        current = next;
+    }
+    return current;
+}
+
+}  // namespace
+
+std::vector<Vec3> lip_line(const rig::Head& head) {
+    const auto mid = [&](const char* a, const char* b) {
+        return Vec3(0.5 * (head.landmark(a) + head.landmark(b)));
+    };
+    return {head.landmark("ch_r"), mid("uli_r", "lli_r"), head.landmark("sto"), mid("uli_l", "lli_l"),
+            head.landmark("ch_l")};
+}
+
+Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
+                  const ShellOptions& options) {
+    const long count = head.vertices.rows();
+    const std::vector<Vec3> lips = lip_line(head);
+    Shell shell;
+
+    // Region of the face
+    const auto in_region = [&](const Vec3& p) {
+        return p.z() > head.mm(8) && p.y() > head.mm(-135) && p.y() < head.mm(112);
+    };
+    std::vector<char> inside(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v) inside[v] = in_region(head.vertices.row(v).transpose());
+    std::vector<long> region;
+    std::vector<char> border(static_cast<std::size_t>(count), 0);
+    std::vector<char> used(static_cast<std::size_t>(count), 0);
+    for (long f = 0; f < head.skin.rows(); ++f) {
+        const bool whole = inside[head.skin(f, 0)] && inside[head.skin(f, 1)] && inside[head.skin(f, 2)];
+        for (int k = 0; k < 3; ++k) (whole ? used : border)[head.skin(f, k)] = 1;
+        if (whole) region.push_back(f);
+    }
+
+    // Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given
+    shell.direction = smooth_normals(head.vertices, head.skin, used, head.mm(7));
+    for (long v = 0; v < count; ++v) {
+        if (!used[v]) continue;
+        const Vec3 p = head.vertices.row(v).transpose();
+        Vec3 d = shell.direction.row(v).transpose();
+        const double from_mouth = distance_to_polyline(p, lips);
+        const Vec3 out_of_mouth = Vec3(0.035 * p.x() / head.mm(1), 0, 1).normalized();
+        const double mouth = 1.0 - smoothstep(head.mm(6), head.mm(18), from_mouth);
+        d = ((1 - mouth) * d + mouth * out_of_mouth).normalized();
+        for (const EyeLids& lid : lids) {
+            const Vec3 r = p - lid.centre();
+            const double eye = 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
+            d = ((1 - eye) * d + eye * r.normalized()).normalized();
+        }
+        shell.direction.row(v) = d.transpose();
+    }
+
+    // Shell rule: what turns away from the direction is left out
+    constexpr double kLeastFacing = 0.12;
+    Triangles facing(static_cast<long>(region.size()), 3);
+    long rows = 0;
+    for (long f : region) {
+        const int a = head.skin(f, 0), b = head.skin(f, 1), c = head.skin(f, 2);
+        const Vec3 pa = head.vertices.row(a), pb = head.vertices.row(b), pc = head.vertices.row(c);
+        const Vec3 n = (pb - pa).cross(pc - pa).normalized();
+        const Vec3 d = (shell.direction.row(a) + shell.direction.row(b) + shell.direction.row(c))
+                           .transpose()
+                           .normalized();
+        if (n.dot(d) >= kLeastFacing) facing.row(rows++) = head.skin.row(f);
+    }
+    facing.conservativeResize(rows, 3);
+    shell.fine = without_bow_ties(largest_piece(facing, count));
+
+    // Size field: fine at lips and lids, coarse on forehead and cheek
+    const auto wanted_mm = [&](const Vec3& p) {
+        double near = distance_to_polyline(p, lips);
+        for (const EyeLids& lid : lids) near = std::min(near, lid.margin_distance(p));
+        near = std::min(near, (p - head.landmark("sn")).norm() + head.mm(4));
+        return 2.6 + 6.0 * smoothstep(head.mm(3), head.mm(48), near);
+    };
+    shell.spacing_m.assign(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v)
+        if (used[v]) shell.spacing_m[v] = head.mm(wanted_mm(head.vertices.row(v).transpose()));
+
+    // Scale the size field until the wanted number of vertices is left
+    geom::Decimated coarse;
+    double low = 0.15, high = 4.0;
+    std::vector<double> length(static_cast<std::size_t>(count));
+    double scale = 1.0;
+    for (int attempt = 0; attempt < 7; ++attempt) {
+        scale = std::sqrt(low * high);
+        for (long v = 0; v < count; ++v) length[v] = scale * shell.spacing_m[v];
+        coarse = geom::decimate(shell.fine, head.vertices, length, {});
+        const int kept = static_cast<int>(coarse.kept.size());
+        if (std::abs(kept - options.vertices) < options.vertices / 50) break;
+        (kept > options.vertices ? low : high) = scale;
+    }
+    for (long v = 0; v < count; ++v) shell.spacing_m[v] *= scale;
+
+    shell.vertex = coarse.kept;
+    std::vector<int> index(static_cast<std::size_t>(count), -1);
+    for (std::size_t i = 0; i < coarse.kept.size(); ++i) index[coarse.kept[i]] = static_cast<int>(i);
+    shell.triangles = coarse.triangles;
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) shell.triangles(f, k) = index[coarse.triangles(f, k)];
+    shell.collapsed_to.assign(static_cast<std::size_t>(count), -1);
+    for (long v = 0; v < count; ++v)
+        if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
+    for (int v : shell.vertex) shell.fixed.push_back(border[v]);
+    return shell;
+}
+
+}  // namespace risorius::sim

@@ -1,0 +1,37 @@
+// The part of the skin that is simulated: an open shell of triangles facing outwards, coarsened to a size field.
+//
+// Region: the face from hairline to throat and back to the front of the ears. Triangles that turn away from the smooth
+// outward direction (inner lips, nostrils, lid margins) are left out: under them prisms would invert. They follow by
+// harmonic extension (skin_binding.h). Source: measured face formulation, geometry pipeline.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "sim/jaw.h"
+#include "sim/lids.h"
+
+namespace risorius::sim {
+
+struct ShellOptions {
+    int vertices = 800;            ///< wanted number of skin nodes
+};
+
+struct Shell {
+    Triangles fine;                    ///< the shell at the mesh's own resolution, mesh vertex indices
+    Points direction;                  ///< V x 3, smooth outward direction, unit; zero outside the region
+    std::vector<int> vertex;           ///< N, mesh vertex of each shell vertex
+    Triangles triangles;               ///< over 0..N-1
+    std::vector<int> collapsed_to;     ///< V -> 0..N-1, -1 off the shell
+    std::vector<char> fixed;           ///< N, on the border to the rest of the head
+    std::vector<double> spacing_m;     ///< V, wanted edge length
+};
+
+Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids, const ShellOptions& options);
+
+/// The line between the lips, corner to corner, from landmarks.
+std::vector<Vec3> lip_line(const rig::Head& head);
+
+}  // namespace risorius::sim

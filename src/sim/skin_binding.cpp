@@ -1,0 +1,262 @@
+#include "sim/skin_binding.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sim/polyline.h"
+
+namespace risorius::sim {
+
+namespace {
+
+constexpr double kSmallestWeight = 1e-3;
+
+// A row under construction: weights of shell vertices, and the mandible's part.
+struct Terms {
+    std::vector<std::pair<int, double>> nodes;  // ascending
+    double jaw = 0.0;
+    Vec3 jaw_point = Vec3::Zero();
+
+    void add(const Terms& other, double scale) {
+        std::vector<std::pair<int, double>> merged;
+        merged.reserve(nodes.size() + other.nodes.size());
+        std::size_t i = 0, j = 0;
+        while (i < nodes.size() || j < other.nodes.size()) {
+            if (j == other.nodes.size() || (i < nodes.size() && nodes[i].first < other.nodes[j].first)) {
+                merged.push_back(nodes[i++]);
+            } else if (i == nodes.size() || other.nodes[j].first < nodes[i].first) {
+                merged.push_back({other.nodes[j].first, scale * other.nodes[j].second});
+                ++j;
+            } else {
+                merged.push_back({nodes[i].first, nodes[i].second + scale * other.nodes[j].second});
+                ++i;
+                ++j;
+            }
+        }
+        nodes.swap(merged);
+        jaw += scale * other.jaw;
+        jaw_point += scale * other.jaw_point;
+    }
+    // Small weights go; the others grow so that the sum stays.
+    void prune() {
+        double all = 0, left = 0;
+        for (const auto& [node, w] : nodes) all += w;
+        std::erase_if(nodes, [](const auto& term) { return term.second < kSmallestWeight; });
+        for (const auto& [node, w] : nodes) left += w;
+        if (left > 0)
+            for (auto& [node, w] : nodes) w *= all / left;
+    }
+};
+
+Vec3 barycentric_clamped(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double& squared) {
+    // Coordinates of the projection, pulled back to the nearest point of the triangle edge by edge.
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double d00 = ab.dot(ab), d01 = ab.dot(ac), d11 = ac.dot(ac), d20 = ap.dot(ab), d21 = ap.dot(ac);
+    const double det = d00 * d11 - d01 * d01;
+    Vec3 best(1, 0, 0);
+    if (det > 1e-30) {
+        const double v = (d11 * d20 - d01 * d21) / det, w = (d00 * d21 - d01 * d20) / det;
+        best = Vec3(1 - v - w, v, w);
+    }
+    if (best.minCoeff() < 0) {
+        double least = 1e300;
+        const std::array<Vec3, 3> corner{a, b, c};
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 along = corner[(k + 1) % 3] - corner[k];
+            const double t = std::clamp((p - corner[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+            const double far = (p - corner[k] - t * along).squaredNorm();
+            if (far < least) {
+                least = far;
+                best = Vec3::Zero();
+                best[k] = 1 - t;
+                best[(k + 1) % 3] = t;
+            }
+        }
+    }
+    squared = (p - best[0] * a - best[1] * b - best[2] * c).squaredNorm();
+    return best;
+}
+
+}  // namespace
+
+SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
+    const long count = head.vertices.rows();
+    const auto at = [&](int v) { return Vec3(head.vertices.row(v).transpose()); };
+    std::vector<Terms> terms(static_cast<std::size_t>(count));
+
+    // Surface graph of skin and lining
+    std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
+    std::vector<char> on_surface(static_cast<std::size_t>(count), 0), on_skin(static_cast<std::size_t>(count), 0);
+    for (const Triangles* triangles : {&head.skin, &head.lining})
+        for (long f = 0; f < triangles->rows(); ++f)
+            for (int k = 0; k < 3; ++k) {
+                const int a = (*triangles)(f, k), b = (*triangles)(f, (k + 1) % 3);
+                neighbours[a].insert(b);
+                neighbours[b].insert(a);
+                on_surface[a] = 1;
+                if (triangles == &head.skin) on_skin[a] = 1;
+            }
+
+    // On the shell: nearest triangle in the two rings around the vertex it collapsed to
+    const int shell_count = static_cast<int>(shell.vertex.size());
+    std::vector<std::vector<long>> faces_of(static_cast<std::size_t>(shell_count));
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) faces_of[shell.triangles(f, k)].push_back(f);
+    std::vector<char> on_shell(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v) {
+        const int home = shell.collapsed_to[v];
+        if (home < 0) continue;
+        std::set<long> near;
+        for (long f : faces_of[home])
+            for (int k = 0; k < 3; ++k)
+                for (long g : faces_of[shell.triangles(f, k)]) near.insert(g);
+        double best_squared = 1e300;
+        for (long f : near) {
+            const int a = shell.triangles(f, 0), b = shell.triangles(f, 1), c = shell.triangles(f, 2);
+            double squared = 0;
+            const Vec3 w = barycentric_clamped(at(static_cast<int>(v)), at(shell.vertex[a]), at(shell.vertex[b]),
+                                               at(shell.vertex[c]), squared);
+            if (squared >= best_squared) continue;
+            best_squared = squared;
+            terms[v].nodes = {{a, w[0]}, {b, w[1]}, {c, w[2]}};
+        }
+        std::sort(terms[v].nodes.begin(), terms[v].nodes.end());
+        std::erase_if(terms[v].nodes, [](const auto& term) { return term.second < 1e-9; });
+        on_shell[v] = 1;
+    }
+
+    // Which of the rest is held, and by what
+    const std::vector<Vec3> lips = lip_line(head);
+    std::vector<char> held(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v) {
+        if (!on_surface[v] || on_shell[v]) continue;
+        const Vec3 p = at(static_cast<int>(v));
+        const bool outside = on_skin[v] && (p.z() <= head.mm(8) || p.y() <= head.mm(-135) || p.y() >= head.mm(112));
+        double to_eye = 1e9;
+        for (int side = 0; side < 2; ++side)
+            to_eye = std::min(to_eye, (p - head.eyes[side].centre).norm() - head.eyes[side].radius_m);
+        const double from_lips = distance_to_polyline(p, lips);
+        if (outside) {
+            held[v] = 1;
+        } else if (!on_skin[v] && to_eye < head.mm(12) && from_lips > head.mm(30)) {
+            // Eye sockets: still, but for what lies right behind the lids
+            held[v] = p.z() < head.eyes[p.x() > 0 ? 0 : 1].centre.z() + 0.3 * head.eyes[0].radius_m;
+        } else if (!on_skin[v] && from_lips > head.mm(16) && p.z() < lips[2].z() - head.mm(16)) {
+            held[v] = 1;
+            terms[v].jaw = 1.0 - smoothstep(-head.mm(4), head.mm(4), jaw.height_over_bite(p));
+            terms[v].jaw_point = terms[v].jaw * p;
+        }
+    }
+
+    // Harmonic extension to what is left
+    std::vector<int> unknown(static_cast<std::size_t>(count), -1), free;
+    for (long v = 0; v < count; ++v)
+        if (on_surface[v] && !on_shell[v] && !held[v]) {
+            unknown[v] = static_cast<int>(free.size());
+            free.push_back(static_cast<int>(v));
+        }
+    if (!free.empty()) {
+        std::vector<Eigen::Triplet<double>> entries;
+        std::vector<int> column_of(static_cast<std::size_t>(shell_count), -1), node_of_column;
+        for (int v : free)
+            for (int w : neighbours[v])
+                for (const auto& [node, weight] : terms[w].nodes)
+                    if (unknown[w] < 0 && column_of[node] < 0) {
+                        column_of[node] = static_cast<int>(node_of_column.size());
+                        node_of_column.push_back(node);
+                    }
+        const long columns = static_cast<long>(node_of_column.size());
+        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<long>(free.size()), columns + 4);
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            const int v = free[i];
+            double diagonal = 1e-9;
+            for (int w : neighbours[v]) {
+                const double weight = 1.0 / std::max(1e-6, (at(v) - at(w)).norm());
+                diagonal += weight;
+                if (unknown[w] >= 0) {
+                    entries.emplace_back(static_cast<int>(i), unknown[w], -weight);
+                    continue;
+                }
+                for (const auto& [node, share] : terms[w].nodes)
+                    right(static_cast<long>(i), column_of[node]) += weight * share;
+                right(static_cast<long>(i), columns) += weight * terms[w].jaw;
+                for (int k = 0; k < 3; ++k)
+                    right(static_cast<long>(i), columns + 1 + k) += weight * terms[w].jaw_point[k];
+            }
+            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal);
+        }
+        Eigen::SparseMatrix<double> laplacian(static_cast<long>(free.size()), static_cast<long>(free.size()));
+        laplacian.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
+        const Eigen::MatrixXd solution = factor.solve(right);
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            Terms& row = terms[free[i]];
+            for (long c = 0; c < columns; ++c)
+                if (solution(static_cast<long>(i), c) > 1e-6)
+                    row.nodes.push_back({node_of_column[c], solution(static_cast<long>(i), c)});
+            std::sort(row.nodes.begin(), row.nodes.end());
+            row.jaw = solution(static_cast<long>(i), columns);
+            for (int k = 0; k < 3; ++k) row.jaw_point[k] = solution(static_cast<long>(i), columns + 1 + k);
+            row.prune();
+        }
+    }
+
+    // Smooth over the mesh until facets of the coarse shell no longer show
+    constexpr int kSweeps = 6;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        std::vector<Terms> next = terms;
+        for (long v = 0; v < count; ++v) {
+            if (!on_shell[v] || neighbours[v].empty()) continue;
+            double edge = 0;
+            for (int w : neighbours[v]) edge += (at(static_cast<int>(v)) - at(w)).norm();
+            edge /= static_cast<double>(neighbours[v].size());
+            // A sweep of strength s spreads by edge sqrt(s); aim at a third of the coarse spacing in all.
+            const double wanted = 0.33 * shell.spacing_m[v];
+            const double strength = std::min(0.8, wanted * wanted / (edge * edge * kSweeps));
+            Terms row;
+            row.add(terms[v], 1 - strength);
+            for (int w : neighbours[v])
+                row.add(terms[w], strength / static_cast<double>(neighbours[v].size()));
+            row.prune();
+            next[v] = row;
+        }
+        terms.swap(next);
+    }
+
+    rows_.resize(static_cast<std::size_t>(count));
+    for (long v = 0; v < count; ++v) {
+        const Terms& row = terms[head.welded[v]];
+        rows_[v].begin = static_cast<int>(column_.size());
+        for (const auto& [node, w] : row.nodes) {
+            column_.push_back(node);
+            weight_.push_back(w);
+        }
+        rows_[v].end = static_cast<int>(column_.size());
+        rows_[v].jaw = row.jaw;
+        rows_[v].jaw_point = row.jaw_point;
+    }
+}
+
+void SkinBinding::apply(const Points& shell_displacement, const Rigid& mandible, Points& vertices) const {
+    for (long v = 0; v < vertices.rows(); ++v) {
+        const Row& row = rows_[v];
+        Vec3 u = Vec3::Zero();
+        for (int k = row.begin; k < row.end; ++k)
+            u += weight_[k] * shell_displacement.row(column_[k]).transpose();
+        if (row.jaw != 0.0)
+            u += mandible.linear() * row.jaw_point + row.jaw * mandible.translation() - row.jaw_point;
+        vertices.row(v) += u.transpose();
+    }
+}
+
+void SkinBinding::follow(int vertex, int like) { rows_[vertex] = rows_[like]; }
+
+std::vector<char> SkinBinding::moving() const {
+    std::vector<char> out;
+    for (const Row& row : rows_) out.push_back(row.end > row.begin || row.jaw != 0.0);
+    return out;
+}
+
+}  // namespace risorius::sim

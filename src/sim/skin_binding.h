@@ -1,0 +1,43 @@
+// Carries the motion of the simulated shell to every vertex of the imported skin.
+//
+//   u_v = sum_i w_vi u_i + (T - I) sum_j m_vj X_j        u_i  skin node displacements, T  motion of the mandible
+//
+// On the shell the weights are barycentric in the coarse triangles and smoothed over the mesh, so that no facet shows.
+// Off the shell (inner lips, nostrils, mouth lining) they are the harmonic extension, with the back of the mouth on
+// skull and mandible and everything outside the face at rest.
+#pragma once
+
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "sim/jaw.h"
+#include "sim/shell.h"
+
+namespace risorius::sim {
+
+class SkinBinding {
+  public:
+    SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& shell);
+
+    /// Adds the displacement of every skin vertex to `vertices` (V x 3). `shell_displacement` is N x 3.
+    void apply(const Points& shell_displacement, const Rigid& mandible, Points& vertices) const;
+
+    /// Binds another vertex (a lash) as the skin vertex `like`.
+    void follow(int vertex, int like);
+
+    /// Vertices that the shell or the harmonic extension moves.
+    std::vector<char> moving() const;
+
+  private:
+    struct Row {
+        int begin = 0, end = 0;
+        double jaw = 0.0;
+        Vec3 jaw_point = Vec3::Zero();
+    };
+    std::vector<Row> rows_;        // V
+    std::vector<int> column_;
+    std::vector<double> weight_;
+};
+
+}  // namespace risorius::sim

@@ -1,0 +1,34 @@
+// Soft tissue between the skin shell and the bone, three layers of nodes: deep (on the bone), middle, skin; each prism
+// column cut into tetrahedra.
+//
+// Node of shell vertex v in layer l: 3 v + l.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/types.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "sim/shell.h"
+
+namespace risorius::sim {
+
+enum Layer { kDeep = 0, kMiddle = 1, kSkin = 2, kLayers = 3 };
+
+inline int node_of(int shell_vertex, Layer layer) { return kLayers * shell_vertex + layer; }
+
+struct TissueMesh {
+    Points nodes;                       ///< 3N x 3, rest
+    Tets tets;
+    std::vector<Layer> tet_layer;       ///< the outer layer of the slab a tet lies in: kMiddle (deep slab) or kSkin
+    std::vector<double> thickness_m;    ///< N
+    std::vector<Vec3> direction;        ///< N, outward, unit
+    std::vector<double> area_m2;        ///< N, skin area that a vertex stands for
+    int dropped_tets = 0;               ///< too thin to be used
+};
+
+TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
+                             const std::array<EyeLids, 2>& lids);
+
+}  // namespace risorius::sim

@@ -1,0 +1,35 @@
+// Collects a symmetric scalar n x n matrix over the nodes: the metric of the quasi-Newton solver or
+// a Laplacian, N/m. One scalar matrix serves x, y and z alike.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace risorius::solve {
+
+class MetricBuilder {
+  public:
+    explicit MetricBuilder(int nodes);
+
+    int nodes() const { return nodes_; }
+    void add_diagonal(int node, double w);
+
+    /// Adds w c c^T on the listed nodes. A node may be listed twice: its coefficients then add.
+    void add_outer(const int* nodes, const double* coefficients, int count, double w);
+
+    /// Adds a symmetric count x count block (row-major, only its lower triangle is read). The nodes
+    /// must differ.
+    void add_block(const int* nodes, const double* block, int count);
+
+    /// Lower triangle. Rows and columns of fixed nodes are those of the identity. `fixed` is empty
+    /// or one flag per node.
+    Eigen::SparseMatrix<double> build(const std::vector<char>& fixed) const;
+
+  private:
+    void add(int i, int j, double value);
+
+    int nodes_;
+    std::vector<Eigen::Triplet<double, int>> entries_;
+};
+
+}  // namespace risorius::solve

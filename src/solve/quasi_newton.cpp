@@ -1,0 +1,159 @@
+#include "solve/quasi_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/lanes.h"
+
+namespace risorius::solve {
+
+namespace {
+
+Lanes load(const double* p) { return Lanes{p[0], p[1], p[2], p[3]}; }
+
+/// Its own loop rather than Eigen's, so that the order of the sum does not depend on where the
+/// arrays lie in memory.
+double dot(const Points& a, const Points& b) {
+    const double* p = a.data();
+    const double* q = b.data();
+    const long n = a.size();
+    Lanes s0{}, s1{}, s2{}, s3{};
+    long i = 0;
+    for (; i + 15 < n; i += 16) {
+        s0 += load(p + i) * load(q + i);
+        s1 += load(p + i + 4) * load(q + i + 4);
+        s2 += load(p + i + 8) * load(q + i + 8);
+        s3 += load(p + i + 12) * load(q + i + 12);
+    }
+    double sum = sum_lanes((s0 + s1) + (s2 + s3));
+    for (; i < n; ++i) sum += p[i] * q[i];
+    return sum;
+}
+
+double longest_row(const Points& d) {
+    double longest = 0;
+    for (long i = 0; i < d.rows(); ++i) {
+        const double* p = d.data() + 3 * i;
+        longest = std::max(longest, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    }
+    return std::sqrt(longest);
+}
+
+}  // namespace
+
+// direction_ = -H gradient_, H the L-BFGS inverse with A^-1 at its core (Nocedal's two loops).
+void QuasiNewton::direction(const SparseCholesky& metric) {
+    const int ring = static_cast<int>(pairs_.size());
+    const auto pair = [&](int age) -> Pair& {
+        return pairs_[static_cast<std::size_t>((newest_ - age + ring) % ring)];
+    };
+    work_ = gradient_;
+    for (int age = 0; age < kept_; ++age) {
+        Pair& p = pair(age);
+        p.alpha = p.inverse_product * dot(p.step, work_);
+        work_ -= p.alpha * p.gradient_change;
+    }
+    metric.solve(work_, direction_);
+    for (int age = kept_ - 1; age >= 0; --age) {
+        const Pair& p = pair(age);
+        const double beta = p.inverse_product * dot(p.gradient_change, direction_);
+        direction_ += (p.alpha - beta) * p.step;
+    }
+    direction_ = -direction_;
+}
+
+StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCholesky& metric,
+                                 Points& x, const QuasiNewtonOptions& options) {
+    const long n = x.rows();
+    pairs_.resize(static_cast<std::size_t>(std::max(options.memory, 0)));
+    kept_ = 0;
+    newest_ = 0;
+    gradient_.resize(n, 3);
+    trial_gradient_.resize(n, 3);
+
+    StepReport report;
+    double e = energy(x, gradient_);
+    report.evaluations = 1;
+    report.energy_j = e;
+
+    for (int iteration = 0; iteration < options.iterations; ++iteration) {
+        direction(metric);
+        double slope = dot(gradient_, direction_);
+        if (!(slope < 0) && kept_ > 0) {  // the memory misleads: start it anew
+            kept_ = 0;
+            direction(metric);
+            slope = dot(gradient_, direction_);
+        }
+        if (slope == 0) {
+            report.converged = true;
+            return report;
+        }
+
+        // Armijo with halving, from the full step or the longest the cap allows
+        const double longest = longest_row(direction_);
+        double t = longest > options.step_cap_m ? options.step_cap_m / longest : 1.0;
+        double trial_energy = 0;
+        bool accepted = false;
+        for (int halving = 0; halving <= options.backtracks && slope < 0; ++halving) {
+            trial_ = x + t * direction_;
+            trial_energy = energy(trial_, trial_gradient_);
+            ++report.evaluations;
+            // Written so that a NaN is refused
+            if (trial_energy <= e + options.sufficient_decrease * t * slope) {
+                accepted = true;
+                break;
+            }
+            ++report.backtracks;
+            t *= 0.5;
+        }
+        if (!accepted) {
+            if (kept_ >
+                0) {  // once more along the plain metric's direction; it costs one iteration
+                kept_ = 0;
+                ++report.iterations;
+                continue;
+            }
+            report.stalled = true;
+            return report;
+        }
+
+        // Remember the pair if it shows positive curvature
+        if (!pairs_.empty()) {
+            const int ring = static_cast<int>(pairs_.size());
+            const int next = kept_ == 0 ? 0 : (newest_ + 1) % ring;
+            Pair& p = pairs_[static_cast<std::size_t>(next)];
+            p.step = t * direction_;
+            p.gradient_change = trial_gradient_ - gradient_;
+            const double product = dot(p.step, p.gradient_change);
+            const double smallest =
+                1e-10 * std::sqrt(dot(p.step, p.step) * dot(p.gradient_change, p.gradient_change));
+            if (product > smallest) {
+                p.inverse_product = 1.0 / product;
+                newest_ = next;
+                kept_ = std::min(kept_ + 1, ring);
+            } else if (kept_ == ring) {
+                --kept_;  // the oldest pair has just been written over
+            }
+        }
+        x.swap(trial_);
+        gradient_.swap(trial_gradient_);
+        e = trial_energy;
+        ++report.iterations;
+        report.energy_j = e;
+        report.last_step_rms_m =
+            t * std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
+        if (report.last_step_rms_m < options.tolerance_rms_m) {
+            report.converged = true;
+            return report;
+        }
+    }
+    return report;
+}
+
+StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
+                    const QuasiNewtonOptions& options) {
+    QuasiNewton solver;
+    return solver.minimise(energy, metric, x, options);
+}
+
+}  // namespace risorius::solve

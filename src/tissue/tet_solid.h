@@ -1,0 +1,62 @@
+// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible
+// solid.
+//
+//   F   deformation gradient     J = det F     V   rest volume, m^3     mu, K   shear and bulk
+//   modulus, Pa E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 ]
+//
+// J is signed, so an inverted element is not a second zero of the energy.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types.h"
+#include "solve/lanes.h"
+#include "solve/metric_builder.h"
+
+namespace risorius::tissue {
+
+/// One object serves one thread at a time: it keeps scratch arrays.
+class TetSolid {
+  public:
+    /// Moduli are one per tet. Throws std::invalid_argument when a tet has no positive volume at
+    /// rest.
+    TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
+             const Eigen::VectorXd& bulk_pa);
+
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
+    /// order.
+    double add_energy(const Points& x, Points& gradient) const;
+
+    /// sum V (2 mu + K) G G^T: the stiffness at rest seen by one coordinate, a bound good enough to
+    /// precondition with.
+    void add_metric(solve::MetricBuilder& builder) const;
+
+    /// scale * sum V mu G G^T: the Laplacian of stiffness damping.
+    void add_laplacian(solve::MetricBuilder& builder, double scale) const;
+
+    int size() const { return static_cast<int>(tets_.rows()); }
+    int inverted_count(const Points& x) const;          ///< tets with J <= 0
+    double volume(const Points& x) const;               ///< signed, m^3
+    double min_relative_volume(const Points& x) const;  ///< the least J, 1 when there are no tets
+    Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
+
+  private:
+    /// Four tets, one per lane.
+    struct alignas(64) Group {
+        solve::Lanes b[9];   ///< inverse of the rest edges, row k belongs to edge x_(k+1) - x_0
+        solve::Lanes shear;  ///< V mu
+        solve::Lanes bulk;   ///< V K
+        solve::Lanes inverse_6v;  ///< 1 / det of the rest edges
+        std::int32_t node[4][4];  ///< [corner][lane]
+    };
+    double signed_volume(const Points& x, int tet) const;
+    void add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const;
+
+    Tets tets_;
+    Eigen::VectorXd rest_volume_, mu_, bulk_;
+    std::vector<Group> groups_;
+    mutable solve::PaddedPoints x_, gradient_;
+};
+
+}  // namespace risorius::tissue

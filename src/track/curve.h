@@ -1,0 +1,35 @@
+// A value over time through keys: held before the first and after the last, between them stepped, straight or smooth.
+//
+// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, no overshoot
+// between two keys; its slope is 0 at both ends, so that it joins what is held.
+#pragma once
+
+#include <vector>
+
+namespace risorius::track {
+
+enum class Interpolation { kStep, kLinear, kSmooth };
+
+struct Key {
+    double time_s;
+    double value;
+};
+
+class Curve {
+  public:
+    /// At least one key, times strictly increasing.
+    Curve(std::vector<Key> keys, Interpolation interpolation);
+
+    double at(double t_s) const;
+
+  private:
+    std::vector<Key> keys_;
+    std::vector<double> slopes_;  ///< at each key, smooth curves only
+    Interpolation interpolation_;
+};
+
+/// Shortest movement from 0 to 1 in the sense of jerk: rest at both ends; s is clamped to [0, 1].
+/// Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
+double minimum_jerk(double s);
+
+}  // namespace risorius::track

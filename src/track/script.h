@@ -1,0 +1,87 @@
+// A script as read: which rig, how long, what every channel does over time, expressions and blinks, and how it is seen.
+// JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "track/channels.h"
+#include "track/curve.h"
+#include "track/facs.h"
+
+namespace risorius::track {
+
+struct ScriptView {
+    int width_px = 1024;  ///< 16..8192
+    int height_px = 1024;
+    std::string camera = "front";  ///< a name of render::camera_names()
+    bool transparent = false;      ///< background "transparent"
+    std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
+};
+
+/// What can be known before the rig is.
+struct ScriptHeader {
+    std::string rig;                 ///< as written
+    std::filesystem::path rig_file;  ///< relative paths start at the script's folder
+    int fps = 60;                    ///< 1..240
+    double duration_s = 0;           ///< (0, 3600], at least one frame
+    int seed = 1;
+    ScriptView view;
+
+    int frame_count() const;
+};
+
+/// Frame n shows time n / fps.
+int frame_count(double duration_s, int fps);
+
+struct ChannelTrack {
+    std::string name;  ///< "AU6.l"
+    std::vector<Key> keys;
+    Interpolation interpolation = Interpolation::kSmooth;
+    bool activation = false;  ///< sets activation directly, without activation dynamics
+    Expansion drives;         ///< what the channel at 1 adds
+};
+
+/// Rises along a minimum-jerk curve, is held, falls again. Every unit has its own delay within the onset.
+struct ExpressionEvent {
+    struct Part {
+        Expansion drives;  ///< at the intensity of the event
+        double delay = 0;  ///< ratio of the onset
+    };
+    std::string expression;
+    std::optional<Side> side;  ///< none: as the table says
+    double intensity = 1;      ///< [0, 1]
+    double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
+    std::vector<Part> parts;
+};
+
+struct BlinkEvent {
+    double start_s = 0;
+    double duration_s = 0.22;  ///< from the first drive until the lids are open again
+    double intensity = 1;      ///< below about 0.8 the lids do not meet
+    std::optional<Side> side;
+    Expansion drives;  ///< of AU45 at this intensity
+};
+
+struct ScriptDescription {
+    ScriptHeader header;
+    std::vector<ChannelTrack> channels;
+    std::vector<ExpressionEvent> expressions;
+    std::vector<BlinkEvent> blinks;
+};
+
+/// Reads the header and leaves channels and events for later. Throws Error.
+ScriptHeader read_script_header(const std::filesystem::path& file);
+
+/// Everything, checked against the rig. Throws Error naming file, place, expected and found.
+ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions);
+
+/// For scripts already in memory.
+ScriptDescription read_script(const JsonCursor& script, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions);
+
+}  // namespace risorius::track
