@@ -13,10 +13,10 @@
 namespace risorius::media {
 
 struct VideoOptions {
-    int width_px = 0;       ///< even for MP4
+    int width_px = 0;  ///< even for MP4
     int height_px = 0;
     int fps = 60;
-    int crf = 18;           ///< H.264 quality, 0 (lossless) .. 51
+    int crf = 18;  ///< H.264 quality, 0 (lossless) .. 51
     std::string preset = "medium";
 };
 
@@ -26,12 +26,12 @@ void check_target(const std::filesystem::path& target, const VideoOptions& optio
 class VideoWriter {
   public:
     VideoWriter(const std::filesystem::path& target, const VideoOptions& options);
-    ~VideoWriter();                      ///< without finish(): removes what was written
+    ~VideoWriter();  ///< without finish(): removes what was written
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    void append(const Image& frame);     ///< throws RunError (disk full, encoder)
-    void finish();                       ///< flushes, closes, renames; throws RunError
+    void append(const Image& frame);  ///< throws RunError (disk full, encoder)
+    void finish();                    ///< flushes, closes, renames; throws RunError
     int frames() const;
 
   private:

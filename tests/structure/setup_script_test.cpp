@@ -69,9 +69,9 @@ class Machine {
     std::pair<std::string, int> setup(const std::string& arguments = "",
                                       const std::string& settings = "") const {
         const std::string bin = (folder_ / "bin").string();
-        const std::string command = "cd / && RISORIUS_SKIP_SETUP=0 PATH='" + bin + "' " + settings + " '" + bin +
-                                    "/bash' '" + (source_dir() / "tools/setup.sh").string() + "' " +
-                                    arguments + " 2>&1";
+        const std::string command =
+            "cd / && RISORIUS_SKIP_SETUP=0 PATH='" + bin + "' " + settings + " '" + bin +
+            "/bash' '" + (source_dir() / "tools/setup.sh").string() + "' " + arguments + " 2>&1";
         std::FILE* pipe = ::popen(command.c_str(), "r");
         std::string output;
         std::array<char, 4096> block;
