@@ -1,6 +1,9 @@
 // Frames to video through the FFmpeg libraries: MP4 (H.264, yuv420p, BT.709, faststart) and lossless Matroska (FFV1),
 // or a folder of PNG frames; constant frame rate, frame n at n / fps.
 //
+// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Transparency is kept by PNG
+// frames and, when the first frame has any, by Matroska; MP4 refuses it. Matroska rounds times to a millisecond.
+//
 // Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
 #pragma once
 
