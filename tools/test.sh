@@ -30,7 +30,7 @@ jobs=$(nproc)
 failed=no
 
 # What ctest says at its end, to be repeated after everything else.
-closing_line() { grep -E 'tests passed|No tests were found' "$1" || printf 'the tests did not run\n'; }
+closing_line() { grep -E '^[0-9]+% tests passed|^No tests were found' "$1" || printf 'the tests did not run\n'; }
 
 cmake --preset release --log-level=WARNING
 cmake --build --preset release
