@@ -1,6 +1,9 @@
 // Frames to video through the FFmpeg libraries: MP4 (H.264, yuv420p, BT.709, faststart) and lossless Matroska (FFV1),
 // or a folder of PNG frames; constant frame rate, frame n at n / fps.
 //
+// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Transparency is kept by PNG
+// frames and, when the first frame has any, by Matroska; MP4 refuses it. Matroska rounds times to a millisecond.
+//
 // Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
 #pragma once
 
@@ -13,10 +16,10 @@
 namespace risorius::media {
 
 struct VideoOptions {
-    int width_px = 0;       ///< even for MP4
+    int width_px = 0;  ///< even for MP4
     int height_px = 0;
     int fps = 60;
-    int crf = 18;           ///< H.264 quality, 0 (lossless) .. 51
+    int crf = 18;  ///< H.264 quality, 0 (lossless) .. 51
     std::string preset = "medium";
 };
 
@@ -26,12 +29,12 @@ void check_target(const std::filesystem::path& target, const VideoOptions& optio
 class VideoWriter {
   public:
     VideoWriter(const std::filesystem::path& target, const VideoOptions& options);
-    ~VideoWriter();                      ///< without finish(): removes what was written
+    ~VideoWriter();  ///< without finish(): removes what was written
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    void append(const Image& frame);     ///< throws RunError (disk full, encoder)
-    void finish();                       ///< flushes, closes, renames; throws RunError
+    void append(const Image& frame);  ///< throws RunError (disk full, encoder)
+    void finish();                    ///< flushes, closes, renames; throws RunError
     int frames() const;
 
   private:

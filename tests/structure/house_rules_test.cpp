@@ -76,7 +76,7 @@ TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
     for (const auto& file : files) {
         const std::string text = text_of(file);
         if (file.extension() == ".h") {
-            EXPECT_TRUE(text.starts_with("// ")) << shown(file);
+            EXPECT_TRUE(text.starts_with("// ")) << shown(file) << " does not start with a comment";
             EXPECT_NE(text.find("#pragma once"), std::string::npos) << shown(file);
             continue;
         }
@@ -84,7 +84,9 @@ TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
         const std::string own =
             "#include \"" +
             file.lexically_relative(source_dir() / "src").replace_extension(".h").string() + "\"";
-        EXPECT_TRUE(text.starts_with("// ") || text.starts_with(own)) << shown(file);
+        EXPECT_TRUE(text.starts_with("// ") || text.starts_with(own))
+            << shown(file)
+            << " starts neither with a comment that says what it is for nor with its own header";
     }
 }
 
