@@ -30,10 +30,8 @@ enum class Severity { kIgnore, kNote, kWarning, kError };
 
 /// Defaults suit the skin of a head: open at neck, eyes and mouth, perhaps split at texture seams.
 struct MeshCheckOptions {
-    std::vector<int>
-        groups{};  ///< groups looked at; empty = all. Vertices are looked at in any case
-    double metres_per_unit =
-        1.0;  ///< what the mesh was read with; only to advise another in a message
+    std::vector<int> groups{};      ///< whose faces are looked at; empty = all
+    double metres_per_unit = 1.0;   ///< with which the mesh was read, for advice in a message
     double smallest_size_m = 0.12;  ///< longest side of the bounding box: a face alone
     double largest_size_m = 1.0;    ///< a head with shoulders
     double smallest_face_area_m2 = 1e-13;

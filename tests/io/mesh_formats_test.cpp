@@ -31,13 +31,13 @@ fs::path exported(const std::string& format, const std::string& name) {
     return folder / name;
 }
 
-/// Positions to a micrometre of this head in centimetres: the file holds five decimals, assimp's parser errs in the sixth.
+/// Positions in units of the fifth decimal, the last the file holds: assimp's parser errs in the sixth.
 std::set<std::array<long, 3>> rounded_positions(const geom::PolygonMesh& mesh) {
     std::set<std::array<long, 3>> out;
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        out.insert({std::lround(mesh.positions(v, 0) * 1e4),
-                    std::lround(mesh.positions(v, 1) * 1e4),
-                    std::lround(mesh.positions(v, 2) * 1e4)});
+        out.insert({std::lround(mesh.positions(v, 0) * 1e5),
+                    std::lround(mesh.positions(v, 1) * 1e5),
+                    std::lround(mesh.positions(v, 2) * 1e5)});
     return out;
 }
 
