@@ -55,8 +55,7 @@ class SurfaceTree {
   private:
     struct Node {
         Vec3 low, high;
-        int first =
-            0;  ///< leaf: first place in order_; inner: left child (the right one follows it)
+        int first = 0;  ///< leaf: first place in order_; else left child, the right one follows
         int count = 0;  ///< triangles of a leaf, 0 for an inner node
     };
 

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "geom/mesh_checks.h"
+#include "io/detail/obj_reader.h"
 
 namespace risorius::io {
 namespace {
@@ -16,10 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kHeads = fs::path(RISORIUS_SHARED_DIR) / "data" / "heads";
 
-fs::path scratch(const std::string& name) {
-    const fs::path folder = fs::path(testing::TempDir()) / "risorius_io";
-    fs::create_directories(folder);
-    return folder / name;
+geom::PolygonMesh read_text(const std::string& text) { return detail::read_obj(text, "text.obj"); }
+
+std::string complaint(const std::string& text) {
+    try {
+        read_text(text);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing";
 }
 
 /// The "v" lines of an OBJ, read in the plainest way there is.
@@ -102,6 +109,77 @@ TEST(ReadMesh, ReadsTheIctHeadWellUnderASecond) {
     RecordProperty("seconds", std::to_string(seconds));
     EXPECT_LT(seconds, 1.0);
     EXPECT_EQ(mesh.corner_texcoord.rows(), static_cast<long>(mesh.corner_vertex.size()));
+}
+
+TEST(ReadMesh, TheSkinOfEachHeadPassesTheChecks) {
+    if (!fs::exists(kHeads)) GTEST_SKIP();
+    const auto check = [](const fs::path& file, const std::vector<std::string>& groups) {
+        const geom::PolygonMesh mesh = read_mesh(file, {.metres_per_unit = 0.01});
+        geom::MeshCheckOptions options{.metres_per_unit = 0.01};
+        for (const std::string& group : groups) options.groups.push_back(mesh.group_index(group));
+        return geom::check_mesh(mesh, file.string(), options);
+    };
+    const geom::MeshReport ict =
+        check(kHeads / "ict" / "ict_neutral.obj",
+              {"face", "head_neck", "mouth_socket", "eye_socket_l", "eye_socket_r"});
+    EXPECT_TRUE(ict.findings.empty());
+    EXPECT_EQ(ict.piece_face_count, (std::vector<int>{14034}));
+    EXPECT_EQ(ict.boundary_loop_count, 1);  // the neck
+    const geom::MeshReport makehuman = check(kHeads / "makehuman" / "mh_head.obj", {"skin"});
+    EXPECT_TRUE(makehuman.findings.empty());
+    EXPECT_EQ(makehuman.boundary_loop_count, 1);
+    // The same skin cut along its texture seams: notes, no errors.
+    const geom::MeshReport glb = check(kHeads / "makehuman" / "mh_head.glb", {"skin"});
+    EXPECT_EQ(glb.piece_face_count.size(), 5u);
+    for (const geom::MeshFinding& finding : glb.findings)
+        EXPECT_EQ(finding.severity, geom::Severity::kNote);
+}
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(ReadObj, UnderstandsEveryWayToWriteACorner) {
+    const std::string texcoords = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
+    for (const std::string face :
+         {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
+          "f -4 -3 -2 -1", "f 1 2 \\\n 3 4", "f 1 2 3 4\r"}) {
+        const geom::PolygonMesh mesh = read_text(kSquare + texcoords + face + "\n");
+        EXPECT_EQ(mesh.corner_vertex, (std::vector<int>{0, 1, 2, 3})) << face;
+    }
+    const geom::PolygonMesh mesh = read_text(kSquare + texcoords + "f 1/4 2/3 3/2 4/1\n");
+    EXPECT_EQ(mesh.corner_texcoord(0, 1), 1.0);
+    EXPECT_EQ(mesh.corner_texcoord(3, 0), 0.0);
+}
+
+TEST(ReadObj, GroupsAreObjectsOrMaterialsWhereThereAreNoGroups) {
+    const std::string face = "f 1 2 3 4\n";
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(read_text(kSquare + face).group_names, Names{"default"});
+    EXPECT_EQ(read_text(kSquare + "o head\nusemtl skin\n" + face).group_names, Names{"head"});
+    EXPECT_EQ(read_text(kSquare + "usemtl skin\n" + face + "usemtl lips\n" + face).group_names,
+              (Names{"skin", "lips"}));
+    const geom::PolygonMesh again =
+        read_text(kSquare + "g a b\n" + face + "g c\n" + face + "g a b\n" + face);
+    EXPECT_EQ(again.group_names, (Names{"a b", "c"}));
+    EXPECT_EQ(again.face_group, (std::vector<int>{0, 1, 0}));
+    EXPECT_EQ(read_text(kSquare + "o nothing\ng face\n" + face).group_names, Names{"face"});
+}
+
+TEST(ReadObj, AFaceMayComeBeforeItsVertices) {
+    EXPECT_EQ(read_text("f 1 2 3 4\n" + kSquare).corner_vertex, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(ReadObj, NamesTheLineOfAMistake) {
+    EXPECT_EQ(complaint("v 0 0\n"), "text.obj:1: expected three coordinates after \"v\", found 2");
+    EXPECT_EQ(complaint(kSquare + "f 1 2\n"),
+              "text.obj:5: expected a face of at least three corners, found 2");
+    EXPECT_EQ(complaint(kSquare + "f 1 2 x\n"),
+              "text.obj:5: expected a face corner v, v/vt, v//vn or v/vt/vn, found \"x\"");
+    EXPECT_EQ(complaint(kSquare + "f 1 2 -5\n"),
+              "text.obj:5: expected the index of a vertex (from 1, or back from -1), found -5");
+    EXPECT_EQ(complaint(kSquare + "f 1/1 2/1 3/1\n"),
+              "text.obj:5: expected a texture coordinate index of at most 0, found 1");
+    EXPECT_EQ(complaint("v 0 0 1e999\n"),
+              "text.obj:1: expected a number that a double can hold, found \"1e999\"");
 }
 
 }  // namespace

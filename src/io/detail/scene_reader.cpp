@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -57,8 +58,8 @@ bool same_vertices(const aiMesh& a, const aiMesh& b) {
 
 class SceneReader {
   public:
-    SceneReader(const aiScene& scene, bool keep_vertices)
-        : scene_(scene), keep_vertices_(keep_vertices) {}
+    SceneReader(const aiScene& scene, const std::string& name, bool keep_vertices)
+        : scene_(scene), name_(name), keep_vertices_(keep_vertices) {}
 
     geom::PolygonMesh read() {
         add_node(*scene_.mRootNode, Rigid::MatrixType::Identity());
@@ -89,6 +90,7 @@ class SceneReader {
         std::map<Key, int> vertex_at;
         std::vector<int> first_vertex(meshes.size());
         for (std::size_t m = 0; m < meshes.size(); ++m) {
+            require_valid_indices(*meshes[m]);
             const int group = new_group(node, meshes, m);
             if (!keep_vertices_ && is_unrolled(*meshes[m])) {
                 add_faces(*meshes[m], world, group, join_corners(*meshes[m], world, vertex_at));
@@ -110,6 +112,16 @@ class SceneReader {
             add_faces(*meshes[m], world, group, vertices);
         }
         for (unsigned c = 0; c < node.mNumChildren; ++c) add_node(*node.mChildren[c], world);
+    }
+
+    /// assimp passes indices of some formats (PLY) on without looking at them.
+    void require_valid_indices(const aiMesh& mesh) const {
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices)
+                    throw Error(name_ + ":face " + std::to_string(f),
+                                "vertices in 0 .. " + std::to_string(mesh.mNumVertices - 1),
+                                std::to_string(mesh.mFaces[f].mIndices[k]));
     }
 
     static Vec3 transformed(const Matrix4& world, const aiVector3D& p) {
@@ -177,6 +189,7 @@ class SceneReader {
     }
 
     const aiScene& scene_;
+    std::string name_;
     bool keep_vertices_;
     geom::PolygonMesh mesh_;
     std::vector<Vec3> positions_;
@@ -195,7 +208,7 @@ geom::PolygonMesh read_scene(const std::filesystem::path& file, bool keep_vertic
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     if (!scene || !scene->mRootNode)
         throw Error(file.string(), "a mesh that assimp can read", importer.GetErrorString());
-    geom::PolygonMesh mesh = SceneReader(*scene, keep_vertices).read();
+    geom::PolygonMesh mesh = SceneReader(*scene, file.string(), keep_vertices).read();
     if (mesh.face_count() == 0) throw Error(file.string(), "faces", "none");
     mesh.positions *= stated_metres_per_unit(*scene);
     return mesh;
