@@ -165,9 +165,7 @@ struct OffscreenView::Impl {
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
             materials->use(batch, pose, marks);
-            glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(
-                               static_cast<std::size_t>(batch.first_index) * sizeof(unsigned)));
+            buffers->draw(batch);
         }
         materials->done();
         glDisable(GL_FRAMEBUFFER_SRGB);

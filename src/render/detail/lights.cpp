@@ -92,13 +92,9 @@ void Lights::draw_shadow(const SceneBuffers& buffers) const {
     glClear(GL_DEPTH_BUFFER_BIT);
     program_.use();
     glUniformMatrix4fv(program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world_.data());
-    for (const Batch& batch : buffers.batches()) {
-        // Clear, or finer than a texel of the map
-        if (batch.material == Material::kCornea || batch.material == Material::kLashes) continue;
-        glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(static_cast<std::size_t>(batch.first_index) *
-                                                     sizeof(unsigned)));
-    }
+    // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
+    for (const Batch& batch : buffers.batches())
+        if (batch.material == Material::kSkin) buffers.draw(batch);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glActiveTexture(GL_TEXTURE0 + kShadowUnit);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);

@@ -60,20 +60,20 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
         const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
         // Full in the middle, thin at the tail, ragged at the head
         const double half_band =
-            0.0048 * (0.55 + 0.45 * std::min(1.0, t / 0.18)) * (1.0 - 0.78 * std::pow(t, 1.6));
+            0.0046 * (0.45 + 0.55 * std::min(1.0, t / 0.22)) * (1.0 - 0.78 * std::pow(t, 1.6));
         const double offset = random.next() + random.next() - 1.0;
         const double band_s = offset * half_band;
         const Vec2 root = map[k] + (at - static_cast<double>(k)) * (map[k + 1] - map[k]) +
                           kMapPerMetre * (band_s - 0.0006) * up;
-        const double lean = (70.0 - 58.0 * std::min(1.0, t / 0.45)) -
+        const double lean = (52.0 - 40.0 * std::min(1.0, t / 0.40)) -
                             42.0 * offset * std::min(1.0, t / 0.3) + 22.0 * (random.next() - 0.5);
         const double angle = lean * std::numbers::pi / 180;
-        const double length = (0.0058 + 0.0038 * random.next()) * (1.0 - 0.42 * t);
+        const double length = (0.0045 + 0.0035 * random.next()) * (1.0 - 0.35 * t);
         const Vec2 direction = std::cos(angle) * axis + std::sin(angle) * up;
         const double shade = 0.7 + 0.7 * random.next();
         const double density = 0.52 + 0.25 * random.next();
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00022,
-                hair * shade, density * std::min(1.0, 0.55 + t / 0.15));
+                hair * shade, density * std::min(1.0, 0.35 + t / 0.22));
     }
 }
 

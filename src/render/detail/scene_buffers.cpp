@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "core/error.h"
+#include "render/detail/face_order.h"
+#include "render/detail/lash_strands.h"
 #include "render/detail/shaders.h"
 #include "render/detail/skin_paint.h"
 
@@ -51,7 +52,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     // Batches: near triangles first, so that hidden ones fail the depth test before they are shaded.
     for (const Material material : kDrawOrder)
         for (const int eye : {-1, 0, 1}) {
-            std::vector<std::array<int, 3>> faces;
+            std::vector<Face> faces;
             for (const Surface& surface : scene.surfaces) {
                 const bool of_eye = material == Material::kEye || material == Material::kCornea;
                 if (surface.material != material || (of_eye ? std::max(surface.eye, 0) : -1) != eye)
@@ -61,34 +62,36 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
                                      surface.triangles(f, 2)});
             }
             if (faces.empty()) continue;
-            std::vector<double> distance(faces.size());
-            for (std::size_t f = 0; f < faces.size(); ++f)
-                distance[f] = ((scene.rest.row(faces[f][0]) + scene.rest.row(faces[f][1]) +
-                                scene.rest.row(faces[f][2]))
-                                       .transpose() /
-                                   3 -
-                               camera)
-                                  .squaredNorm();
-            std::vector<std::size_t> order(faces.size());
-            std::iota(order.begin(), order.end(), 0);
-            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-                return distance[a] < distance[b];
-            });
+            bool cull = false;
+            if (material == Material::kSkin) {
+                cull = is_wound_outwards(scene.rest, faces, paint_centre);
+            } else if (material == Material::kEye || material == Material::kTeeth) {
+                wind_outwards(scene.rest, faces);
+                cull = true;
+            }
+            order_for_drawing(scene.rest, camera, faces);
             batches_.push_back({material, eye, static_cast<int>(indices_.size()),
-                                static_cast<int>(3 * faces.size())});
-            for (const std::size_t f : order)
-                for (const int v : faces[f]) indices_.push_back(static_cast<unsigned>(v));
+                                static_cast<int>(3 * faces.size()), cull});
+            for (const Face& face : faces)
+                for (const int v : face) indices_.push_back(static_cast<unsigned>(v));
         }
     index_count_ = static_cast<int>(indices_.size());
 
     const auto vertices = static_cast<std::size_t>(scene.rest.rows());
+    const std::vector<float> lash = lash_coordinates(scene);
+    std::vector<bool> is_lash(vertices, false);
+    for (const Surface& surface : scene.surfaces)
+        if (surface.material == Material::kLashes)
+            for (Eigen::Index i = 0; i < surface.triangles.size(); ++i)
+                is_lash[static_cast<std::size_t>(surface.triangles.data()[i])] = true;
     std::vector<float> fixed;
     for (std::size_t v = 0; v < vertices; ++v) {
         const Vec3 p = scene.rest.row(static_cast<Eigen::Index>(v)).transpose();
         const Vec2 place = paint_place(p, paint_centre);
         for (int k = 0; k < 3; ++k) fixed.push_back(static_cast<float>(p[k]));
         for (int k = 0; k < 2; ++k) {
-            fixed.push_back(static_cast<float>(place[k]));
+            fixed.push_back(is_lash[v] ? lash[2 * v + static_cast<std::size_t>(k)]
+                                       : static_cast<float>(place[k]));
             paint_.push_back(static_cast<float>(place[k]));
         }
     }
@@ -147,6 +150,14 @@ void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
 
 int SceneBuffers::skin_index_count() const {
     return batches_.front().material == Material::kSkin ? batches_.front().index_count : 0;
+}
+
+void SceneBuffers::draw(const Batch& batch) const {
+    if (batch.cull_back) glEnable(GL_CULL_FACE);
+    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(static_cast<std::size_t>(batch.first_index) *
+                                                 sizeof(unsigned)));
+    glDisable(GL_CULL_FACE);
 }
 
 std::vector<unsigned> SceneBuffers::paintable_triangles() const {

@@ -15,6 +15,7 @@ struct Batch {
     int eye;
     int first_index;
     int index_count;
+    bool cull_back;  ///< counter-clockwise from outside, so what turns away is hidden
 };
 
 class SceneBuffers {
@@ -29,6 +30,7 @@ class SceneBuffers {
     void upload(const Points& positions);
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
+    void draw(const Batch& batch) const;
     const std::vector<Batch>& batches() const { return batches_; }
     int index_count() const { return index_count_; }
     int skin_index_count() const;

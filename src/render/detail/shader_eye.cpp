@@ -66,8 +66,8 @@ void main() {
     float fibre = noise(vec3(round_ * 17.0 + 50.0, r * 3.0 + 5.0)) * 0.6 + noise(vec3(round_ * 38.0 + 90.0, r * 5.0 + 9.0)) * 0.4;
     float p = pupil_radius / iris_radius;
     float ring = (r - p) / (1.0 - p);
-    vec3 iris = iris_tone * (0.45 + 1.1 * fibre);
-    vec3 warm = vec3(0.42, 0.24, 0.085) * (0.6 + 0.8 * fibre);
+    vec3 iris = iris_tone * (0.22 + 0.75 * fibre);
+    vec3 warm = vec3(0.24, 0.13, 0.045) * (0.5 + 0.9 * fibre);
     iris = mix(iris, warm, 0.55 * smoothstep(0.42, 0.08, ring + 0.25 * (fibre - 0.5)));
     iris *= mix(1.0, 0.28, smoothstep(0.72, 1.0, r));
     iris *= smoothstep(-0.05, 0.16, ring) * 0.75 + 0.25;

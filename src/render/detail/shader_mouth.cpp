@@ -52,22 +52,9 @@ void main() {
 }
 )";
 
-constexpr const char* kLash = R"(
-in vec3 position;
-in vec3 normal;
-out vec4 colour;
-uniform vec3 albedo;      // linear
-void main() {
-    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-    float d = 0.5 + 0.5 * dot(n, key_direction.xyz);
-    colour = vec4(film(albedo * (key_radiance.rgb * d + ambient(n))), 1.0);
-}
-)";
-
 }  // namespace
 
 std::string teeth_shader() { return lighting_chunk() + kTeeth; }
 std::string mucosa_shader() { return lighting_chunk() + noise_chunk() + kMucosa; }
-std::string lash_shader() { return lighting_chunk() + kLash; }
 
 }  // namespace risorius::render
