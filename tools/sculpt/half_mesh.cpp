@@ -92,6 +92,29 @@ void HalfMesh::relax(int iterations, double rate, const std::function<Vec3(const
     }
 }
 
+void HalfMesh::smooth(int iterations, const std::vector<double>& share) {
+    constexpr double kShrink = 0.5, kGrow = -0.53;
+    const auto around = neighbours();
+    std::vector<Vec3> moved = point;
+    for (int step = 0; step < 2 * iterations; ++step) {
+        const double rate = step % 2 == 0 ? kShrink : kGrow;
+        for (std::size_t v = 0; v < point.size(); ++v) {
+            if (share[v] <= 0) continue;
+            Vec3 sum = Vec3::Zero();
+            double weight = 0;
+            for (const int n : around[v]) {
+                const Vec3& p = point[static_cast<std::size_t>(n)];
+                const double w = midline[v] && !midline[static_cast<std::size_t>(n)] ? 2 : 1;
+                sum += w * p;
+                weight += w;
+            }
+            moved[v] = point[v] + share[v] * rate * (sum / weight - point[v]);
+            if (midline[v]) moved[v].x() = 0;
+        }
+        point = moved;
+    }
+}
+
 std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count, bool closed) {
     std::vector<Vec3> out;
     const int n = static_cast<int>(through.size());

@@ -36,6 +36,9 @@ struct HalfMesh {
     /// Neighbours along edges; the midline sees both halves.
     std::vector<std::vector<int>> neighbours() const;
 
+    /// Takes ripples out without shrinking (Taubin 1995): `share` 0..1 says how much each vertex takes part.
+    void smooth(int iterations, const std::vector<double>& share);
+
     /// Moves vertices towards the mean of their neighbours; those on the head are put back on it by `project`.
     void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project, Hold which);
 };

@@ -53,14 +53,38 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
     const auto before_margin = [&](int k) {
         return clear_of_globe(head.project(margin[k] + 1.5 * outwards(k)), globe, 1.3);
     };
+    // The upper lid folds in along a crease some millimetres above its margin, and hangs over it a little.
+    const double peak = (tables.landmarks.at("ucr_l") - tables.landmarks.at("ps_l")).norm();
+    const auto lid_height = [&](int k, double share) {
+        const int along = k >= kOuter ? k - kOuter : k < kInner ? k + kLoop - kOuter : -1;
+        if (along < 0) return 0.0;
+        const double u = static_cast<double>(along) / (kLoop + kInner - kOuter);
+        return share * peak * std::pow(std::sin(M_PI * u), 0.7);
+    };
+    const auto on_lid = [&](int k, double height, double raise) {
+        Vec3 p = head.project(margin[k] + height * outwards(k));
+        p += raise * Vec3(0.25, -0.1, 1).normalized();
+        return clear_of_globe(p, globe, 1.2);
+    };
     constexpr int kSkinRings = 5;
     for (int r = 1; r <= kSkinRings; ++r) {
         const double t = static_cast<double>(r) / (kSkinRings + 1);
-        ring([&](int k) {
+        const std::vector<int> ids = ring([&](int k) {
             const Vec3 p = (1 - t) * mesh.point[static_cast<std::size_t>(block[k])] + t * before_margin(k);
             return clear_of_globe(head.project(p), globe, 1.3);
         }, Hold::kOnHead);
+        constexpr double kShare[] = {0, 0, 0, 1.35, 0.98, 0.62}, kRaise[] = {0, 0, 0, 0.5, -0.9, 0.0};
+        if (kShare[r] == 0) continue;
+        for (int k = 0; k < kLoop; ++k) {
+            const double height = lid_height(k, kShare[r]);
+            if (height < 2.6) continue;  // near the canthi the fold runs out
+            const auto v = static_cast<std::size_t>(ids[static_cast<std::size_t>(k)]);
+            const double fade = std::min(1.0, (height - 2.0) / 2.5);
+            mesh.point[v] = on_lid(k, height, kRaise[r] * fade);
+            mesh.hold[v] = Hold::kPinned;
+        }
     }
+    const std::size_t first_fixed = mesh.point.size();
     ring(before_margin, Hold::kPinned);
     skin.lid_margin = ring([&](int k) { return clear_of_globe(margin[k], globe, 0.9); }, Hold::kPinned);
     const auto on_globe = [&](int k, double beyond) {
@@ -75,6 +99,7 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
     }, Hold::kPinned);
     ring([&](int k) { return on_globe(k, 1.6); }, Hold::kPinned);
     ring([&](int k) { return on_globe(k, 3.4); }, Hold::kPinned);
+    for (std::size_t v = first_fixed; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));
 }
 
 }  // namespace risorius::sculpt

@@ -75,6 +75,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
             return head.project((1 - t) * mesh.point[static_cast<std::size_t>(block[k])] + t * border(k));
         }, Hold::kOnHead, 0);
     }
+    const std::size_t first_fixed = mesh.point.size();
     ring(border, Hold::kPinned, 0);
     // Across the red of the lip: full at first, then turning in to the line of contact.
     const auto across = [&](int k, double t) {
@@ -83,7 +84,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
         Vec3 full = b;
         const double fullness = std::min(1.0, 1.6 * side);
         full.y() = m.y() + (is_upper(k) ? 0.3 : -0.8) * fullness;
-        full.z() = b.z() + (is_upper(k) ? -0.9 : 2.0) * fullness;
+        full.z() = b.z() + (is_upper(k) ? -0.9 : 3.0) * fullness;
         full.x() = 0.5 * (b.x() + m.x());
         return Vec3((1 - t) * (1 - t) * b + 2 * t * (1 - t) * full + t * t * m);
     };
@@ -101,7 +102,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
             p.x() *= 1 - 0.016 * depth;
             p.z() -= depth;
             return p;
-        }, Hold::kPinned, 1);
+        }, Hold::kPinned, 0);
     for (const Section& section : kSections)
         ring([&](int k) {
             const double angle = M_PI * k / kHalfLoop;  // 0 below, pi above
@@ -111,6 +112,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
             const double w = x / section.half_width;
             return Vec3(k == 0 || k == kHalfLoop ? 0 : x, y, section.front - section.bend * w * w);
         }, Hold::kPinned, 1);
+    for (std::size_t v = first_fixed; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));
     // The throat closes as a seam.
     for (int k = 0; k + 1 < kCorner; ++k)
         mesh.quad(previous[k], previous[k + 1], previous[kHalfLoop - k - 1], previous[kHalfLoop - k], 1);

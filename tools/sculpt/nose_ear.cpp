@@ -47,6 +47,7 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(between(crease, wing, edge, rim), Hold::kSmooth);
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
+    const std::size_t inner = mesh.point.size() - kLoop;
     // The nostril goes up and slightly back, narrowing.
     Vec3 centre = Vec3::Zero();
     for (const Vec3& p : rim) centre += p / kLoop;
@@ -58,6 +59,7 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
         ring(points, Hold::kPinned);
     }
     mesh.fill(previous, kRows, kAcross, Hold::kPinned);
+    for (std::size_t v = inner; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));
 }
 
 void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables) {

@@ -127,6 +127,30 @@ void add_skirt(Skin& skin) {
         for (int c = 0; c < kColumns; ++c) mesh.quad(rows[k][c], rows[k + 1][c], rows[k + 1][c + 1], rows[k][c + 1]);
 }
 
+/// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
+double philtrum(const Vec3& p) {
+    if (p.z() < 80 || p.y() > -30 || p.y() < -46) return 0;
+    const double along = std::clamp((-31.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
+    const double ridge = 3.6 + 2.2 * std::clamp((-32.0 - p.y()) / 12.0, 0.0, 1.0), x = std::abs(p.x());
+    const auto bell = [](double t) { return std::exp(-t * t); };
+    return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
+}
+
+/// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.
+void smooth_joints(Skin& skin) {
+    HalfMesh& mesh = skin.mesh;
+    std::vector<double> nose(mesh.point.size(), 0.0), crown(mesh.point.size(), 0.0);
+    const auto fall = [](double d, double from, double to) { return std::clamp((to - d) / (to - from), 0.0, 1.0); };
+    for (std::size_t v = 0; v < mesh.point.size(); ++v) {
+        const Vec3& p = mesh.point[v];
+        nose[v] = p.y() > -34 ? fall((p - Vec3(11, -20, 102)).norm(), 12, 18) : 0;
+        crown[v] = fall(Vec2(p.x(), p.z() - 5).norm(), 30, 55) * (p.y() > 90 ? 1 : 0);
+    }
+    for (const int v : skin.fixed) nose[static_cast<std::size_t>(v)] = 0;
+    mesh.smooth(6, nose);
+    mesh.smooth(60, crown);
+}
+
 }  // namespace
 
 std::vector<int> block_loop(const std::vector<std::vector<int>>& grid, int row0, int row1, int column0, int column1) {
@@ -184,9 +208,14 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     add_nasal_wing(skin, loop(kNoseBlock), tables);
     add_ear(skin, loop(kEarBlock), tables);
 
-    const auto on_head = [&](const Vec3& p) { return clear_of_globe(head.project(p), globe, 1.3); };
+    const auto on_head = [&](const Vec3& p) {
+        Vec3 q = clear_of_globe(head.project(p), globe, 1.3);
+        q.z() += philtrum(q);
+        return q;
+    };
     mesh.relax(60, 0.5, on_head, Hold::kOnHead);
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
+    smooth_joints(skin);
     add_skirt(skin);
     return skin;
 }

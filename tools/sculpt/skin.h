@@ -15,6 +15,7 @@ struct Skin {
     HalfMesh mesh;
     std::vector<std::vector<int>> grid;    ///< [row][column], -1 inside a block
     std::vector<int> upper_margin, lower_margin;  ///< lips, midline to corner, corner shared
+    std::vector<int> fixed;                ///< keep their sharpness when the rest is smoothed: nostril rims, lids, lips
     std::vector<int> lid_margin;           ///< outer edge, from the inner canthus along the lower lid and back
     std::map<std::string, int> landmark;   ///< those that are vertices by construction
 };
