@@ -1,0 +1,14 @@
+// What is inside the mouth: two arches of fourteen crowns, their gums, and the tongue at rest. Lengths in mm.
+#pragma once
+
+#include "geom/polygon_mesh.h"
+
+namespace risorius::sculpt {
+
+enum class Arch { kUpper, kLower };
+
+geom::PolygonMesh teeth(Arch arch, const std::string& group);
+geom::PolygonMesh gums(Arch arch, const std::string& group);
+geom::PolygonMesh tongue(const std::string& group);
+
+}  // namespace risorius::sculpt
