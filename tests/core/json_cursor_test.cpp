@@ -174,7 +174,7 @@ TEST(JsonCursor, NumberTooLargeForADoubleIsRefused) {
     EXPECT_EQ(message_of([&] { infinite.number(); }),
               "rig.json:/: expected a finite number, found null");
     EXPECT_EQ(TemporaryFile("{\"a\": 1e999}").message(),
-              "script.json: expected numbers below 1.8e308, found 1e999");
+              "script.json: expected numbers within +-1.8e308, found '1e999'");
 }
 
 TEST(JsonCursor, IntegerRefusesFractionsAndTheWrongSize) {
