@@ -39,6 +39,7 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("damping_s", tissue.damping_s, Range{0, 10});
     visit("contact_pa_per_m", tissue.contact_pa_per_m, Range{0, 1e12});
     visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
+    visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
     visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }

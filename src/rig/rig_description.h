@@ -57,12 +57,13 @@ struct TissueDescription {
     double damping_s = 0.02;                ///< stiffness-proportional damping
     double contact_pa_per_m = 1.5e7;       ///< deep tissue against bone and teeth, lip against lip
     double lid_shear_ratio = 0.05;          ///< lid tissue against the rest
+    double lip_shear_ratio = 0.2;           ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 6.0;
     double force_scale = 1.5;               ///< on every muscle, on top of its strength
 };
 
 struct SkinDescription {
-    double membrane_n_per_m = 20;
+    double membrane_n_per_m = 10;
     double bending_n_m = 2e-5;
     double lid_membrane_ratio = 0.02;
 };

@@ -40,9 +40,14 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         if (distance_to_polyline(skin, lips) < head.mm(60)) {
-            const double share = jaw.weight(skin);
-            if (share < 0.6) skull_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
-            if (share > 0.4) mandible_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
+            // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
+            const double share = jaw.weight(skin, shell.over_bite_m[v]);
+            const double reach = std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v]));
+            const bool above_bite = shell.over_bite_m[v] > 0;
+            if (above_bite && share < 0.6)
+                skull_.push_back({deep, mesh.direction[v], reach});
+            if (!above_bite && share > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
+                mandible_.push_back({deep, mesh.direction[v], reach});
         }
     }
     for (int v = 0; v < count; ++v) {
@@ -57,7 +62,7 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
             touching.push_back({node.node, stiffness});
         }
         if (from_mouth < head.mm(7)) {
-            (jaw.height_over_bite(skin) >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
+            (shell.over_bite_m[v] >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
             touching.push_back({node_of(v, kSkin), stiffness});
         }
         for (int side = 0; side < 2; ++side) {
@@ -102,6 +107,8 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         const double rest_gap =
             std::min(0.0, (Vec3(rest_.row(node.node).transpose()) - at.point).dot(at.normal));
         if (gap - rest_gap > 3e-3) return;  // too far to matter within one step
+        // Beyond the bone's edge its plane means nothing: a chin that has dropped is not below the upper teeth.
+        if ((p - at.point - gap * at.normal).norm() > at.reach) return;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
         contact.point = carried ? Vec3(*carried * at.point) : at.point;

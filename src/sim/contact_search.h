@@ -34,7 +34,7 @@ class ContactSearch {
   private:
     struct BonePoint {
         Vec3 point, normal;
-        int node;
+        double reach;               // how far its plane stands for the bone around it, m
     };
     struct DeepNode {
         int node;

@@ -112,6 +112,7 @@ struct Face::Impl {
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
+    std::vector<Vec3> lips;
     Points work_, damped_;
 
     Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh, const Quality& q,
@@ -121,11 +122,12 @@ struct Face::Impl {
           head(rig::place_head(rig, polygon_mesh, place)),
           lids{EyeLids(head, 0, rig.eyes.lid_closed_share), EyeLids(head, 1, rig.eyes.lid_closed_share)},
           jaw(head, rig.jaw),
-          shell(build_shell(head, lids, {q.shell_vertices})),
+          shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           muscles(place_muscles(head, rig, shell, mesh)),
           attachments(place_attachments(head, rig, jaw, shell, mesh)),
-          channels(rig.channels()) {
+          channels(rig.channels()),
+          lips(lip_line(head)) {
         build_terms();
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
@@ -147,6 +149,11 @@ struct Face::Impl {
         return share;
     }
 
+    // Share of lip softness at a skin point: 1 at the line between the lips, 0 a lip's height away.
+    double lip_share(const Vec3& p) const {
+        return 1.0 - smoothstep(head.mm(6), head.mm(14), distance_to_polyline(p, lips));
+    }
+
     void build_terms() {
         const int n = nodes();
         fixed.assign(static_cast<std::size_t>(n), 0);
@@ -160,11 +167,12 @@ struct Face::Impl {
         for (long t = 0; t < mesh.tets.rows(); ++t) {
             Vec3 centre = Vec3::Zero();
             for (int k = 0; k < 4; ++k) centre += 0.25 * mesh.nodes.row(mesh.tets(t, k)).transpose();
-            double ratio = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre));
+            double ratio = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre)) *
+                           std::pow(rig.tissue.lip_shear_ratio, lip_share(centre));
             for (const Vec3& knot : modiolus)
                 if ((centre - knot).norm() < head.mm(9)) ratio *= rig.tissue.modiolus_shear_ratio;
             mu[t] = ratio * (mesh.tet_layer[t] == kMiddle ? rig.tissue.deep_shear_pa : rig.tissue.superficial_shear_pa);
-            bulk[t] = std::min(1.0, ratio) * rig.tissue.bulk_pa;
+            bulk[t] = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre)) * rig.tissue.bulk_pa;
         }
         tets.emplace(mesh.tets, mesh.nodes, mu, bulk);
 
@@ -176,7 +184,8 @@ struct Face::Impl {
                 centre += mesh.nodes.row(node_of(shell.triangles(f, k), kSkin)).transpose() / 3.0;
                 sheet(f, k) = node_of(shell.triangles(f, k), kSkin);
             }
-            const double ratio = std::pow(rig.skin.lid_membrane_ratio, lid_share(centre));
+            const double ratio = std::pow(rig.skin.lid_membrane_ratio, lid_share(centre)) *
+                                 std::pow(rig.tissue.lip_shear_ratio, lip_share(centre));
             membrane[f] = ratio * rig.skin.membrane_n_per_m;
             bending[f] = ratio * rig.skin.bending_n_m;
         }

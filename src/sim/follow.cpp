@@ -38,7 +38,7 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std:
             const double surface = head.eyes[side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze)));
             // Never more than at rest, so that rest stays as it was imported
             const double clearance = std::min(from_centre - surface, head.mm(1.6));
-            lid_vertices_.push_back({side, member, from_centre < lids[side].zone_m() + head.mm(1) ? clearance : kNotKept});
+            lid_vertices_.push_back({side, member, clearance});
         }
     }
 

@@ -141,7 +141,7 @@ std::vector<Vec3> lip_line(const rig::Head& head) {
             head.landmark("ch_l")};
 }
 
-Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
+Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
                   const ShellOptions& options) {
     const long count = head.vertices.rows();
     const std::vector<Vec3> lips = lip_line(head);
@@ -232,6 +232,7 @@ Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
     for (long v = 0; v < count; ++v)
         if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
     for (int v : shell.vertex) shell.fixed.push_back(border[v]);
+    shell.over_bite_m = bite_heights(head, jaw, shell);
     return shell;
 }
 
