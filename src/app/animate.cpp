@@ -1,0 +1,250 @@
+#include "app/animate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "app/frame_table.h"
+#include "app/rig_files.h"
+#include "app/scene_from_rig.h"
+#include "app/staged_file.h"
+#include "app/two_stages.h"
+#include "media/image_file.h"
+#include "media/sha256.h"
+#include "media/video_writer.h"
+#include "render/offscreen_view.h"
+#include "sim/face.h"
+#include "track/script.h"
+#include "track/timeline.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What to show: the script's own view and whatever the options put in its place.
+struct Shot {
+    track::ScriptHeader script;
+    int frames = 0;
+    double first_s = 0;
+    render::ViewOptions view;
+
+    double time_s(int frame) const { return first_s + static_cast<double>(frame) / script.fps; }
+    media::VideoOptions video() const {
+        return {.width_px = view.width_px, .height_px = view.height_px, .fps = script.fps};
+    }
+};
+
+Shot plan_shot(const AnimateOptions& options) {
+    Shot shot;
+    shot.script = track::read_script_header(options.script);
+    if (options.rig) shot.script.rig_file = *options.rig;
+    if (options.fps) {
+        if (*options.fps < 1 || *options.fps > 240)
+            throw Error("--fps", "an integer in [1, 240]", std::to_string(*options.fps));
+        shot.script.fps = *options.fps;
+    }
+    shot.frames = shot.script.frame_count();
+    if (shot.frames < 1)
+        throw Error("--fps",
+                    "at least one frame in " + format_number(shot.script.duration_s) + " s",
+                    std::to_string(shot.script.fps));
+    const track::ScriptView& asked = shot.script.view;
+    shot.view.width_px = options.size ? options.size->width_px : asked.width_px;
+    shot.view.height_px = options.size ? options.size->height_px : asked.height_px;
+    shot.view.camera = options.camera.value_or(asked.camera);
+    shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
+    shot.view.threads = std::max(0, options.threads - 2);
+
+    // Refuse now what would only fail after minutes
+    const auto& cameras = render::camera_names();
+    if (std::find(cameras.begin(), cameras.end(), shot.view.camera) == cameras.end()) {
+        std::string names;
+        for (const std::string& name : cameras) names += " \"" + name + "\"";
+        throw Error("--camera", "one of" + names, "\"" + shot.view.camera + "\"");
+    }
+    for (int side : {shot.view.width_px, shot.view.height_px})
+        if (side < 16 || side > 8192)
+            throw Error("--size", "a width and a height in [16, 8192]", std::to_string(side));
+    if (!options.still_s) {
+        media::check_target(options.out, shot.video());
+        if (shot.view.background.transparent && options.out.extension() == ".mp4")
+            throw Error(options.out.string(), "an ending that keeps transparency, .mkv or /",
+                        "\".mp4\"");
+        return shot;
+    }
+    if (!(*options.still_s >= 0 && *options.still_s <= shot.script.duration_s))
+        throw Error("--still", "a time in [0, " + format_number(shot.script.duration_s) + "]",
+                    format_number(*options.still_s));
+    if (options.out.extension() != ".png")
+        throw Error(options.out.string(), "an ending of .png for a still",
+                    "\"" + options.out.extension().string() + "\"");
+    shot.frames = 1;
+    shot.first_s = *options.still_s;
+    return shot;
+}
+
+// A video, or for a still a single picture.
+class Output {
+  public:
+    Output(const fs::path& out, const Shot& shot, bool still) : out_(out) {
+        if (!still) video_.emplace(out, shot.video());
+    }
+    void append(Image image) {
+        if (video_)
+            video_->append(image);
+        else
+            still_ = std::move(image);
+    }
+    void finish() {
+        if (video_)
+            video_->finish();
+        else
+            media::write_png(still_, out_);
+    }
+
+  private:
+    fs::path out_;
+    std::optional<media::VideoWriter> video_;
+    Image still_;
+};
+
+// "hello.mp4" -> "hello.mp4.json", "frames/" -> "frames.json"
+fs::path beside(const fs::path& out, const char* ending) {
+    fs::path base = out.has_filename() ? out : out.parent_path();
+    base += ending;
+    return base;
+}
+
+std::string background_text(const render::Background& background) {
+    if (background.transparent) return "transparent";
+    char text[8];
+    const auto byte = [&](int k) {
+        return static_cast<unsigned>(
+            std::lround(255 * background.rgb[static_cast<std::size_t>(k)]));
+    };
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(0) & 255, byte(1) & 255, byte(2) & 255);
+    return text;
+}
+
+// The jaw follows its channels, whatever the muscles that would move it do.
+std::vector<std::string> warnings_about(const track::ScriptDescription& script,
+                                        const rig::MuscleTable& muscles) {
+    std::vector<std::string> out;
+    for (const track::ChannelTrack& channel : script.channels)
+        for (const rig::Muscle& muscle : muscles.muscles)
+            if (muscle.id == track::split_side(channel.name).id &&
+                (muscle.group == "jaw" || muscle.group == "hyoid"))
+                out.push_back("channel " + channel.name +
+                              ": has no effect in this version, in which jaw_open, jaw_forward and "
+                              "jaw_side move the jaw and its muscles do not");
+    return out;
+}
+
+RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFiles& files,
+                   const sim::Face& face) {
+    RunRecord record;
+    record.script = {options.script, media::sha256_of_file(options.script)};
+    record.rig = {files.file, media::sha256_of_file(files.file)};
+    record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
+    record.out = options.out;
+    record.seed = shot.script.seed;
+    record.fps = shot.script.fps;
+    record.frames = shot.frames;
+    record.first_frame_s = shot.first_s;
+    record.width_px = shot.view.width_px;
+    record.height_px = shot.view.height_px;
+    record.camera = shot.view.camera;
+    record.background = background_text(shot.view.background);
+    record.quality = options.quality;
+    record.nodes = face.node_count();
+    record.tets = face.tet_count();
+    record.dropped_tets = face.dropped_tets();
+    record.fibres = face.fibre_count();
+    return record;
+}
+
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+RunRecord animate(const AnimateOptions& options, const Watch& watch) {
+    const Stopwatch total;
+
+    // Read what was asked for
+    const Shot shot = plan_shot(options);
+    const sim::Quality quality = sim::quality_named(options.quality);
+    const RigFiles files = read_rig_files(shot.script.rig_file);
+    const track::ChannelTable channels = files.rig.channels();
+    const track::ScriptDescription script =
+        track::read_script(options.script, channels, files.rig.facs, files.rig.expressions);
+
+    // Build what runs
+    watch.tell(0, "building the face");
+    sim::Face face(files.rig, files.mesh, quality, files.place());
+    const track::Timeline timeline(script, channels);
+    render::OffscreenView view(scene_from_rig(face.head(), files.rig, files.mesh), shot.view);
+    Output output(options.out, shot, options.still_s.has_value());
+    RunRecord record = describe(options, shot, files, face);
+    record.warnings = warnings_about(script, files.rig.muscles);
+    record.timing.build_s = total.seconds();
+
+    // One picture per frame
+    const auto drive = [&](double t_s) { return timeline.at(t_s); };
+    FrameTable table(channels, LandmarkPoints(face.head(), files.rig),
+                     {.landmarks = options.landmarks,
+                      .project = [&](const Vec3& world) { return view.project(world); }});
+    media::Sha256 hash;
+    int most_inverted_tets = 0;
+    const auto simulate = [&](int frame) {
+        const Stopwatch stage;
+        const double t_s = shot.time_s(frame);
+        if (frame == 0) face.start(drive);
+        while (face.time_s() + 2 * sim::kStep_s < t_s) {  // what leads up to a still
+            watch.tell(face.time_s() / t_s, "simulating");
+            face.step(drive);
+        }
+        sim::FacePose pose = face.pose_at(t_s, drive);
+        table.add(frame, t_s, drive(t_s), face.activation_at(t_s), pose);
+        most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
+        record.timing.simulate_s += stage.seconds();
+        return pose;
+    };
+    const auto show = [&](int frame, const sim::FacePose& pose) {
+        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        const Stopwatch drawing;
+        Image image = view.draw(pose_for_view(pose));
+        hash.add(image.rgba.data(), image.rgba.size());
+        record.timing.draw_s += drawing.seconds();
+        const Stopwatch encoding;
+        output.append(std::move(image));
+        record.timing.encode_s += encoding.seconds();
+    };
+    in_two_stages(shot.frames, options.threads, simulate, show);
+
+    // Leave everything or nothing
+    record.frames_sha256 = hash.finish();
+    record.solver = solver_figures(face.history(), most_inverted_tets);
+    record.timing.threads = options.threads;
+    StagedFile frame_table(beside(options.out, ".frames.tsv"), table.text());
+    const Stopwatch closing;
+    output.finish();
+    record.timing.encode_s += closing.seconds();
+    record.timing.total_s = total.seconds();
+    write_text(beside(options.out, ".json"), record.json().dump(2) + "\n");
+    frame_table.commit();
+    watch.tell(1, "done");
+    return record;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,34 @@
+// Finds for one head how strong every muscle has to be for activation 1 to shorten it as published.
+//
+//   s   strength: force / force from the cross-section, ratio, [0.25, 6]
+//   l   mean fibre length / rest length at activation 1
+//
+// Targets for l: 0.72; platysma 0.86; orbicularis oculi 0.85 (orbital) and 0.80 (palpebral).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/watch.h"
+#include "rig/rig_description.h"
+#include "sim/face.h"
+
+namespace risorius::app {
+
+struct MuscleStrength {
+    std::string muscle;
+    double strength = 1;
+    double stretch = 1;  ///< l reached
+    double target_stretch = 1;
+    bool at_limit = false;  ///< the target wants more or less than the limits allow
+    bool converged = true;  ///< the face came to rest in the last trial
+};
+
+double target_stretch(const std::string& muscle);
+
+/// Each muscle of the rig's bands alone, one after the other, by the secant method; `face` is left with the strengths
+/// found. Throws Interrupted.
+std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDescription& rig,
+                                               const Watch& watch);
+
+}  // namespace risorius::app

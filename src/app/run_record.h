@@ -1,0 +1,52 @@
+// What a run was made of and how it went: enough to make the same frames again and to tell whether they are the same.
+// Written as OUT.json. All that may differ between two runs of one script is under "timing".
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json_cursor.h"
+#include "sim/face.h"
+
+namespace risorius::app {
+
+/// How the solver did over a run.
+struct SolverFigures {
+    int steps = 0;
+    double mean_iterations = 0;
+    int max_iterations = 0;
+    double converged_share = 0;           ///< of the steps that reached their tolerance, ratio
+    double largest_last_step_rms_mm = 0;  ///< movement of the nodes in the last iteration of a step
+    double deepest_contact_mm = 0;        ///< penetration left
+    int most_inverted_tets = 0;           ///< in any frame
+};
+SolverFigures solver_figures(const std::vector<sim::StepFigures>& history, int most_inverted_tets);
+
+struct RunTiming {
+    int threads = 1;
+    double build_s = 0, simulate_s = 0, draw_s = 0, encode_s = 0, total_s = 0;
+};
+
+struct RunRecord {
+    struct File {
+        std::filesystem::path path;
+        std::string sha256;
+    };
+    File script, rig, mesh;
+    std::filesystem::path out;
+    int seed = 1;
+    int fps = 60, frames = 0, width_px = 0, height_px = 0;
+    double first_frame_s = 0;  ///< 0 but for a still
+    std::string camera, background;
+    std::string quality;
+    int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
+    SolverFigures solver;
+    std::string frames_sha256;  ///< over the RGBA bytes of all frames, before encoding
+    std::vector<std::string> warnings;
+    RunTiming timing;
+
+    Json json() const;
+};
+
+}  // namespace risorius::app

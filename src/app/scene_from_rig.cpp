@@ -1,0 +1,107 @@
+#include "app/scene_from_rig.h"
+
+#include <functional>
+#include <optional>
+
+namespace risorius::app {
+
+namespace {
+
+using render::Material;
+
+std::optional<Material> material_of(const std::string& role) {
+    if (role == "skin") return Material::kSkin;
+    if (role == "mouth" || role == "eye_socket") return Material::kMouth;  // moist, red
+    if (role.starts_with("eye_")) return Material::kEye;
+    if (role.starts_with("cornea")) return Material::kCornea;
+    if (role.starts_with("teeth")) return Material::kTeeth;
+    if (role.starts_with("gums")) return Material::kGums;
+    if (role == "tongue") return Material::kTongue;
+    if (role.starts_with("lashes")) return Material::kLashes;
+    return std::nullopt;
+}
+
+// The triangles of one group that `wanted` accepts, with their texture coordinates. Seams of the skin are closed by
+// letting every vertex be the one that stands for it, so that normals run across them.
+render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh, int group,
+                           Material material, const std::function<bool(int vertex)>& wanted) {
+    Triangles corners;
+    const Triangles all = geom::triangulate(mesh, {group}, &corners);
+    std::vector<long> kept;
+    Triangles welded = all;
+    for (long f = 0; f < all.rows(); ++f) {
+        for (int k = 0; k < 3; ++k) welded(f, k) = head.welded[static_cast<std::size_t>(all(f, k))];
+        const bool collapsed = welded(f, 0) == welded(f, 1) || welded(f, 1) == welded(f, 2) ||
+                               welded(f, 2) == welded(f, 0);
+        if (!collapsed && wanted(all(f, 0))) kept.push_back(f);
+    }
+    render::Surface surface;
+    surface.material = material;
+    const long count = static_cast<long>(kept.size());
+    surface.triangles.resize(count, 3);
+    if (mesh.corner_texcoord.rows() > 0) surface.texcoords.resize(3 * count, 2);
+    for (long i = 0; i < count; ++i) {
+        const long f = kept[static_cast<std::size_t>(i)];
+        surface.triangles.row(i) = welded.row(f);
+        if (surface.texcoords.rows() > 0)
+            for (int k = 0; k < 3; ++k)
+                surface.texcoords.row(3 * i + k) = mesh.corner_texcoord.row(corners(f, k));
+    }
+    return surface;
+}
+
+}  // namespace
+
+render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
+                             const geom::PolygonMesh& mesh) {
+    render::Scene scene;
+    scene.rest = head.vertices;
+    scene.landmarks = head.landmarks;
+
+    // One surface per group of faces; the tongue is told from the gums piece by piece
+    const auto add = [&](int group, Material material, const std::function<bool(int)>& wanted) {
+        render::Surface surface = surface_of(head, mesh, group, material, wanted);
+        const std::string& role = head.role_of_group[static_cast<std::size_t>(group)];
+        if (material == Material::kEye || material == Material::kCornea)
+            surface.eye = role.ends_with("_l") ? 0 : 1;
+        if (surface.triangles.rows() > 0) scene.surfaces.push_back(std::move(surface));
+    };
+    const auto is_tongue = [&](int vertex) {
+        return head.carrier[static_cast<std::size_t>(vertex)] == rig::Carrier::kTongue;
+    };
+    for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
+        const int group = static_cast<int>(g);
+        const std::string& role = head.role_of_group[g];
+        if (role == "gums_tongue") {
+            add(group, Material::kTongue, is_tongue);
+            add(group, Material::kGums, [&](int vertex) { return !is_tongue(vertex); });
+        } else if (const auto material = material_of(role)) {
+            add(group, *material, [](int) { return true; });
+        }
+    }
+
+    for (int side = 0; side < 2; ++side) {
+        const rig::EyeGeometry& eye = head.eyes[static_cast<std::size_t>(side)];
+        render::Eye& out = scene.eyes[static_cast<std::size_t>(side)];
+        out.centre = eye.centre;
+        out.radius_m = eye.radius_m;
+        out.iris_radius_m = head.mm(rig.eyes.iris_radius_mm);
+        out.pupil_radius_m = head.mm(rig.eyes.pupil_radius_mm);
+        out.forward = eye.forward;
+    }
+    scene.look = {.skin_tone = rig.look.skin_tone,
+                  .lip_tone = rig.look.lip_tone,
+                  .hair_tone = rig.look.hair_tone,
+                  .iris_tone = rig.look.iris_tone,
+                  .freckles = rig.look.freckles,
+                  .scalp_hair = rig.look.scalp_hair,
+                  .seed = static_cast<unsigned>(rig.look.seed)};
+    return scene;
+}
+
+render::Pose pose_for_view(const sim::FacePose& pose) {
+    return {
+        .positions = pose.vertices, .eye_rotation = pose.eye_rotation, .jaw_open = pose.jaw_open};
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,17 @@
+// What the renderer draws, from a placed head and the mesh it was placed from.
+#pragma once
+
+#include "geom/polygon_mesh.h"
+#include "render/scene.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "sim/face.h"
+
+namespace risorius::app {
+
+render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
+                             const geom::PolygonMesh& mesh);
+
+render::Pose pose_for_view(const sim::FacePose& pose);
+
+}  // namespace risorius::app

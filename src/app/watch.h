@@ -1,0 +1,27 @@
+// How a long run tells how far it is, and how it is asked to stop.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <string>
+
+namespace risorius::app {
+
+/// The run was asked to stop; everything it had begun to write is gone.
+class Interrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted"; }
+};
+
+struct Watch {
+    std::function<void(double share, const std::string& what)> progress;  ///< share of the run done
+    std::function<bool()> stopped;
+
+    /// Throws Interrupted when asked to stop.
+    void tell(double share, const std::string& what) const {
+        if (stopped && stopped()) throw Interrupted();
+        if (progress) progress(share, what);
+    }
+};
+
+}  // namespace risorius::app

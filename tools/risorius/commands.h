@@ -1,0 +1,16 @@
+// The commands of the program. Each adds its options to the command line and runs when it is the one that was asked for.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "terminal.h"
+
+namespace risorius::cli {
+
+void add_render(CLI::App& app);
+void add_fit(CLI::App& app);
+
+/// --quiet and --json.
+void add_common(CLI::App& command, Common& common);
+
+}  // namespace risorius::cli

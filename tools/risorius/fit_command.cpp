@@ -1,0 +1,116 @@
+// risorius fit MESH --landmarks FILE -o RIG
+#include <cstdio>
+
+#include "app/fit_rig.h"
+#include "commands.h"
+#include "core/error.h"
+#include "rig/head.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    app::FitOptions options;
+    std::vector<std::string> parts;
+    std::string tables = "inline";
+    bool no_calibrate = false;
+};
+
+// "skin=face,neck"
+void add_part(const std::string& text, std::map<std::string, std::vector<std::string>>& parts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size())
+        throw Error("--part", "ROLE=GROUP,GROUP", "\"" + text + "\"");
+    std::vector<std::string>& groups = parts[text.substr(0, equals)];
+    for (std::size_t begin = equals + 1; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        groups.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+}
+
+std::string joined(const std::vector<std::string>& list, std::size_t most = 1000) {
+    std::string out;
+    for (std::size_t i = 0; i < std::min(most, list.size()); ++i) out += (i ? " " : "") + list[i];
+    if (list.size() > most) out += " ...";
+    return out;
+}
+
+void print(const app::FitReport& report) {
+    std::printf("%s\n", report.out.string().c_str());
+    std::printf("  unit        %g m%s\n", report.metres_per_unit,
+                report.guessed_unit ? ", told from the landmarks" : "");
+    std::printf("  size        %.3f of the average adult\n", report.size);
+    std::printf("  residual    %.1f mm RMS between the landmarks and the atlas\n",
+                report.residual_mm);
+    std::printf("  landmarks   %d given, %zu placed by the atlas\n", report.given_landmarks,
+                report.warped_landmarks.size());
+    if (!report.worth_giving.empty())
+        std::printf("              most worth giving: %s\n",
+                    joined(report.worth_giving, 10).c_str());
+    for (const auto& [role, groups] : report.parts)
+        std::printf("  %-11s %s\n", role.c_str(), joined(groups).c_str());
+    std::printf(
+        "  tissue      %d nodes, %d tetrahedra (%d dropped, %d inverted), %d muscle fibres\n",
+        report.nodes, report.tets, report.dropped_tets, report.inverted_tets, report.fibres);
+    if (!report.strengths.empty())
+        std::printf("\n  %-40s %8s %8s %8s\n", "muscle", "strength", "length", "target");
+    for (const app::MuscleStrength& m : report.strengths)
+        std::printf("  %-40s %8.2f %8.2f %8.2f%s%s\n", m.muscle.c_str(), m.strength, m.stretch,
+                    m.target_stretch, m.at_limit ? "  at the limit" : "",
+                    m.converged ? "" : "  did not come to rest");
+    for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
+}
+
+void run(Arguments& arguments) {
+    for (const std::string& part : arguments.parts) add_part(part, arguments.options.parts);
+    if (arguments.tables != "inline" && arguments.tables != "reference")
+        throw Error("--tables", "\"inline\" or \"reference\"", "\"" + arguments.tables + "\"");
+    arguments.options.inline_tables = arguments.tables == "inline";
+    arguments.options.calibrate = !arguments.no_calibrate;
+    app::FitReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::fit_rig(arguments.options, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", report.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(report);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("fit", "A face mesh with landmarks to a muscle rig");
+    auto arguments = std::make_shared<Arguments>();
+    app::FitOptions& options = arguments->options;
+    command->add_option("MESH", options.mesh, "The face: OBJ, PLY, glTF, FBX, ...")->required();
+    command->add_option("--landmarks", options.landmarks, "Where its landmarks are")->required();
+    command->add_option("-o,--out", options.out, "The rig to write")->required();
+    command->add_option("--metres-per-unit", options.metres_per_unit,
+                        "0.01 for a mesh in cm; told from the landmarks when not given");
+    command->add_option("--name", options.name, "What to call the rig; else as the mesh file");
+    command->add_option(
+        "--part", arguments->parts,
+        "ROLE=GROUP,GROUP: what groups of the mesh are, where their names do not say it");
+    command
+        ->add_option("--tables", arguments->tables,
+                     "Standard anatomy \"inline\", or by \"reference\" to its files")
+        ->capture_default_str();
+    command->add_option("--standard", options.standard, "Folder of the standard anatomy");
+    command->add_flag("--no-calibrate", arguments->no_calibrate,
+                      "Keep the standard strengths of the muscles (faster)");
+    add_common(*command, arguments->common);
+    std::string required;
+    for (const std::string& id : rig::required_landmarks()) required += " " + id;
+    command->footer(
+        "Landmarks that have to be given (rigs/standard/landmarks.json says where they lie):\n " +
+        required +
+        "\n\nExample:\n  risorius fit head.obj --landmarks landmarks.json -o anna/rig.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli

@@ -1,0 +1,64 @@
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace risorius::cli {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void note_interrupt(int) { interrupted = 1; }
+
+std::string time_text(double seconds) {
+    const int whole = static_cast<int>(seconds + 0.5);
+    char text[32];
+    std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+    return text;
+}
+
+}  // namespace
+
+void catch_interrupts() {
+    std::signal(SIGINT, note_interrupt);
+    std::signal(SIGTERM, note_interrupt);
+}
+
+ProgressBar::ProgressBar(const Common& common)
+    : wanted_(!common.quiet && ::isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    if (shown_) std::fprintf(stderr, "\r\033[K");
+}
+
+app::Watch ProgressBar::watch() {
+    return {.progress = [this](double share, const std::string& what) { show(share, what); },
+            .stopped = [] { return interrupted != 0; }};
+}
+
+void ProgressBar::show(double share, const std::string& what) {
+    if (!wanted_) return;
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    const auto since = [&](Clock::time_point then) {
+        return std::chrono::duration<double>(now - then).count();
+    };
+    if (since(begin_) < 2 || (shown_ && since(last_) < 0.1)) return;
+    last_ = now;
+    shown_ = true;
+    constexpr int kWidth = 30;
+    const int full = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
+    const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
+                            std::string(static_cast<std::size_t>(kWidth - full), '.');
+    const std::string left =
+        share > 0.01 ? time_text(since(begin_) * (1 - share) / share) + " left" : "";
+    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s  %s", bar.c_str(), static_cast<int>(100 * share),
+                 left.c_str(), what.c_str());
+    std::fflush(stderr);
+}
+
+}  // namespace risorius::cli

@@ -1,0 +1,38 @@
+// What the program says while it works: a progress bar with the time left, and whether Ctrl-C was pressed.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "app/watch.h"
+
+namespace risorius::cli {
+
+/// Every command has these.
+struct Common {
+    bool quiet = false;  ///< no progress, no summary
+    bool json = false;   ///< the report as JSON on standard output
+};
+
+/// Lets SIGINT and SIGTERM end the run between two frames instead of killing it.
+void catch_interrupts();
+
+/// Shows itself on standard error, when that is a terminal, for runs longer than two seconds.
+class ProgressBar {
+  public:
+    explicit ProgressBar(const Common& common);
+    ~ProgressBar();
+    app::Watch watch();
+
+  private:
+    void show(double share, const std::string& what);
+
+    using Clock = std::chrono::steady_clock;
+    bool wanted_;
+    bool shown_ = false;
+    Clock::time_point begin_ = Clock::now(), last_ = begin_;
+    std::mutex mutex_;  // the stages of a render report from two threads
+};
+
+}  // namespace risorius::cli
