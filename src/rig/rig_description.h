@@ -55,10 +55,11 @@ struct TissueDescription {
     double bulk_pa = 30000;
     double density_kg_m3 = 1000;
     double damping_s = 0.02;                ///< stiffness-proportional damping
-    double contact_pa_per_m = 1.5e7;       ///< deep tissue against bone and teeth, lip against lip
+    double contact_pa_per_m = 5e6;       ///< deep tissue against bone and teeth, lip against lip
     double lid_shear_ratio = 0.05;          ///< lid tissue against the rest
     double lip_shear_ratio = 0.2;           ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 6.0;
+    double fibre_passive_strain = 1.2;      ///< strain at which a relaxed fibre pulls with its isometric force
     double force_scale = 1.5;               ///< on every muscle, on top of its strength
 };
 

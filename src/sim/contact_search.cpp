@@ -10,6 +10,7 @@ namespace risorius::sim {
 namespace {
 
 constexpr int kCandidates = 40;
+constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
 
 std::vector<int> nearest(const Vec3& p, const auto& points) {
     std::vector<std::pair<double, int>> order;
@@ -63,7 +64,7 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         }
         if (from_mouth < head.mm(7)) {
             (shell.over_bite_m[v] >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
-            touching.push_back({node_of(v, kSkin), stiffness});
+            touching.push_back({node_of(v, kSkin), kLipStiffness * stiffness});
         }
         for (int side = 0; side < 2; ++side) {
             if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
@@ -148,7 +149,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
             contact.count = 1;
             contact.normal = sign * up;
             contact.rest_gap_m = threshold;
-            contact.stiffness_n_per_m = 0.5 * std::min(node.stiffness, best->stiffness);
+            contact.stiffness_n_per_m = kLipStiffness * std::min(node.stiffness, best->stiffness);
             out.push_back(contact);
         }
     };

@@ -214,7 +214,9 @@ struct Face::Impl {
             }
         }
         tethers.emplace(held);
-        fibres.emplace(muscles.points, muscles.fibres, mesh.nodes);
+        muscle::HillShape hill;
+        hill.passive_strain = rig.tissue.fibre_passive_strain;
+        fibres.emplace(muscles.points, muscles.fibres, mesh.nodes, hill);
         search.emplace(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m);
 
         // Air presses where the deep tissue is free: cheeks and lips
