@@ -76,7 +76,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
         }, Hold::kOnHead, 0);
     }
     const std::size_t first_fixed = mesh.point.size();
-    ring(border, Hold::kPinned, 0);
+    const std::vector<int> red = ring(border, Hold::kPinned, 0);
     // Across the red of the lip: full at first, then turning in to the line of contact.
     const auto across = [&](int k, double t) {
         const Vec3 b = border(k), m = contact(k);
@@ -95,6 +95,21 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
         skin.lower_margin.push_back(margin[k]);
         skin.upper_margin.push_back(margin[kHalfLoop - k]);
     }
+    const auto name = [&](const char* id, const std::vector<int>& along) {
+        int best = along[0];
+        for (const int v : along)
+            if ((mesh.point[static_cast<std::size_t>(v)] - at(id)).squaredNorm() <
+                (mesh.point[static_cast<std::size_t>(best)] - at(id)).squaredNorm())
+                best = v;
+        skin.landmark[id] = best;
+    };
+    const std::vector<int> upper_red(red.begin() + kCorner, red.end()), lower_red(red.begin(), red.begin() + kCorner);
+    for (const char* id : {"ls", "cph_l", "ulc_l", "ch_l"}) name(id, upper_red);
+    for (const char* id : {"li", "llc_l"}) name(id, lower_red);
+    skin.landmark["stos"] = skin.landmark["sto"] = skin.upper_margin[0];
+    skin.landmark["stoi"] = skin.lower_margin[0];
+    name("uli_l", {skin.upper_margin.begin() + 1, skin.upper_margin.end() - 1});
+    name("lli_l", {skin.lower_margin.begin() + 1, skin.lower_margin.end() - 1});
     // The lips touch over some millimetres before they part behind the teeth line.
     for (const double depth : {1.2, 2.6})
         ring([&](int k) {

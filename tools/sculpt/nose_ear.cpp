@@ -62,7 +62,7 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     for (std::size_t v = inner; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));
 }
 
-void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables) {
+void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables, const HeadSurface& head) {
     constexpr int kRows = 20, kAcross = 6, kLoop = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
     // The tables count 36 places, 12 along each long side; the mesh has 20 there.
@@ -96,8 +96,10 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         for (int k = 0; k < kLoop; ++k) points.push_back(0.5 * (last[k] + next[k]));
         ring(points, Hold::kSmooth);
     };
-    halfway_to(named("behind"));
-    ring(named("behind"), Hold::kPinned);
+    std::vector<Vec3> behind = named("behind");
+    for (int k = kRows / 6; k <= kRows + 1; ++k) behind[k] = head.project(behind[k]);
+    halfway_to(behind);
+    ring(behind, Hold::kPinned);
     halfway_to(named("outer"));
     for (const char* name : {"outer", "helix", "scapha", "antihelix", "concha"}) ring(named(name), Hold::kPinned);
     mesh.fill(previous, kRows, kAcross, Hold::kSmooth);

@@ -206,7 +206,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     for (int c = kMouthBlock.column1; c >= 0; --c) mouth.push_back(skin.grid[kMouthBlock.row0][c]);
     add_mouth(skin, mouth, tables, head);
     add_nasal_wing(skin, loop(kNoseBlock), tables);
-    add_ear(skin, loop(kEarBlock), tables);
+    add_ear(skin, loop(kEarBlock), tables, head);
 
     const auto on_head = [&](const Vec3& p) {
         Vec3 q = clear_of_globe(head.project(p), globe, 1.3);
@@ -217,6 +217,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
     smooth_joints(skin);
     add_skirt(skin);
+    fit_landmarks(skin, tables);
     return skin;
 }
 

@@ -27,7 +27,10 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
               const Globe& globe);
 void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& tables, const HeadSurface& head);
 void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTables& tables);
-void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables);
+void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables, const HeadSurface& head);
+
+/// Names the landmarks that lie on free skin and moves the skin smoothly onto them.
+void fit_landmarks(Skin& skin, const DesignTables& tables);
 
 /// Skin points stay outside the globe by a lid's thickness.
 Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap);
