@@ -111,7 +111,9 @@ HeadSurface::HeadSurface(const DesignTables& tables)
             const double s = kLow + r * kStep;
             const double face = std::clamp((90.0 - c * 1.5) / 30.0, 0.0, 1.0) *
                                 std::clamp((105.0 - std::abs(s + 5.0)) / 20.0, 0.0, 1.0);
-            const double stiffness = 0.12 * face + 12.0 * (1.0 - face);
+            // Below the chin the tables meet at grazing rays, so their rounding would show as bumps on the jaw.
+            const double jaw = std::clamp((-58.0 - s) / 15.0, 0.0, 1.0) * std::clamp((c * 1.5 - 22.0) / 15.0, 0.0, 1.0);
+            const double stiffness = std::max(0.12 * face + 12.0 * (1.0 - face), 8.0 * jaw);
             add_row({{id(c - 1, r), 1}, {id(c, r), -2}, {id(c + 1, r), 1}}, 0, stiffness);
             if (r > 0 && r + 1 < rows_) {
                 add_row({{id(c, r - 1), 1}, {id(c, r), -2}, {id(c, r + 1), 1}}, 0, stiffness);

@@ -1,4 +1,4 @@
-// Lashes: thin tapering strips that stand on the lid margin and curve away from the eye.
+// Lashes: one ribbon along each lid margin, standing on it and curving away from the eye. A renderer cuts the single hairs.
 #pragma once
 
 #include "skin.h"

@@ -100,11 +100,13 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
         d = (d * 12.0 + beyond * outwards(k)).normalized();
         return Vec3(globe.centre + d * (globe.radius_at(d.z()) + kGap));
     };
+    // The margin is a narrow face from its outer edge to the globe; at the inner canthus it widens to the caruncle.
     ring([&](int k) {
-        const Vec3 outer = mesh.point[static_cast<std::size_t>(skin.lid_margin[k])], inner = on_globe(k, 0.2);
+        const Vec3 outer = mesh.point[static_cast<std::size_t>(skin.lid_margin[k])], inner = on_globe(k, 0.1);
         const double depth = (inner - outer).norm();
-        return Vec3(outer + (inner - outer) * std::min(1.0, 2.0 / depth));
+        return Vec3(0.5 * (outer + inner) + std::min(0.8, 0.15 * std::max(0.0, depth - 1.5)) * Vec3::UnitZ());
     }, Hold::kPinned);
+    ring([&](int k) { return on_globe(k, 0.1); }, Hold::kPinned);
     ring([&](int k) { return on_globe(k, 1.6); }, Hold::kPinned);
     ring([&](int k) { return on_globe(k, 3.4); }, Hold::kPinned);
     for (std::size_t v = first_fixed; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));

@@ -27,7 +27,7 @@ constexpr KeyRow kKeyRows[] = {
     {70, {-134, -118, -98, -72}},  // cervical point
     {76, {-164, -156, -136, -92}}  // end of the measured neck
 };
-constexpr int kNeckRow = 76, kSkirtRows = 6;
+constexpr int kJawRow = 63, kNeckRow = 76, kSkirtRows = 6;
 constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
 
 double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
@@ -125,6 +125,7 @@ void add_skirt(Skin& skin) {
     }
     for (int k = 0; k < kSkirtRows; ++k)
         for (int c = 0; c < kColumns; ++c) mesh.quad(rows[k][c], rows[k + 1][c], rows[k + 1][c + 1], rows[k][c + 1]);
+    skin.grid.insert(skin.grid.end(), rows.begin() + 1, rows.end());
 }
 
 /// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
@@ -139,16 +140,20 @@ double philtrum(const Vec3& p) {
 /// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.
 void smooth_joints(Skin& skin) {
     HalfMesh& mesh = skin.mesh;
-    std::vector<double> nose(mesh.point.size(), 0.0), crown(mesh.point.size(), 0.0);
+    std::vector<double> nose(mesh.point.size(), 0.0), crown(mesh.point.size(), 0.0), neck(mesh.point.size(), 0.0);
     const auto fall = [](double d, double from, double to) { return std::clamp((to - d) / (to - from), 0.0, 1.0); };
     for (std::size_t v = 0; v < mesh.point.size(); ++v) {
         const Vec3& p = mesh.point[v];
         nose[v] = p.y() > -34 ? fall((p - Vec3(11, -20, 102)).norm(), 12, 18) : 0;
         crown[v] = fall(Vec2(p.x(), p.z() - 5).norm(), 30, 55) * (p.y() > 90 ? 1 : 0);
     }
+    for (int r = kJawRow + 2; r < static_cast<int>(skin.grid.size()) - 1; ++r)
+        for (const int v : skin.grid[static_cast<std::size_t>(r)])
+            neck[static_cast<std::size_t>(v)] = std::clamp((r - kJawRow - 1) / 6.0, 0.0, 1.0);
     for (const int v : skin.fixed) nose[static_cast<std::size_t>(v)] = 0;
     mesh.smooth(6, nose);
     mesh.smooth(60, crown);
+    mesh.smooth(60, neck);
 }
 
 }  // namespace
@@ -215,8 +220,8 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     };
     mesh.relax(60, 0.5, on_head, Hold::kOnHead);
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
-    smooth_joints(skin);
     add_skirt(skin);
+    smooth_joints(skin);
     fit_landmarks(skin, tables);
     return skin;
 }
