@@ -55,9 +55,8 @@ std::vector<Sample> gather(const DesignTables& tables) {
         if (std::any_of(std::begin(kElsewhere), std::end(kElsewhere), [&](const char* e) { return id == e; })) continue;
         samples.push_back({p, 2.0});
     }
-    // Neck below the measured part, own design: throat, side and nape.
-    for (const Vec3& p : {Vec3(0, -130, 22), Vec3(0, -145, 20), Vec3(22, -130, 16), Vec3(24, -145, 14),
-                          Vec3(47, -118, -10), Vec3(49, -130, -14), Vec3(40, -122, 4), Vec3(42, -138, 0)})
+    // Throat and side of the neck below the measured part, own design.
+    for (const Vec3& p : {Vec3(0, -125, 23), Vec3(0, -145, 20), Vec3(22, -125, 14), Vec3(47, -118, -14), Vec3(38, -118, 2)})
         samples.push_back({p, 2.0});
     return samples;
 }

@@ -24,10 +24,10 @@ constexpr KeyRow kKeyRows[] = {
     {48, {-53, -51, -48, -42}},    // lips
     {54, {-72, -65, -57, -48}},    // mentolabial furrow
     {63, {-105, -86, -68, -56}},   // border of the jaw
-    {70, {-134, -118, -98, -72}},  // cervical point
-    {76, {-164, -156, -136, -92}}  // end of the measured neck
+    {70, {-134, -118, -96, -70}},  // cervical point
+    {72, {-144, -130, -107, -77}}  // end of the measured neck
 };
-constexpr int kJawRow = 63, kNeckRow = 76, kSkirtRows = 6;
+constexpr int kJawRow = 63, kNeckRow = 72, kNeckBaseRows = 5, kSkirtRows = 11;
 constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
 
 double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
@@ -101,25 +101,32 @@ void add_crown(Skin& skin, const HeadSurface& head) {
         for (int c = 0; c < kCapSide; ++c) mesh.quad(id[r][c], id[r][c + 1], id[r + 1][c + 1], id[r + 1][c]);
 }
 
-/// From the neck outwards over the trapezius to the edge of the bust; own design.
+/// Down the neck to its base, then outwards over the trapezius to the edge of the bust; own design.
 void add_skirt(Skin& skin) {
     HalfMesh& mesh = skin.mesh;
     const std::vector<int> last = skin.grid[kNeckRow];
     const std::vector<int> before = skin.grid[kNeckRow - 2];
     std::vector<std::vector<int>> rows{last};
     for (int k = 1; k <= kSkirtRows; ++k) rows.emplace_back(kColumns + 1);
+    const auto hermite = [](const Vec3& p, const Vec3& dp, const Vec3& q, const Vec3& dq, double t) {
+        const double t2 = t * t, t3 = t2 * t;
+        return Vec3((2 * t3 - 3 * t2 + 1) * p + (t3 - 2 * t2 + t) * dp + (3 * t2 - 2 * t3) * q + (t3 - t2) * dq);
+    };
     for (int c = 0; c <= kColumns; ++c) {
-        const double a = M_PI * c / kColumns;
         const Vec3 start = mesh.point[static_cast<std::size_t>(last[c])];
+        const double a = std::atan2(start.x(), start.z() + 26.0), cos_a = std::cos(a), sin_a = std::sin(a);
+        const Vec3 base(58 * std::pow(sin_a, 0.85), -117 - 17 * cos_a + 3 * cos_a * cos_a, -30 + (cos_a > 0 ? 51 : 62) * cos_a);
+        const Vec3 end(132 * std::pow(sin_a, 0.8), -166 - 14 * cos_a + 4 * cos_a * cos_a, -38 + (cos_a > 0 ? 84 : 86) * cos_a);
         const Vec3 down = (start - mesh.point[static_cast<std::size_t>(before[c])]).normalized();
-        const Vec3 end(128 * std::pow(std::sin(a), 0.8), -172 + 28 * (1 - std::cos(a)) / 2 - 6 * std::sin(a),
-                       -38 + (std::cos(a) > 0 ? 82 : 84) * std::cos(a));
-        const double reach = (end - start).norm();
-        const Vec3 slope0 = 0.9 * reach * down, slope1 = 0.9 * reach * (end - start).normalized() + Vec3(0, -20, 0);
+        const double reach0 = (base - start).norm(), reach1 = (end - base).norm();
+        // Steeper in front of and behind the neck, where the body goes on downwards.
+        const Vec3 turn = ((base - start).normalized() + 0.9 * (end - base).normalized()).normalized();
+        const Vec3 out = ((end - base).normalized() + Vec3(0, -0.35 - 0.5 * sin_a, 0)).normalized();
         for (int k = 1; k <= kSkirtRows; ++k) {
-            const double t = static_cast<double>(k) / kSkirtRows, t2 = t * t, t3 = t2 * t;
-            const Vec3 p = (2 * t3 - 3 * t2 + 1) * start + (t3 - 2 * t2 + t) * slope0 + (3 * t2 - 2 * t3) * end +
-                           (t3 - t2) * slope1;
+            const Vec3 p = k <= kNeckBaseRows
+                               ? hermite(start, down * reach0, base, turn * reach0, static_cast<double>(k) / kNeckBaseRows)
+                               : hermite(base, turn * reach1, end, out * reach1,
+                                         static_cast<double>(k - kNeckBaseRows) / (kSkirtRows - kNeckBaseRows));
             rows[k][c] = mesh.add(p, Hold::kPinned, c == 0 || c == kColumns);
         }
     }
@@ -149,7 +156,7 @@ void smooth_joints(Skin& skin) {
     }
     for (int r = kJawRow + 2; r < static_cast<int>(skin.grid.size()) - 1; ++r)
         for (const int v : skin.grid[static_cast<std::size_t>(r)])
-            neck[static_cast<std::size_t>(v)] = std::clamp((r - kJawRow - 1) / 6.0, 0.0, 1.0);
+            neck[static_cast<std::size_t>(v)] = std::clamp((r - kJawRow - 1) / 5.0, 0.0, 1.0);
     for (const int v : skin.fixed) nose[static_cast<std::size_t>(v)] = 0;
     mesh.smooth(6, nose);
     mesh.smooth(60, crown);
