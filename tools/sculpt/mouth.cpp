@@ -7,6 +7,7 @@ namespace risorius::sculpt {
 namespace {
 
 constexpr int kHalfLoop = 30, kCorner = 15;
+constexpr double kSquareness = 0.6;  ///< of the sections of the cavity: 1 an ellipse, 0 a box
 
 /// Even by length through points, `count` steps.
 std::vector<Vec3> even_curve(const std::vector<Vec3>& points, int count) {
@@ -27,9 +28,9 @@ struct Section {
     double front, bend;  ///< z at the midline, and how far the sides lie behind it
 };
 constexpr Section kSections[] = {
-    {2.6, 2.6, 22.8, 90.6, 14}, {7, 7, 23.6, 90.0, 17},    {13, 13.5, 26, 88.6, 22},  {17.5, 18.5, 29, 84.5, 26},
-    {19, 20.5, 31.5, 76, 23},   {19.5, 21.5, 32.5, 64, 15}, {19, 22, 33, 50, 6},       {16, 20, 29, 38, 2},
-    {10, 12, 18, 31, 0},        {4, 5, 8, 29, 0}};
+    {2.6, 2.6, 22.8, 90.6, 14}, {8, 7.5, 24, 90.4, 17},    {15.5, 14.5, 26.5, 90.0, 22}, {20, 19.5, 30, 87.5, 26},
+    {21.5, 22, 32.5, 80, 23},   {22, 23, 33.5, 67, 15},    {22.5, 25, 34.5, 52, 6},      {20.5, 27, 31, 37, 3},
+    {13, 25, 22, 25, 0},        {5, 10, 10, 21, 0}};
 
 }  // namespace
 
@@ -122,8 +123,8 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
         ring([&](int k) {
             const double angle = M_PI * k / kHalfLoop;  // 0 below, pi above
             const double c = -std::cos(angle), s = std::sin(angle);
-            const double x = section.half_width * std::pow(std::abs(s), 0.75);
-            const double y = -52.6 + (c > 0 ? section.up : section.down) * std::copysign(std::pow(std::abs(c), 0.75), c);
+            const double x = section.half_width * std::pow(std::abs(s), kSquareness);
+            const double y = -52.6 + (c > 0 ? section.up : section.down) * std::copysign(std::pow(std::abs(c), kSquareness), c);
             const double w = x / section.half_width;
             return Vec3(k == 0 || k == kHalfLoop ? 0 : x, y, section.front - section.bend * w * w);
         }, Hold::kPinned, 1);

@@ -224,7 +224,7 @@ geom::PolygonMesh gums(Arch arch, const std::string& group) {
         const Vec3 edge = line.at(s), out = line.outward(s);
         const double papilla = 2.2 * std::pow(within, 2.0);
         const double rim = edge.y() - to_edge * (height - papilla);
-        const double root = edge.y() - to_edge * (height + 7.0);
+        const double root = edge.y() - to_edge * (height + 4.5);
         const double depth = 0.5 * thickness + 1.1;
         const double back = std::clamp((s - place[1]) / (place[3] - place[1]), 0.0, 1.0);
         const double middle = (1 - back) * (-0.5 * thickness + 0.2) - back * 0.8;
@@ -257,8 +257,8 @@ geom::PolygonMesh tongue(const std::string& group) {
     };
     constexpr Section kSections[] = {{-56.6, 79.0, 4.5, 1.8},  {-56.4, 77.5, 8.2, 3.0},  {-56.2, 74, 11.0, 4.0},
                                      {-56, 69, 13.0, 5.0},     {-56, 63, 14.6, 6.4},     {-56.4, 57, 15.8, 8.0},
-                                     {-57.4, 51, 16.6, 9.8},   {-59.6, 45, 17.0, 11.4},  {-63, 40, 16.6, 12.4},
-                                     {-68, 37, 15.4, 12.0},    {-73, 36, 13.0, 10.0}};
+                                     {-57.4, 51, 16.6, 9.8},   {-59.6, 45, 17.0, 11.4},  {-62.5, 40.5, 16.4, 12},
+                                     {-66.5, 37.5, 15, 11},    {-70, 36, 12.5, 9}};
     constexpr int kAround = 28;
     Builder builder(group);
     std::vector<std::vector<int>> rings;
@@ -281,7 +281,7 @@ geom::PolygonMesh tongue(const std::string& group) {
     }
     builder.tube(rings);
     builder.close(rings.front(), Vec3(0, -56.7, 80.0), true);
-    builder.close(rings.back(), Vec3(0, -75, 35.5), false);
+    builder.close(rings.back(), Vec3(0, -71.5, 35.5), false);
     return builder.finish();
 }
 
