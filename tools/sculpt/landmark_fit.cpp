@@ -57,11 +57,13 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
         const Vec3 at = mesh.point[static_cast<std::size_t>(best)];
         Vec3 by = p - at;
         if (by.norm() > 4) continue;  // a free margin: named by construction
+        candidates.erase(best);
+        skin.landmark[id] = best;
+        // The wing of the nose keeps the form of its loops, which were placed by these points.
+        if (id == "al_l" || id == "ac_l" || id == "sbal_l" || id == "c") continue;
         // Along the skin fully; across it only half, because depth table and landmark differ by their rounding.
         const Vec3 n = normal_at(mesh, best);
         by -= 0.5 * n * n.dot(by);
-        candidates.erase(best);
-        skin.landmark[id] = best;
         pulls.push_back({best, at, by});
     }
     // The mirrored pulls take part, so that the displacement is symmetric.

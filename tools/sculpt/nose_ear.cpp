@@ -48,11 +48,11 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
     const std::size_t inner = mesh.point.size() - kLoop;
-    // The nostril widens behind its rim into the vestibule, then goes up and back.
+    // The vestibule goes back and up from the rim, so that who looks in from the front looks into depth.
     Vec3 centre = Vec3::Zero();
     for (const Vec3& p : rim) centre += p / kLoop;
     const struct { double width; Vec3 shift; } kInside[] = {
-        {0.90, Vec3(0, 1.0, -0.2)}, {0.98, Vec3(-0.1, 4, -0.6)}, {0.9, Vec3(-0.5, 8, -2.4)}, {0.6, Vec3(-1.0, 12.5, -5.5)}};
+        {0.92, Vec3(0, 0.9, -0.8)}, {0.98, Vec3(0, 3, -3.4)}, {0.9, Vec3(-0.4, 6, -7.5)}, {0.6, Vec3(-1.0, 9.5, -13)}};
     for (const auto& inside : kInside) {
         std::vector<Vec3> points;
         for (const Vec3& p : rim) points.push_back(centre + inside.width * (p - centre) + inside.shift);
