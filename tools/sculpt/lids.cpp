@@ -1,4 +1,5 @@
 // Lids: loops from the orbit to the margin, the margin's own thickness, and the inner face lying on the globe.
+#include <algorithm>
 #include <cmath>
 
 #include "skin.h"
@@ -73,11 +74,19 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
             const Vec3 p = (1 - t) * mesh.point[static_cast<std::size_t>(block[k])] + t * before_margin(k);
             return clear_of_globe(head.project(p), globe, 1.3);
         }, Hold::kOnHead);
+        // Relaxing would draw the innermost loop across the canthus, so it keeps its distance there.
+        if (r == kSkinRings)
+            for (int k = 0; k < kLoop; ++k) {
+                if (std::min({std::abs(k - kInner), std::abs(k - kOuter), std::abs(k - kLoop - kInner)}) > 1) continue;
+                const auto v = static_cast<std::size_t>(ids[static_cast<std::size_t>(k)]);
+                mesh.point[v] = clear_of_globe(head.project(margin[k] + 2.4 * outwards(k)), globe, 1.3);
+                mesh.hold[v] = Hold::kPinned;
+            }
         constexpr double kShare[] = {0, 0, 0, 1.35, 0.98, 0.62}, kRaise[] = {0, 0, 0, 0.5, -0.9, 0.0};
         if (kShare[r] == 0) continue;
         for (int k = 0; k < kLoop; ++k) {
             const double height = lid_height(k, kShare[r]);
-            if (height < 2.6) continue;  // near the canthi the fold runs out
+            if (height < 2.6 || mesh.hold[static_cast<std::size_t>(ids[static_cast<std::size_t>(k)])] == Hold::kPinned) continue;  // near the canthi the fold runs out
             const auto v = static_cast<std::size_t>(ids[static_cast<std::size_t>(k)]);
             const double fade = std::min(1.0, (height - 2.0) / 2.5);
             mesh.point[v] = on_lid(k, height, kRaise[r] * fade);
