@@ -47,7 +47,8 @@ const Head& head() {
         }
         std::ifstream json(kFolder + "landmarks.json");
         const auto document = nlohmann::json::parse(json);
-        for (const auto& [id, value] : document.at("landmarks").items()) h.landmarks[id] = value.at("vertex");
+        for (const auto& [id, value] : document.at("landmarks").items())
+            h.landmarks[id] = value.at("vertex");
         return h;
     }();
     return read;
@@ -92,8 +93,8 @@ double globe_radius(double cosine) {
 }
 
 TEST(AdultHead, HasAllItsParts) {
-    for (const char* part : {"skin", "mouth", "eye_l", "eye_r", "teeth_upper", "teeth_lower", "gums_upper",
-                             "gums_lower", "tongue", "lashes_l", "lashes_r"})
+    for (const char* part : {"skin", "mouth", "eye_l", "eye_r", "teeth_upper", "teeth_lower",
+                             "gums_upper", "gums_lower", "tongue", "lashes_l", "lashes_r"})
         EXPECT_TRUE(head().faces.count(part) && !head().faces.at(part).empty()) << part;
     EXPECT_EQ(head().faces.size(), 11u);
 }
@@ -103,7 +104,8 @@ TEST(AdultHead, SkinIsOneManifoldOpenOnlyAtShouldersAndSockets) {
     const auto edges = directed_edges(faces);
     std::map<int, std::vector<int>> next;
     for (const auto& [edge, count] : edges) {
-        EXPECT_EQ(count, 1) << "edge " << edge.first << " " << edge.second << " is used twice in one direction";
+        EXPECT_EQ(count, 1) << "edge " << edge.first << " " << edge.second
+                            << " is used twice in one direction";
         if (!edges.count({edge.second, edge.first})) next[edge.first].push_back(edge.second);
     }
     // Boundary loops: the bust, and the inner end of each lid.
@@ -114,7 +116,8 @@ TEST(AdultHead, SkinIsOneManifoldOpenOnlyAtShouldersAndSockets) {
         if (seen.count(start)) continue;
         ++loops;
         const Vec3 p = head().points[static_cast<std::size_t>(start)];
-        EXPECT_TRUE(p.y() < -120 || (std::abs(std::abs(p.x()) - 31.5) < 16 && std::abs(p.y() - 18.2) < 12))
+        EXPECT_TRUE(p.y() < -120 ||
+                    (std::abs(std::abs(p.x()) - 31.5) < 16 && std::abs(p.y() - 18.2) < 12))
             << p.transpose();
         for (int v = start; !seen.count(v); v = next.at(v)[0]) seen.insert(v);
     }
@@ -153,7 +156,8 @@ TEST(AdultHead, SkinIsNearlyAllQuads) {
 TEST(AdultHead, MirrorsExactly) {
     std::set<std::array<long, 3>> all;
     const auto key = [](const Vec3& p, double side) {
-        return std::array<long, 3>{std::lround(side * p.x() * 1e6), std::lround(p.y() * 1e6), std::lround(p.z() * 1e6)};
+        return std::array<long, 3>{std::lround(side * p.x() * 1e6), std::lround(p.y() * 1e6),
+                                   std::lround(p.z() * 1e6)};
     };
     std::set<int> used;
     for (const auto& f : skin_and_mouth()) used.insert(f.begin(), f.end());
@@ -171,11 +175,14 @@ TEST(AdultHead, SurfacesFaceOutwards) {
         Vec3 apex = Vec3::Zero();
         std::set<int> used;
         for (const auto& f : parts) used.insert(f.begin(), f.end());
-        for (const int v : used) apex += head().points[static_cast<std::size_t>(v)] / static_cast<double>(used.size());
+        for (const int v : used)
+            apex += head().points[static_cast<std::size_t>(v)] / static_cast<double>(used.size());
         double volume = 0;
         for (const auto& f : parts)
             for (std::size_t k = 1; k + 1 < f.size(); ++k) {
-                const auto at = [&](int v) { return Vec3(head().points[static_cast<std::size_t>(v)] - apex); };
+                const auto at = [&](int v) {
+                    return Vec3(head().points[static_cast<std::size_t>(v)] - apex);
+                };
                 volume += at(f[0]).dot(at(f[k]).cross(at(f[k + 1]))) / 6;
             }
         EXPECT_GT(volume, 0) << name;
@@ -206,7 +213,8 @@ TEST(AdultHead, MirroredLandmarksAreMirroredVertices) {
     for (const auto& [id, v] : head().landmarks) {
         if (!id.ends_with("_l")) continue;
         const Vec3 left = head().points[static_cast<std::size_t>(v)];
-        const Vec3 right = head().points[static_cast<std::size_t>(head().landmarks.at(id.substr(0, id.size() - 2) + "_r"))];
+        const Vec3 right = head().points[static_cast<std::size_t>(
+            head().landmarks.at(id.substr(0, id.size() - 2) + "_r"))];
         EXPECT_LE((Vec3(-left.x(), left.y(), left.z()) - right).norm(), 1e-6) << id;
     }
 }
@@ -233,10 +241,13 @@ TEST(AdultHead, FaceHasTheMeasuredDepth) {
                     const Vec3 &a = head().points[static_cast<std::size_t>(f[0])],
                                &b = head().points[static_cast<std::size_t>(f[k])],
                                &d = head().points[static_cast<std::size_t>(f[k + 1])];
-                    const double area = (b.x() - a.x()) * (d.y() - a.y()) - (b.y() - a.y()) * (d.x() - a.x());
+                    const double area =
+                        (b.x() - a.x()) * (d.y() - a.y()) - (b.y() - a.y()) * (d.x() - a.x());
                     if (area < 1e-9) continue;
-                    const double u = ((xs[c] - a.x()) * (d.y() - a.y()) - (y - a.y()) * (d.x() - a.x())) / area;
-                    const double v = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (xs[c] - a.x())) / area;
+                    const double u =
+                        ((xs[c] - a.x()) * (d.y() - a.y()) - (y - a.y()) * (d.x() - a.x())) / area;
+                    const double v =
+                        ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (xs[c] - a.x())) / area;
                     if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
                     z = std::max(z, (1 - u - v) * a.z() + u * b.z() + v * d.z());
                 }
@@ -266,9 +277,11 @@ TEST(AdultHead, LipsMeetWithoutOverlap) {
     for (const int a : skin)
         for (const int b : skin) {
             if (a >= b) continue;
-            const Vec3 pa = head().points[static_cast<std::size_t>(a)], pb = head().points[static_cast<std::size_t>(b)];
+            const Vec3 pa = head().points[static_cast<std::size_t>(a)],
+                       pb = head().points[static_cast<std::size_t>(b)];
             if (std::abs(pa.x()) > 24 || pa.z() < 78 || std::abs(pa.y() + 52.5) > 1.5) continue;
-            if (std::abs(pa.x() - pb.x()) < 1e-6 && std::abs(pa.z() - pb.z()) < 1e-6 && std::abs(pa.y() - pb.y()) <= 0.3)
+            if (std::abs(pa.x() - pb.x()) < 1e-6 && std::abs(pa.z() - pb.z()) < 1e-6 &&
+                std::abs(pa.y() - pb.y()) <= 0.3)
                 ++pairs;
         }
     EXPECT_GE(pairs, 29 * 3);  // 29 free vertices along each of three rows
@@ -285,7 +298,8 @@ TEST(AdultHead, EyeballsStayBehindTheLids) {
             for (std::size_t k = 0; k < f.size(); ++k) {
                 const Vec3 p = head().points[static_cast<std::size_t>(f[k])];
                 samples.push_back(p);
-                samples.push_back(0.5 * (p + head().points[static_cast<std::size_t>(f[(k + 1) % f.size()])]));
+                samples.push_back(
+                    0.5 * (p + head().points[static_cast<std::size_t>(f[(k + 1) % f.size()])]));
                 middle += p / static_cast<double>(f.size());
             }
             samples.push_back(middle);
@@ -306,21 +320,28 @@ TEST(AdultHead, TeethAndTongueStayInsideTheMouth) {
     std::vector<std::array<Vec3, 3>> triangles;
     for (const auto& f : skin_and_mouth())
         for (std::size_t k = 1; k + 1 < f.size(); ++k)
-            triangles.push_back({head().points[static_cast<std::size_t>(f[0])], head().points[static_cast<std::size_t>(f[k])],
+            triangles.push_back({head().points[static_cast<std::size_t>(f[0])],
+                                 head().points[static_cast<std::size_t>(f[k])],
                                  head().points[static_cast<std::size_t>(f[k + 1])]});
     for (const char* part : {"teeth_upper", "teeth_lower", "gums_upper", "gums_lower", "tongue"}) {
         std::set<int> used;
         for (const auto& f : head().faces.at(part)) used.insert(f.begin(), f.end());
         int outside = 0;
         for (const int v : used) {
-            if (v % 5 != 0) continue;  // a fifth of the vertices is enough to find a part that sticks out
+            if (v % 5 != 0)
+                continue;  // a fifth of the vertices is enough to find a part that sticks out
             const Vec3 p = head().points[static_cast<std::size_t>(v)] + Vec3(1e-4, 1.3e-4, 0);
             int crossings = 0;
             for (const auto& t : triangles) {
-                const double area = (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) - (t[1].y() - t[0].y()) * (t[2].x() - t[0].x());
+                const double area = (t[1].x() - t[0].x()) * (t[2].y() - t[0].y()) -
+                                    (t[1].y() - t[0].y()) * (t[2].x() - t[0].x());
                 if (area == 0) continue;
-                const double u = ((p.x() - t[0].x()) * (t[2].y() - t[0].y()) - (p.y() - t[0].y()) * (t[2].x() - t[0].x())) / area;
-                const double w = ((t[1].x() - t[0].x()) * (p.y() - t[0].y()) - (t[1].y() - t[0].y()) * (p.x() - t[0].x())) / area;
+                const double u = ((p.x() - t[0].x()) * (t[2].y() - t[0].y()) -
+                                  (p.y() - t[0].y()) * (t[2].x() - t[0].x())) /
+                                 area;
+                const double w = ((t[1].x() - t[0].x()) * (p.y() - t[0].y()) -
+                                  (t[1].y() - t[0].y()) * (p.x() - t[0].x())) /
+                                 area;
                 if (u < 0 || w < 0 || u + w > 1) continue;
                 if ((1 - u - w) * t[0].z() + u * t[1].z() + w * t[2].z() > p.z()) ++crossings;
             }
@@ -336,8 +357,10 @@ TEST(AdultHead, IsMadeAgainToTheByte) {
     const std::string folder = std::string(RISORIUS_BINARY_DIR) + "/adult_head_again";
     ASSERT_EQ(std::system((sculpt + " --output " + folder + " > /dev/null").c_str()), 0);
     for (const char* name : {"head.obj", "landmarks.json"}) {
-        std::ifstream made(folder + "/" + name, std::ios::binary), kept(kFolder + name, std::ios::binary);
-        const std::string a{std::istreambuf_iterator<char>(made), {}}, b{std::istreambuf_iterator<char>(kept), {}};
+        std::ifstream made(folder + "/" + name, std::ios::binary),
+            kept(kFolder + name, std::ios::binary);
+        const std::string a{std::istreambuf_iterator<char>(made), {}},
+            b{std::istreambuf_iterator<char>(kept), {}};
         EXPECT_FALSE(a.empty());
         EXPECT_TRUE(a == b) << name << " differs from the committed file";
     }

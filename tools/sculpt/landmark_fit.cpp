@@ -22,7 +22,9 @@ Vec3 normal_at(const HalfMesh& mesh, int vertex) {
         const int n = f[3] < 0 ? 3 : 4;
         for (int k = 0; k < n; ++k) {
             if (f[k] != vertex) continue;
-            const auto at = [&](int i) { return mesh.point[static_cast<std::size_t>(f[(i + n) % n])]; };
+            const auto at = [&](int i) {
+                return mesh.point[static_cast<std::size_t>(f[(i + n) % n])];
+            };
             sum += (at(k + 1) - at(k)).cross(at(k - 1) - at(k));
         }
     }
@@ -51,7 +53,8 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
         for (const int v : candidates) {
             const auto i = static_cast<std::size_t>(v);
             if (middle != mesh.midline[i]) continue;
-            if (best < 0 || (mesh.point[i] - p).squaredNorm() < (mesh.point[static_cast<std::size_t>(best)] - p).squaredNorm())
+            if (best < 0 || (mesh.point[i] - p).squaredNorm() <
+                                (mesh.point[static_cast<std::size_t>(best)] - p).squaredNorm())
                 best = v;
         }
         const Vec3 at = mesh.point[static_cast<std::size_t>(best)];
@@ -67,12 +70,16 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
         pulls.push_back({best, at, by});
     }
     // The mirrored pulls take part, so that the displacement is symmetric.
-    const auto mirrored_point = [](Vec3 p) { p.x() = -p.x(); return p; };
+    const auto mirrored_point = [](Vec3 p) {
+        p.x() = -p.x();
+        return p;
+    };
     const auto influence = [&](const Vec3& where, const Pull& pull) -> std::pair<double, double> {
         return {kernel((where - pull.at).norm()), kernel((where - mirrored_point(pull.at)).norm())};
     };
     const int n = static_cast<int>(pulls.size());
-    std::vector<Eigen::Triplet<double>> even, odd;  // for y and z, and for x, which changes sign across the midline
+    std::vector<Eigen::Triplet<double>> even,
+        odd;  // for y and z, and for x, which changes sign across the midline
     Eigen::MatrixXd right(n, 3);
     for (int i = 0; i < n; ++i) {
         const auto& row = pulls[static_cast<std::size_t>(i)];
@@ -80,11 +87,13 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
             const auto [here, there] = influence(row.at, pulls[static_cast<std::size_t>(j)]);
             if (here + there > 0) even.emplace_back(i, j, here + there);
             const bool middle = row.at.x() == 0;  // where x stays 0 whatever the weight
-            if (here - there != 0 || (i == j && middle)) odd.emplace_back(i, j, i == j && middle ? 1.0 : here - there);
+            if (here - there != 0 || (i == j && middle))
+                odd.emplace_back(i, j, i == j && middle ? 1.0 : here - there);
         }
         right.row(i) = row.by.transpose();
     }
-    const auto solve = [&](const std::vector<Eigen::Triplet<double>>& entries, int axis) -> Eigen::VectorXd {
+    const auto solve = [&](const std::vector<Eigen::Triplet<double>>& entries,
+                           int axis) -> Eigen::VectorXd {
         Eigen::SparseMatrix<double> matrix(n, n);
         matrix.setFromTriplets(entries.begin(), entries.end());
         return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right.col(axis));
