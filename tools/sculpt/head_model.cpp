@@ -108,12 +108,12 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
         text += line;
     }
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
-        text += "g " + mesh.group_names[g] + "\n";
+        text.append("g ").append(mesh.group_names[g]).append("\n");
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
             text += "f";
             for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-                text += " " + std::to_string(mesh.corner_vertex[c] + 1);
+                text.append(" ").append(std::to_string(mesh.corner_vertex[c] + 1));
             text += "\n";
         }
     }
@@ -122,7 +122,8 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
     text = "{\n  \"format\": \"risorius-landmarks\",\n  \"version\": 1,\n  \"landmarks\": {";
     const char* separator = "\n";
     for (const auto& [id, v] : model.landmarks) {
-        text += separator + ("    \"" + id + "\": {\"vertex\": " + std::to_string(v) + "}");
+        text.append(separator).append("    \"").append(id).append("\": {\"vertex\": ");
+        text.append(std::to_string(v)).append("}");
         separator = ",\n";
     }
     text += "\n  }\n}\n";
