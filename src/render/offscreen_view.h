@@ -24,7 +24,7 @@ struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
     std::string camera = "front";   ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
-    Background background;
+    Background background{};
     int supersampling = 2;          ///< samples per pixel side, 1..4
     int threads = 0;                ///< llvmpipe worker threads; 0 = draw on the calling thread
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <queue>
 #include <set>
 
@@ -27,16 +28,21 @@ std::vector<int> vertices_of(const Scene& scene, Material material) {
 
 }  // namespace
 
-std::vector<float> lash_coordinates(const Scene& scene) {
-    std::vector<float> coordinates(2 * static_cast<std::size_t>(scene.rest.rows()), 0.0F);
+std::vector<LashPlace> lash_places(const Scene& scene) {
+    std::vector<LashPlace> places(static_cast<std::size_t>(scene.rest.rows()));
     const std::vector<int> lash = vertices_of(scene, Material::kLashes);
     const std::vector<int> skin = vertices_of(scene, Material::kSkin);
-    if (lash.empty() || skin.empty()) return coordinates;
+    if (lash.empty() || skin.empty()) return places;
     const auto local = [&](int v) {
         return static_cast<std::size_t>(std::lower_bound(lash.begin(), lash.end(), v) -
                                         lash.begin());
     };
     const auto at = [&](std::size_t i) -> Vec3 { return scene.rest.row(lash[i]).transpose(); };
+
+    const auto below_eye = [&](const Vec3& p) {
+        const bool left = (p - scene.eyes[0].centre).norm() < (p - scene.eyes[1].centre).norm();
+        return p.y() < scene.eyes[left ? 0 : 1].centre.y();
+    };
 
     // Neighbours along edges, and how far the skin is
     std::vector<std::set<std::size_t>> next(lash.size());
@@ -87,11 +93,17 @@ std::vector<float> lash_coordinates(const Scene& scene) {
         std::sort(roots.begin(), roots.end(), [&](std::size_t a, std::size_t b) {
             return at(a).x() != at(b).x() ? at(a).x() < at(b).x() : a < b;
         });
+        // The two lids may be one ribbon; each is measured by itself.
         std::map<std::size_t, double> along;
-        double length = 0;
-        for (std::size_t r = 0; r < roots.size(); ++r) {
-            if (r > 0) length += (at(roots[r]) - at(roots[r - 1])).norm();
-            along[roots[r]] = length;
+        for (const bool lower : {false, true}) {
+            double length = 0;
+            std::optional<Vec3> last;
+            for (const std::size_t r : roots) {
+                if (below_eye(at(r)) != lower) continue;
+                if (last) length += (at(r) - *last).norm();
+                last = at(r);
+                along[r] = length;
+            }
         }
 
         // Every vertex belongs to the root it is reached from over the ribbon first.
@@ -120,13 +132,15 @@ std::vector<float> lash_coordinates(const Scene& scene) {
         std::map<std::size_t, double> longest;
         for (const auto& [i, d] : distance) longest[root_of[i]] = std::max(longest[root_of[i]], d);
         for (const auto& [i, d] : distance) {
-            const auto v = 2 * static_cast<std::size_t>(lash[i]);
+            const auto v = static_cast<std::size_t>(lash[i]);
             const double reach = longest[root_of[i]];
-            coordinates[v] = static_cast<float>(along[root_of[i]]);
-            coordinates[v + 1] = static_cast<float>(reach > 0 ? d / reach : 0.0);
+            places[v].along_m = static_cast<float>(along[root_of[i]]);
+            places[v].share = static_cast<float>(reach > 0 ? d / reach : 0.0);
+            places[v].is_lash = true;
+            places[v].lower_lid = below_eye(at(root_of[i]));
         }
     }
-    return coordinates;
+    return places;
 }
 
 }  // namespace risorius::render

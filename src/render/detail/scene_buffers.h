@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/detail/gl_context.h"
+#include "render/detail/lash_strands.h"
 #include "render/detail/smooth_normals.h"
 #include "render/scene.h"
 
@@ -44,6 +45,7 @@ class SceneBuffers {
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
     std::vector<float> paint_;
+    std::vector<LashPlace> lashes_;
     std::vector<float> positions_, normals_, moving_;
     int index_count_ = 0;
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0, elements_ = 0;

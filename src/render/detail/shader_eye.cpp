@@ -5,6 +5,13 @@ namespace {
 
 // Pattern from the rest position in the frame of the eye (z forward). Without a cornea of its own the surface is taken for
 // it: the view ray is refracted there and meets the iris plane behind.
+constexpr const char* kWindow = R"(
+// A large soft lamp mirrored in the tear film: a disc whose edge falls off over a few degrees.
+float window_light(vec3 back, vec3 l, float edge) {
+    return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
+}
+)";
+
 constexpr const char* kEye = R"(
 in vec3 position;
 in vec3 normal;
@@ -66,7 +73,8 @@ void main() {
     float fibre = noise(vec3(round_ * 17.0 + 50.0, r * 3.0 + 5.0)) * 0.6 + noise(vec3(round_ * 38.0 + 90.0, r * 5.0 + 9.0)) * 0.4;
     float p = pupil_radius / iris_radius;
     float ring = (r - p) / (1.0 - p);
-    vec3 iris = iris_tone * (0.22 + 0.75 * fibre);
+    vec3 base = mix(iris_tone, vec3(dot(iris_tone, vec3(0.3, 0.5, 0.2))), 0.35);
+    vec3 iris = base * (0.22 + 0.75 * fibre);
     vec3 warm = vec3(0.24, 0.13, 0.045) * (0.5 + 0.9 * fibre);
     iris = mix(iris, warm, 0.55 * smoothstep(0.42, 0.08, ring + 0.25 * (fibre - 0.5)));
     iris *= mix(1.0, 0.28, smoothstep(0.72, 1.0, r));
@@ -92,10 +100,11 @@ void main() {
 
     // Wet surface: window-like highlights of key and fill and a faint picture of the surroundings
     if (!separate_cornea) {
-        vec3 gloss = key_radiance.rgb * smoothstep(0.1, 0.6, s) * min(glint(n, v, k, 0.15, 0.03), 2.2);
-        gloss += fill_radiance.rgb * open * min(glint(n, v, f, 0.17, 0.03), 1.5);
+        vec3 back = reflect(-v, n);
+        vec3 gloss = key_radiance.rgb * open * window_light(back, k, 0.957);
+        gloss += fill_radiance.rgb * open * 0.45 * window_light(back, f, 0.950);
         float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-        gloss += ambient(reflect(-v, n)) * open * (0.03 + 0.4 * edge * edge * edge);
+        gloss += ambient(back) * open * (0.025 + 0.4 * edge * edge * edge);
         c += gloss;
     }
     colour = vec4(film(c), 1.0);
@@ -111,10 +120,11 @@ void main() {
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz, f = fill_direction.xyz;
     float s = key_visibility(position, n);
-    vec3 gloss = key_radiance.rgb * s * min(glint(n, v, k, 0.15, 0.03), 2.2);
-    gloss += fill_radiance.rgb * min(glint(n, v, f, 0.17, 0.03), 1.5);
+    vec3 back = reflect(-v, n);
+    vec3 gloss = key_radiance.rgb * smoothstep(0.0, 0.4, s) * window_light(back, k, 0.957);
+    gloss += fill_radiance.rgb * 0.45 * window_light(back, f, 0.950);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-    gloss += ambient(reflect(-v, n)) * (0.03 + 0.3 * edge * edge * edge);
+    gloss += ambient(back) * (0.015 + 0.2 * edge * edge * edge);
     // Premultiplied: clear glass adds its highlight and hides next to nothing.
     colour = vec4(film(gloss), clamp(dot(gloss, vec3(0.3)), 0.0, 0.9));
 }
@@ -122,7 +132,7 @@ void main() {
 
 }  // namespace
 
-std::string eye_shader() { return lighting_chunk() + noise_chunk() + kEye; }
-std::string cornea_shader() { return lighting_chunk() + kCornea; }
+std::string eye_shader() { return lighting_chunk() + noise_chunk() + kWindow + kEye; }
+std::string cornea_shader() { return lighting_chunk() + kWindow + kCornea; }
 
 }  // namespace risorius::render

@@ -9,6 +9,7 @@ constexpr const char* kLash = R"(
 in vec3 position;
 in vec3 normal;
 in vec2 paint;            // m along the lid, 0..1 from root to tip
+in float sky_seen;        // of a lash: 1 on the lower lid
 out vec4 colour;
 uniform vec3 albedo;      // linear
 
@@ -32,7 +33,10 @@ float in_hair(float spacing, float half_width, float row) {
 }
 
 void main() {
-    if (min(in_hair(0.00085, 0.000125, 1.0), in_hair(0.00127, 0.00011, 2.0)) > 1.0) discard;
+    // The lower lid has few and thin ones.
+    float edge = sky_seen > 0.5 ? in_hair(0.00125, 0.000085, 1.0)
+                               : min(in_hair(0.00095, 0.00012, 1.0), in_hair(0.00143, 0.00010, 2.0));
+    if (edge > 1.0) discard;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     float d = 0.5 + 0.5 * dot(n, key_direction.xyz);
     colour = vec4(film(albedo * (key_radiance.rgb * d + ambient(n))), 1.0);

@@ -83,6 +83,7 @@ out vec3 normal;
 out vec3 rest;
 out vec2 paint;
 out float sky_seen;
+out float behind_seen;    // of light from behind the head, which never comes in through the lips
 uniform bool inside_mouth;
 
 // Share of what comes through the open lips that reaches a point behind them: the gap seen as a disc at the distance of
@@ -100,6 +101,7 @@ void main() {
     paint = in_paint;
     float inside = inside_mouth ? 1.0 : in_occlusion.y;
     sky_seen = mix(in_occlusion.x, seen_through_lips(in_position), inside);
+    behind_seen = (1.0 - inside) * in_occlusion.x;
     gl_Position = clip_from_world * vec4(in_position, 1.0);
 }
 )";

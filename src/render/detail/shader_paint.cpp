@@ -33,7 +33,7 @@ uniform vec2 lip_outline[96];
 uniform vec4 lip_box;
 uniform float lip_back;
 uniform float hairline[32];
-uniform vec4 ears[2];
+uniform vec4 ear_low[2], ear_high[2];   // box; w: |x| of its inner plane, and how that leans back
 
 // Signed distance to the closed outline of the lips, negative inside, m.
 float outside_lips(vec2 p) {
@@ -77,10 +77,13 @@ void main() {
     float r = length(from_middle);
     float hair = smoothstep(-0.006, 0.034, r - hair_start(from_middle) + 0.010 * (noise(p * 0.35 + 3.0) - 0.5));
     for (int i = 0; i < 2; ++i) {
-        vec2 d = (place - ears[i].xy) / max(ears[i].zw, vec2(1e-4));
-        if (ears[i].z > 0.0) hair *= smoothstep(0.85, 1.15, length(d));
+        if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;
+        vec3 from_top = ear_high[i].xyz - rest;
+        float out_of = abs(rest.x) - ear_low[i].w - ear_high[i].w * (from_top.z + max(0.0, rest.y));
+        if (from_top.z < 0.030 && from_top.y > 0.016) out_of = 1.0;
+        hair *= smoothstep(0.002, -0.001, out_of);
     }
-    vec3 under_hair = mix(albedo, hair_tone, 0.42) * vec3(0.88, 0.90, 0.93);
+    vec3 under_hair = mix(albedo, hair_tone, 0.66) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
     oil *= 1.0 - 0.7 * hair;
 

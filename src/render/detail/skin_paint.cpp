@@ -60,11 +60,17 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
     for (const double r : plan.hairline) hairline.push_back(static_cast<float>(r));
     glUniform1fv(program.location("hairline"), static_cast<GLsizei>(hairline.size()),
                  hairline.data());
-    std::vector<float> ears;
-    for (const auto& ear : plan.ears)
-        for (const double x : {ear.place.x(), ear.place.y(), ear.half_size.x(), ear.half_size.y()})
-            ears.push_back(static_cast<float>(x));
-    glUniform4fv(program.location("ears"), 2, ears.data());
+    std::vector<float> ear_low, ear_high;
+    for (const EarRegion& ear : plan.ears) {
+        for (int k = 0; k < 3; ++k) {
+            ear_low.push_back(ear.known ? static_cast<float>(ear.low[k]) : 1.0F);
+            ear_high.push_back(ear.known ? static_cast<float>(ear.high[k]) : -1.0F);
+        }
+        ear_low.push_back(static_cast<float>(ear.out_m));
+        ear_high.push_back(static_cast<float>(ear.lean));
+    }
+    glUniform4fv(program.location("ear_low"), 2, ear_low.data());
+    glUniform4fv(program.location("ear_high"), 2, ear_high.data());
 }
 
 }  // namespace
@@ -135,7 +141,7 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
 
     // Hair and freckles over it
     glDisable(GL_DEPTH_TEST);
-    draw_strokes(plan_strokes(scene, plan, centre));
+    draw_strokes(plan_strokes(scene, plan, centre, triangles));
     glEnable(GL_DEPTH_TEST);
 
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
