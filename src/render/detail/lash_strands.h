@@ -14,7 +14,7 @@ struct LashPlace {
     float share = 0.0F;    ///< of the way from root to tip
 };
 
-/// One per vertex of the scene. Roots are where the ribbon meets the skin.
+/// One per vertex of the scene. Roots are the edge of the ribbon nearest to the middle of the eye.
 std::vector<LashPlace> lash_places(const Scene& scene);
 
 }  // namespace risorius::render

@@ -71,7 +71,7 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
         const double length = (0.0045 + 0.0035 * random.next()) * (1.0 - 0.35 * t);
         const Vec2 direction = std::cos(angle) * axis + std::sin(angle) * up;
         const double shade = 0.7 + 0.7 * random.next();
-        const double density = 0.52 + 0.25 * random.next();
+        const double density = 0.46 + 0.25 * random.next();
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00022,
                 hair * shade, density * std::min(1.0, 0.35 + t / 0.22));
     }
@@ -139,7 +139,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00017,
                 hair * (0.6 + 0.8 * shade),
-                scene.look.scalp_hair * (0.45 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
+                scene.look.scalp_hair * (0.60 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
     }
 }
 
@@ -178,6 +178,30 @@ std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
     scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
     for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
     return pad.take();
+}
+
+std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
+                                          const Vec3& centre) {
+    std::vector<StrokeVertex> fan;
+    if (plan.lip_outline.empty()) return fan;
+    const Eigen::Vector3f tone =
+        (0.85 * linear_from_srgb(scene.look.lip_tone)).cwiseSqrt().cast<float>();
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : plan.lip_outline)
+        middle += p / static_cast<double>(plan.lip_outline.size());
+    const auto corner = [&](const Vec3& p) {
+        const Vec2 place = paint_place(p, centre);
+        // The middle of a stroke's shaft, where it is opaque
+        fan.push_back({{static_cast<float>(place.x()), static_cast<float>(place.y())},
+                       {0.5F, 0.0F},
+                       {tone.x(), tone.y(), tone.z(), 1.0F}});
+    };
+    for (std::size_t i = 0; i < plan.lip_outline.size(); ++i) {
+        corner(middle);
+        corner(plan.lip_outline[i]);
+        corner(plan.lip_outline[(i + 1) % plan.lip_outline.size()]);
+    }
+    return fan;
 }
 
 void draw_strokes(const std::vector<StrokeVertex>& strokes) {

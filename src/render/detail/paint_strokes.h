@@ -29,6 +29,10 @@ struct StrokeVertex {
 std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                                        const std::vector<unsigned>& skin);
 
+/// The whole outline of the lips in their tone, as a fan.
+std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
+                                          const Vec3& centre);
+
 /// Blends them over the bound framebuffer.
 void draw_strokes(const std::vector<StrokeVertex>& strokes);
 

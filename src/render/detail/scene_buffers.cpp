@@ -153,17 +153,21 @@ void SceneBuffers::draw(const Batch& batch) const {
     glDisable(GL_CULL_FACE);
 }
 
-std::vector<unsigned> SceneBuffers::paintable_triangles() const {
+std::vector<unsigned> SceneBuffers::paintable_triangles(
+    const std::vector<float>& inside_mouth) const {
     // Around the back of the head a triangle may span the whole rim of the map.
     constexpr float kWidest = 0.15F;
     std::vector<unsigned> triangles;
     for (std::size_t i = 0; i < static_cast<std::size_t>(skin_index_count()); i += 3) {
+        const bool hidden = inside_mouth[indices_[i]] > 0.5F &&
+                            inside_mouth[indices_[i + 1]] > 0.5F &&
+                            inside_mouth[indices_[i + 2]] > 0.5F;
         float widest = 0;
         for (std::size_t a = 0; a < 3; ++a)
             for (std::size_t k = 0; k < 2; ++k)
                 widest = std::max(widest, std::abs(paint_[2 * indices_[i + a] + k] -
                                                    paint_[2 * indices_[i + (a + 1) % 3] + k]));
-        if (widest < kWidest)
+        if (!hidden && widest < kWidest)
             triangles.insert(triangles.end(), {indices_[i], indices_[i + 1], indices_[i + 2]});
     }
     return triangles;

@@ -37,8 +37,8 @@ class SceneBuffers {
     int skin_index_count() const;
     const std::vector<float>& normals() const { return normals_; }
 
-    /// Skin triangles that the map of the paint shows unbroken.
-    std::vector<unsigned> paintable_triangles() const;
+    /// Skin triangles outside the mouth that the map of the paint shows unbroken.
+    std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
 
   private:
     SmoothNormals smooth_;

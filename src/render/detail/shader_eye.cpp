@@ -101,7 +101,7 @@ void main() {
     // Wet surface: window-like highlights of key and fill and a faint picture of the surroundings
     if (!separate_cornea) {
         vec3 back = reflect(-v, n);
-        vec3 gloss = key_radiance.rgb * open * window_light(back, k, 0.957);
+        vec3 gloss = key_radiance.rgb * sqrt(open) * window_light(back, k, 0.957);
         gloss += fill_radiance.rgb * open * 0.45 * window_light(back, f, 0.950);
         float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
         gloss += ambient(back) * open * (0.025 + 0.4 * edge * edge * edge);

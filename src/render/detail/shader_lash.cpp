@@ -34,8 +34,8 @@ float in_hair(float spacing, float half_width, float row) {
 
 void main() {
     // The lower lid has few and thin ones.
-    float edge = sky_seen > 0.5 ? in_hair(0.00125, 0.000085, 1.0)
-                               : min(in_hair(0.00095, 0.00012, 1.0), in_hair(0.00143, 0.00010, 2.0));
+    float edge = sky_seen > 0.5 ? in_hair(0.00110, 0.000075, 1.0)
+                               : min(in_hair(0.00072, 0.000105, 1.0), in_hair(0.00109, 0.00009, 2.0));
     if (edge > 1.0) discard;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     float d = 0.5 + 0.5 * dot(n, key_direction.xyz);

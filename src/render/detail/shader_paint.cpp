@@ -83,9 +83,9 @@ void main() {
         if (from_top.z < 0.030 && from_top.y > 0.016) out_of = 1.0;
         hair *= smoothstep(0.002, -0.001, out_of);
     }
-    vec3 under_hair = mix(albedo, hair_tone, 0.66) * vec3(0.88, 0.90, 0.93);
+    vec3 under_hair = mix(albedo, hair_tone, 0.85) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
-    oil *= 1.0 - 0.7 * hair;
+    oil *= 1.0 - 0.85 * hair;
 
     bool near_lips = lip_points > 0 && all(greaterThan(rest.xy, lip_box.xy)) && all(lessThan(rest.xy, lip_box.zw)) && rest.z > lip_back;
     if (near_lips) {

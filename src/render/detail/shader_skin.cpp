@@ -56,7 +56,7 @@ void main() {
     gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     gloss += ambient(reflect(-v, n)) * seen * (0.02 + 0.10 * edge * edge * edge * edge * sky_seen);
-    colour = vec4(film(albedo * diffuse + gloss * 3.1416 * (0.35 + 0.65 * oil)), 1.0);
+    colour = vec4(film(albedo * diffuse + gloss * 3.1416 * (0.20 + 1.10 * oil)), 1.0);
 }
 )";
 

@@ -42,11 +42,11 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
 
     std::vector<float> lips;
     Vec2 low(1e3, 1e3), high(-1e3, -1e3);
-    for (const Vec2& p : plan.lip_outline) {
+    for (const Vec3& p : plan.lip_outline) {
         lips.push_back(static_cast<float>(p.x()));
         lips.push_back(static_cast<float>(p.y()));
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        low = low.cwiseMin(p.head<2>());
+        high = high.cwiseMax(p.head<2>());
     }
     const auto points = static_cast<GLsizei>(plan.lip_outline.size());
     glUniform1i(program.location("lip_points"), points);
@@ -117,6 +117,10 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
     glViewport(0, 0, kMapSide, kMapSide);
     glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+    // Between the lips the map is bare, and their inner sides look there.
+    glDisable(GL_DEPTH_TEST);
+    draw_strokes(plan_lip_ground(scene, plan, centre));
     glEnable(GL_DEPTH_TEST);
 
     // Skin: where the surface folds, the outermost layer is what can be seen.

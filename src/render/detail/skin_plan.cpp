@@ -86,8 +86,7 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     if (upper.empty() || lower.empty()) return;
     for (const std::vector<Vec3>& border : {upper, lower}) {
         const std::vector<Vec3> curve = smooth_curve(border, border.size() == 7 ? 5 : 7);
-        for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-            plan.lip_outline.emplace_back(curve[i].x(), curve[i].y());
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i) plan.lip_outline.push_back(curve[i]);
     }
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }

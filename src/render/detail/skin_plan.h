@@ -30,7 +30,7 @@ struct SkinPlan {
     static constexpr int kHairlineSteps = 32;
 
     std::vector<SkinZone> zones;
-    std::vector<Vec2> lip_outline;  ///< closed, frontal projection, m; empty when not marked
+    std::vector<Vec3> lip_outline;  ///< closed, rest, m; empty when not marked
     double lip_back_m = 0.0;        ///< lips lie in front of this z
     /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
     std::array<double, kHairlineSteps> hairline;
