@@ -65,7 +65,7 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
         const double band_s = offset * half_band;
         const Vec2 root = map[k] + (at - static_cast<double>(k)) * (map[k + 1] - map[k]) +
                           kMapPerMetre * (band_s - 0.0006) * up;
-        const double lean = (52.0 - 40.0 * std::min(1.0, t / 0.40)) -
+        const double lean = (42.0 - 30.0 * std::min(1.0, t / 0.40)) -
                             42.0 * offset * std::min(1.0, t / 0.3) + 22.0 * (random.next() - 0.5);
         const double angle = lean * std::numbers::pi / 180;
         const double length = (0.0045 + 0.0035 * random.next()) * (1.0 - 0.35 * t);

@@ -51,7 +51,7 @@ void main() {
     float rough = 0.52 - 0.14 * oil;
     float narrow = rough * 0.58;
     float seen = sky_seen * sky_seen;
-    vec3 gloss = key_radiance.rgb * s * (0.75 * glint(m, v, k, rough, 0.028) + 0.35 * oil * glint(m, v, k, narrow, 0.028));
+    vec3 gloss = key_radiance.rgb * s * two_glints(m, v, k, vec2(rough, narrow), vec2(0.75, 0.35 * oil), 0.028);
     gloss += fill_radiance.rgb * seen * glint(m, v, f, rough, 0.028);
     gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
