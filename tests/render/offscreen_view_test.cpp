@@ -264,6 +264,28 @@ TEST(OffscreenView, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil) {
     EXPECT_GT(iris, 1.25 * pupil);
 }
 
+TEST(OffscreenView, ThePupilTurnsWithTheEye) {
+    RoundHead head;
+    ViewOptions options = small();
+    options.width_px = options.height_px = 384;
+    OffscreenView view(head.scene, options);
+    const Eye& eye = head.scene.eyes[0];
+    const Mat3 turn = Eigen::AngleAxisd(0.45, Vec3::UnitY()).toRotationMatrix();
+    for (Eigen::Index i = 0; i < head.scene.rest.rows(); ++i) {
+        const Vec3 arm = head.scene.rest.row(i).transpose() - eye.centre;
+        if (arm.norm() < eye.radius_m + 1e-6)
+            head.pose.positions.row(i) = (eye.centre + turn * arm).transpose();
+    }
+    head.pose.eye_rotation[0] = turn;
+    const Image image = view.draw(head.pose);
+    // The pupil lies behind the surface, so look along its direction at the depth of the iris.
+    const Vec3 pupil = eye.centre + turn * Vec3(0, 0, 0.0104);
+    const double there = brightness(mean_colour(image, view.project(pupil), 1));
+    const double ahead =
+        brightness(mean_colour(image, view.project(eye.centre + Vec3(-0.002, -0.003, 0.0104)), 1));
+    EXPECT_LT(there, 0.6 * ahead);
+}
+
 TEST(OffscreenView, AClosedSurfaceHidesTheTeeth) {
     RoundHead with, without;
     without.scene.surfaces.pop_back();

@@ -6,6 +6,9 @@ namespace {
 // Pattern from the rest position in the frame of the eye (z forward). Without a cornea of its own the surface is taken for
 // it: the view ray is refracted there and meets the iris plane behind.
 constexpr const char* kWindow = R"(
+// The key as the eye mirrors it: photographers add a low lamp so that the catchlight stays clear of the upper lid.
+vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.32, 0.0)); }
+
 // A large soft lamp mirrored in the tear film: a disc whose edge falls off over a few degrees.
 float window_light(vec3 back, vec3 l, float edge) {
     return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
@@ -51,8 +54,15 @@ void main() {
     vec3 v = normalize(camera.xyz - position);
     vec3 q = eye_from_rest * (rest - centre);
     vec3 hit = q;
+    vec3 wet = n;   // normal of the tear film
     if (!separate_cornea) {
-        vec3 d = refract(-(eye_from_world * v), eye_from_world * n, 1.0 / 1.336);
+        // Scans have little or no corneal bulge; a cornea curves with 1.31 times the radius of its iris.
+        vec2 c = q.xy / (1.31 * iris_radius);
+        vec3 bulge = vec3(c, sqrt(max(1.0 - dot(c, c), 0.05)));
+        float on_cornea = q.z > 0.0 ? smoothstep(1.15, 0.90, length(q.xy) / iris_radius) : 0.0;
+        vec3 local = normalize(mix(eye_from_world * n, bulge, on_cornea));
+        wet = local * eye_from_world;
+        vec3 d = refract(-(eye_from_world * v), local, 1.0 / 1.336);
         float depth = max(q.z - iris_depth, 0.0) / max(-d.z, 0.2);
         hit = q + d * depth;
     }
@@ -100,10 +110,10 @@ void main() {
 
     // Wet surface: window-like highlights of key and fill and a faint picture of the surroundings
     if (!separate_cornea) {
-        vec3 back = reflect(-v, n);
-        vec3 gloss = key_radiance.rgb * sqrt(open) * window_light(back, k, 0.957);
+        vec3 back = reflect(-v, wet);
+        vec3 gloss = key_radiance.rgb * sqrt(open) * window_light(back, catchlight(), 0.957);
         gloss += fill_radiance.rgb * open * 0.45 * window_light(back, f, 0.950);
-        float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
+        float edge = 1.0 - clamp(dot(wet, v), 0.0, 1.0);
         gloss += ambient(back) * open * (0.025 + 0.4 * edge * edge * edge);
         c += gloss;
     }
@@ -121,7 +131,7 @@ void main() {
     vec3 k = key_direction.xyz, f = fill_direction.xyz;
     float s = key_visibility(position, n);
     vec3 back = reflect(-v, n);
-    vec3 gloss = key_radiance.rgb * smoothstep(0.0, 0.4, s) * window_light(back, k, 0.957);
+    vec3 gloss = key_radiance.rgb * smoothstep(0.0, 0.4, s) * window_light(back, catchlight(), 0.957);
     gloss += fill_radiance.rgb * 0.45 * window_light(back, f, 0.950);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     gloss += ambient(back) * (0.015 + 0.2 * edge * edge * edge);
