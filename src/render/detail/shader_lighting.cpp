@@ -25,10 +25,10 @@ float key_visibility(vec3 p, vec3 n) {
     float texel = mouth_axis.w;
     vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
-    // Turned by 0, 18, 36 and 54 degrees; the side of the map is the reciprocal of its texel in texture units.
+    // Turned by 0, 18, 36 and 54 degrees, over a disc of 3.5 mm.
     vec2 turned = q.x == q.y ? (q.x == 0 ? vec2(1.0, 0.0) : vec2(0.9511, 0.3090))
                              : (q.x == 0 ? vec2(0.8090, 0.5878) : vec2(0.5878, 0.8090));
-    vec2 e = turned * (0.0040 * length(shadow_from_world[0].xyz));
+    vec2 e = turned * (0.0035 / (texel * float(textureSize(shadow_map, 0).x)));
     vec2 f = vec2(-e.y, e.x);
     // A pentagon around a triangle: the disc filled evenly.
     float s = texture(shadow_map, vec3(c.xy + e, c.z));
