@@ -147,6 +147,76 @@ std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh, const std
     return out;
 }
 
+// Whether a piece reaches well above and below the bite.
+bool spans_both_jaws(const Head& head, const std::vector<int>& piece) {
+    double lowest = 1e9, highest = -1e9;
+    for (int v : piece) {
+        lowest = std::min(lowest, head.vertices(v, 1));
+        highest = std::max(highest, head.vertices(v, 1));
+    }
+    const double bite = head.landmark("sto").y();
+    return highest > bite + head.mm(8) && lowest < bite - head.mm(12);
+}
+
+// Gums and tongue modelled in one piece with both jaws: what lies on the upper teeth and the palate stays, what lies on the
+// lower teeth and the tongue goes with the mandible, and the piece stretches in between (harmonic over its edges).
+void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vector<int>& piece,
+                        const std::vector<int>& upper_teeth, const std::vector<int>& lower_teeth, Head& head) {
+    std::map<int, int> index;
+    for (int v : piece) index.emplace(v, static_cast<int>(index.size()));
+    std::vector<std::set<int>> neighbours(piece.size());
+    std::vector<Vec3> normal(piece.size(), Vec3::Zero());
+    const Triangles triangles = geom::triangulate(mesh, {group});
+    for (long f = 0; f < triangles.rows(); ++f) {
+        if (!index.count(triangles(f, 0))) continue;
+        const Vec3 a = head.vertices.row(triangles(f, 0)), b = head.vertices.row(triangles(f, 1)),
+                   c = head.vertices.row(triangles(f, 2));
+        for (int k = 0; k < 3; ++k) {
+            const int i = index[triangles(f, k)], j = index[triangles(f, (k + 1) % 3)];
+            neighbours[i].insert(j);
+            neighbours[j].insert(i);
+            normal[i] += (b - a).cross(c - a);
+        }
+    }
+    const auto distance = [&](int v, const std::vector<int>& teeth) {
+        double least = 1e300;
+        for (int t : teeth) least = std::min(least, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
+        return std::sqrt(least);
+    };
+    constexpr double kUnknown = -1.0;
+    std::vector<double> share(piece.size(), kUnknown);
+    std::vector<char> tongue(piece.size(), 0);
+    const double corner = std::abs(head.landmark("ch_l").x());
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        const Vec3 p = head.vertices.row(piece[i]).transpose();
+        const double up = distance(piece[i], upper_teeth), down = distance(piece[i], lower_teeth);
+        const double facing = normal[i].normalized().y();
+        if (std::min(up, down) < head.mm(2.5)) {
+            share[i] = up < down ? 0.0 : 1.0;
+        } else if (std::abs(p.x()) < 0.8 * corner && facing > 0.4) {
+            share[i] = 1.0;
+            tongue[i] = 1;
+        } else if (std::abs(p.x()) < corner && facing < -0.4 && p.y() > head.landmark("sto").y()) {
+            share[i] = 0.0;
+        }
+    }
+    std::vector<double> value(piece.size());
+    for (std::size_t i = 0; i < piece.size(); ++i) value[i] = share[i] == kUnknown ? 0.5 : share[i];
+    for (int sweep = 0; sweep < 300; ++sweep)
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            if (share[i] != kUnknown || neighbours[i].empty()) continue;
+            double sum = 0;
+            for (int j : neighbours[i]) sum += value[j];
+            value[i] = sum / static_cast<double>(neighbours[i].size());
+        }
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        head.jaw_share[piece[i]] = value[i];
+        head.carrier[piece[i]] = tongue[i]          ? Carrier::kTongue
+                                 : value[i] > 0.5 ? Carrier::kMandible
+                                                  : Carrier::kSkull;
+    }
+}
+
 Vec3 drop_on_skin(const Vec3& p, const Points& vertices, const std::set<int>& skin_vertices) {
     Vec3 best = p;
     double best_squared = 1e300;
@@ -250,7 +320,9 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
     head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);
     const double occlusal_y = head.landmark("sto").y();
     std::array<std::vector<int>, 2> eye_members;
-    std::vector<int> tooth_members;
+    std::vector<int> tooth_members, lower_tooth_members;
+    std::vector<std::pair<int, std::vector<int>>> both_jaws;
+    head.jaw_share.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
         const std::string& role = head.role_of_group[g];
         if (role.empty() || role == "hidden") continue;
@@ -278,19 +350,29 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
                     highest = std::max(highest, head.vertices(v, 1));
                 }
                 const bool fills = near_middle > 0.2 * static_cast<double>(piece.size());
-                carrier = 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
-                          : fills                              ? Carrier::kTongue
-                                                               : Carrier::kMandible;
+                carrier = fills                                ? Carrier::kTongue
+                          : 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
+                                                                  : Carrier::kMandible;
             }
-            for (int v : piece) head.carrier[v] = carrier;
+            for (int v : piece) {
+                head.carrier[v] = carrier;
+                head.jaw_share[v] = carrier == Carrier::kMandible || carrier == Carrier::kTongue ? 1.0 : 0.0;
+            }
+            if (any_of(role, {"gums_tongue", "gums"}) && spans_both_jaws(head, piece))
+                both_jaws.push_back({static_cast<int>(g), piece});
             if (carrier == Carrier::kEyeLeft)
                 eye_members[0].insert(eye_members[0].end(), piece.begin(), piece.end());
             if (carrier == Carrier::kEyeRight)
                 eye_members[1].insert(eye_members[1].end(), piece.begin(), piece.end());
             if (any_of(role, {"teeth_upper", "teeth"}) && carrier == Carrier::kSkull)
                 tooth_members.insert(tooth_members.end(), piece.begin(), piece.end());
+            if (any_of(role, {"teeth_lower", "teeth"}) && carrier == Carrier::kMandible)
+                lower_tooth_members.insert(lower_tooth_members.end(), piece.begin(), piece.end());
         }
     }
+    if (!tooth_members.empty() && !lower_tooth_members.empty())
+        for (const auto& [group, piece] : both_jaws)
+            split_between_jaws(mesh, group, piece, tooth_members, lower_tooth_members, head);
 
     // Eyes and teeth
     for (int side = 0; side < 2; ++side) {

@@ -41,6 +41,7 @@ struct Head {
     double size = 1.0;                            ///< this head / the atlas head
     Points vertices;                              ///< V x 3
     std::vector<Carrier> carrier;                 ///< V
+    std::vector<double> jaw_share;                ///< V, share of the mandible's motion of teeth, gums and tongue
     std::vector<std::string> role_of_group;       ///< per mesh group, "" when unused
     Triangles skin;                               ///< outer skin, welded vertex indices
     Triangles lining;                             ///< mouth lining and eye sockets, welded vertex indices

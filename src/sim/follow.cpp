@@ -78,10 +78,14 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std:
         switch (head.carrier[v]) {
             case rig::Carrier::kTongue: {
                 const double along = (head.vertices(v, 2) - back) / std::max(1e-6, front - back);
-                tongue_.push_back({static_cast<int>(v), along * along, 0.55 + 0.4 * smoothstep(0.0, 0.7, along)});
+                tongue_.push_back({static_cast<int>(v), along * along,
+                                   head.jaw_share[v] * (0.55 + 0.4 * smoothstep(0.0, 0.7, along))});
                 break;
             }
-            case rig::Carrier::kMandible: mandible_.push_back(static_cast<int>(v)); break;
+            case rig::Carrier::kSkull:
+            case rig::Carrier::kMandible:
+                if (head.jaw_share[v] > 0) on_jaw_.push_back({static_cast<int>(v), head.jaw_share[v]});
+                break;
             case rig::Carrier::kEyeLeft: eye_[0].push_back(static_cast<int>(v)); break;
             case rig::Carrier::kEyeRight: eye_[1].push_back(static_cast<int>(v)); break;
             default: break;
@@ -128,7 +132,10 @@ void Follow::apply(const FollowDrive& drive, Points& vertices) const {
         for (int v : eye_[side])
             vertices.row(v) = (centre + drive.gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
     }
-    for (int v : mandible_) vertices.row(v) = (drive.mandible * Vec3(rest_.row(v).transpose())).transpose();
+    for (const auto& [v, share] : on_jaw_) {
+        const Vec3 rest = rest_.row(v).transpose();
+        vertices.row(v) = (rest + share * (drive.mandible * rest - rest)).transpose();
+    }
     for (const TongueVertex& t : tongue_) {
         const Vec3 rest = rest_.row(t.vertex).transpose();
         const Vec3 out = drive.tongue_out * tongue_range_m_ * t.tip * Vec3(0, -0.12, 1.0);

@@ -48,7 +48,7 @@ class Follow {
     Points rest_;
     std::vector<LidVertex> lid_vertices_;
     std::vector<TongueVertex> tongue_;
-    std::vector<int> mandible_;
+    std::vector<std::pair<int, double>> on_jaw_;   // vertex, share of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
     std::vector<double> head_share_;     ///< V, of the head's turn
     double tongue_range_m_;
