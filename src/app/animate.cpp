@@ -56,7 +56,7 @@ Shot plan_shot(const AnimateOptions& options) {
     shot.view.height_px = options.size ? options.size->height_px : asked.height_px;
     shot.view.camera = options.camera.value_or(asked.camera);
     shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
-    shot.view.threads = std::max(0, options.threads - 2);
+    shot.view.threads = options.threads > 1 ? options.threads : 0;
 
     // Refuse now what would only fail after minutes
     const auto& cameras = render::camera_names();

@@ -77,7 +77,7 @@ void add_render(CLI::App& app) {
     command
         ->add_option(
             "--threads", options.threads,
-            "1, 2 to simulate and draw at once, more to draw faster; the frames are the same")
+            "1, or more to simulate beside drawing and to draw faster; the frames are the same")
         ->capture_default_str()
         ->check(CLI::Range(1, 256));
     add_common(*command, arguments->common);
