@@ -1,7 +1,6 @@
 #include "app/animate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +8,7 @@
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/staged_file.h"
+#include "app/stopwatch.h"
 #include "app/two_stages.h"
 #include "media/image_file.h"
 #include "media/sha256.h"
@@ -165,16 +165,6 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFil
     record.fibres = face.fibre_count();
     return record;
 }
-
-class Stopwatch {
-  public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 

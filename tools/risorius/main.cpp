@@ -1,5 +1,7 @@
 // The command line: turns arguments into calls of src/app and what they throw into messages and exit codes.
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "app/watch.h"
 #include "commands.h"
@@ -14,30 +16,38 @@ int say(ExitCode code, const std::string& message) {
     return code;
 }
 
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
 // Mistakes on the command line in the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
-    std::string place = "command line", found = "none";
-    for (const CLI::App* command : app.get_subcommands()) place = command->get_name();
-    const std::string kind = error.get_name(), text = error.what();
-    if (place == "command line") {
-        for (int i = 1; i < argc; ++i) {
-            found = "\"" + std::string(argv[i]) + "\"";
-            break;
-        }
+    if (app.get_subcommands().empty()) {
         std::string names;
         for (const CLI::App* command : app.get_subcommands({})) names += " " + command->get_name();
-        return place + ": expected a command, one of" + names + ", found " + found;
+        return "command line: expected a command, one of" + names + ", found " +
+               (argc > 1 ? quoted(argv[1]) : "none");
     }
-    if (kind == "RequiredError")
+    const CLI::App& command = *app.get_subcommands().front();
+    const std::string place = command.get_name(), text = error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error))
         return place + ": expected " + text.substr(0, text.find(" is required")) + ", found none";
-    if (kind == "ExtrasError") {
-        // The words come last argument first.
-        const std::size_t colon = text.find(": ");
-        return place + ": expected only what risorius " + place + " --help lists, found" +
-               text.substr(colon == std::string::npos ? 0 : colon + 1);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        const std::vector<std::string> extra = command.remaining(true);
+        return place + ": expected only what risorius " + place + " --help lists, found " +
+               quoted(extra.empty() ? text : extra.front());
     }
-    if (kind == "ArgumentMismatch") return place + ": expected a value, found none (" + text + ")";
-    return place + ": expected values as risorius " + place + " --help says, found " + text;
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+        return place + " " + text.substr(0, text.find(':')) + ": expected a value, found none";
+    if (dynamic_cast<const CLI::ConversionError*>(&error)) {
+        // "Could not convert: --fps = 3.5"
+        const std::size_t name = text.find("--"), equals = text.find(" = ");
+        if (name != std::string::npos && equals != std::string::npos) {
+            const std::string option = text.substr(name, equals - name);
+            const bool whole = command.get_option(option)->get_type_name() == "INT";
+            return place + " " + option + ": expected " + (whole ? "an integer" : "a number") +
+                   ", found " + quoted(text.substr(equals + 3));
+        }
+    }
+    return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
 }  // namespace
@@ -52,6 +62,7 @@ int main(int argc, char** argv) {
     cli::add_fit(app);
     cli::add_check(app);
     cli::add_info(app);
+    cli::add_bench(app);
     cli::catch_interrupts();
     try {
         app.parse(argc, argv);  // runs the command
