@@ -1,7 +1,6 @@
 #include "app/animate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +8,7 @@
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/staged_file.h"
+#include "app/stopwatch.h"
 #include "app/two_stages.h"
 #include "media/image_file.h"
 #include "media/sha256.h"
@@ -56,7 +56,7 @@ Shot plan_shot(const AnimateOptions& options) {
     shot.view.height_px = options.size ? options.size->height_px : asked.height_px;
     shot.view.camera = options.camera.value_or(asked.camera);
     shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
-    shot.view.threads = std::max(0, options.threads - 2);
+    shot.view.threads = options.threads > 1 ? options.threads : 0;
 
     // Refuse now what would only fail after minutes
     const auto& cameras = render::camera_names();
@@ -165,16 +165,6 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFil
     record.fibres = face.fibre_count();
     return record;
 }
-
-class Stopwatch {
-  public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 

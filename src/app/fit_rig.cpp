@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/rig_files.h"
 #include "io/read_mesh.h"
@@ -37,21 +38,12 @@ std::string quoted_list(const std::vector<std::string>& ids) {
     return out;
 }
 
-// Everything about a landmark file that can be wrong before the mesh is looked at as a head.
+// In mesh units.
 std::map<std::string, Vec3> checked_landmarks(const rig::RigDescription& rig,
                                               const geom::PolygonMesh& mesh, const fs::path& file) {
     const std::string place = file.string() + ":/landmarks";
-    std::vector<std::string_view> known;
-    for (const rig::AtlasLandmark& landmark : rig.atlas.landmarks) known.push_back(landmark.id);
     std::map<std::string, Vec3> out;
     for (const auto& [id, landmark] : rig.landmarks) {
-        if (!rig.atlas.landmark(id)) {
-            const std::string near = nearest_name(id, known);
-            throw Error(place + "/" + id,
-                        near.empty() ? "a landmark of the atlas"
-                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)",
-                        "\"" + id + "\"");
-        }
         if (landmark.vertex >= mesh.vertex_count())
             throw Error(
                 place + "/" + id + "/vertex",
@@ -143,7 +135,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     rig.name = options.name.empty() ? options.mesh.stem().string() : options.name;
     rig.mesh_file = options.mesh;
     const geom::PolygonMesh mesh = io::read_mesh(options.mesh);
-    rig.landmarks = rig::read_landmarks(options.landmarks);
+    rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
     const std::map<std::string, Vec3> landmarks = checked_landmarks(rig, mesh, options.landmarks);
 
     // How large it is, and what its groups are
@@ -188,7 +180,8 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         report.strengths = calibrate_strength(face, rig, watch);
         for (const MuscleStrength& found : report.strengths)
             for (rig::MuscleBand& band : rig.atlas.bands)
-                if (band.muscle == found.muscle) band.strength = found.strength;
+                if (band.muscle == found.muscle)
+                    band.strength = std::round(1e4 * found.strength) / 1e4;
     }
 
     // Write it and say what came out

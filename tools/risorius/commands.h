@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <exception>
 
 #include "terminal.h"
 
@@ -9,6 +10,12 @@ namespace risorius::cli {
 
 void add_render(CLI::App& app);
 void add_fit(CLI::App& app);
+void add_check(CLI::App& app);
+void add_info(CLI::App& app);
+void add_bench(CLI::App& app);
+
+/// The input is wrong, and what is wrong has been said.
+class SaidAlready : public std::exception {};
 
 /// --quiet and --json.
 void add_common(CLI::App& command, Common& common);

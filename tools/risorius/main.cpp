@@ -1,6 +1,7 @@
 // The command line: turns arguments into calls of src/app and what they throw into messages and exit codes.
 #include <cstdio>
-#include <cstring>
+#include <string>
+#include <vector>
 
 #include "app/watch.h"
 #include "commands.h"
@@ -15,23 +16,38 @@ int say(ExitCode code, const std::string& message) {
     return code;
 }
 
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
 // Mistakes on the command line in the form of all messages: place, expected, found.
-std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
-    std::string place = "command line";
-    for (const CLI::App* command : app.get_subcommands()) place = command->get_name();
-    std::string text = error.what();
-    if (const std::size_t line_end = text.find('\n'); line_end != std::string::npos)
-        text.resize(line_end);
-    const auto after = [&](const char* words) {
-        const std::size_t at = text.find(words);
-        return at == std::string::npos ? text : text.substr(at + std::strlen(words));
-    };
-    if (error.get_name() == "RequiredError")
+std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
+    if (app.get_subcommands().empty()) {
+        std::string names;
+        for (const CLI::App* command : app.get_subcommands({})) names += " " + command->get_name();
+        return "command line: expected a command, one of" + names + ", found " +
+               (argc > 1 ? quoted(argv[1]) : "none");
+    }
+    const CLI::App& command = *app.get_subcommands().front();
+    const std::string place = command.get_name(), text = error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error))
         return place + ": expected " + text.substr(0, text.find(" is required")) + ", found none";
-    if (error.get_name() == "ExtrasError")
-        return place + ": expected what risorius --help lists, found" +
-               after("expected:").substr(0);
-    return place + ": " + text;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        const std::vector<std::string> extra = command.remaining(true);
+        return place + ": expected only what risorius " + place + " --help lists, found " +
+               quoted(extra.empty() ? text : extra.front());
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+        return place + " " + text.substr(0, text.find(':')) + ": expected a value, found none";
+    if (dynamic_cast<const CLI::ConversionError*>(&error)) {
+        // "Could not convert: --fps = 3.5"
+        const std::size_t name = text.find("--"), equals = text.find(" = ");
+        if (name != std::string::npos && equals != std::string::npos) {
+            const std::string option = text.substr(name, equals - name);
+            const bool whole = command.get_option(option)->get_type_name() == "INT";
+            return place + " " + option + ": expected " + (whole ? "an integer" : "a number") +
+                   ", found " + quoted(text.substr(equals + 3));
+        }
+    }
+    return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
 }  // namespace
@@ -44,14 +60,19 @@ int main(int argc, char** argv) {
     app.footer("risorius COMMAND --help explains a command and gives an example.");
     cli::add_render(app);
     cli::add_fit(app);
+    cli::add_check(app);
+    cli::add_info(app);
+    cli::add_bench(app);
     cli::catch_interrupts();
     try {
         app.parse(argc, argv);  // runs the command
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        return say(kWrongInput, message_of(error, app));
+        return say(kWrongInput, message_of(error, app, argc, argv));
     } catch (const Error& error) {
         return say(kWrongInput, error.what());
+    } catch (const cli::SaidAlready&) {
+        return kWrongInput;
     } catch (const app::Interrupted&) {
         return say(kInterrupted, "interrupted, nothing was written");
     } catch (const std::exception& error) {

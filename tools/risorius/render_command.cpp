@@ -25,6 +25,9 @@ struct Arguments {
 };
 
 void run(Arguments& arguments) {
+    const int threads = arguments.options.threads;
+    if (threads < 1 || threads > 256)
+        throw Error("--threads", "an integer in [1, 256]", std::to_string(threads));
     if (!arguments.size.empty()) arguments.options.size = size_from(arguments.size);
     app::RunRecord record;
     {
@@ -77,9 +80,8 @@ void add_render(CLI::App& app) {
     command
         ->add_option(
             "--threads", options.threads,
-            "1, 2 to simulate and draw at once, more to draw faster; the frames are the same")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 256));
+            "1, or more to simulate beside drawing and to draw faster; the frames are the same")
+        ->capture_default_str();
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"

@@ -1,0 +1,236 @@
+#include "app/bench_machine.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "app/animate.h"
+#include "app/rig_files.h"
+#include "app/scene_from_rig.h"
+#include "app/staged_file.h"
+#include "app/stopwatch.h"
+#include "app/version.h"
+#include "media/video_writer.h"
+#include "render/offscreen_view.h"
+#include "track/timeline.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kTrack_s = 4.0;
+constexpr int kPictures = 9, kEncoded = 60;
+
+// A smile, raised brows, a blink, an open jaw, a frown: whatever is slow about a face happens in it.
+Json bench_script(const std::string& rig, double duration_s) {
+    return Json::parse(R"({
+        "format": "risorius-script", "version": 1, "rig": ")" +
+                       Json(rig).dump().substr(1, Json(rig).dump().size() - 2) + R"(",
+        "fps": 60, "duration_s": )" +
+                       format_number(duration_s) + R"(, "seed": 1,
+        "channels": {
+            "AU12": {"keys": [[0.0, 0], [0.4, 0.9], [0.8, 0.9], [1.2, 0]]},
+            "AU6": {"keys": [[0.0, 0], [0.4, 0.7], [0.8, 0.7], [1.2, 0]]},
+            "AU1": {"keys": [[1.2, 0], [1.45, 0.8], [1.9, 0]]},
+            "AU2": {"keys": [[1.2, 0], [1.45, 0.8], [1.9, 0]]},
+            "AU25": {"keys": [[2.0, 0], [2.25, 0.6], [2.6, 0]]},
+            "jaw_open": {"keys": [[2.0, 0], [2.3, 0.6], [2.7, 0]]},
+            "AU4": {"keys": [[2.6, 0], [2.9, 0.8], [3.3, 0]]},
+            "AU15": {"keys": [[2.6, 0], [2.9, 0.6], [3.3, 0]]},
+            "AU18": {"keys": [[3.2, 0], [3.5, 0.8], [3.9, 0]]}
+        },
+        "events": [{"blink": {}, "start_s": 0.5}]
+    })");
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+Json describe_machine() {
+    std::string cpu = "unknown";
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) {
+            cpu = line.substr(line.find(':') + 2);
+            break;
+        }
+    return {{"cpu", cpu}, {"cores", std::thread::hardware_concurrency()}};
+}
+
+double peak_memory_mb() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux gives kB
+}
+
+/// A folder that goes away with everything in it.
+class ScratchFolder {
+  public:
+    ScratchFolder()
+        : path_(fs::temp_directory_path() / ("risorius-bench-" + std::to_string(::getpid()))) {
+        fs::create_directories(path_);
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    fs::path operator/(const char* name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+struct Bench {
+    RigFiles files;
+    track::Timeline timeline;
+    const Watch& watch;
+
+    sim::DriveAt drive() const {
+        return [this](double t_s) { return timeline.at(t_s); };
+    }
+
+    // All steps of the track on one core; leaves the poses of some of its frames.
+    Json simulate(const std::string& quality, std::vector<sim::FacePose>* poses) const {
+        watch.tell(0, "simulating, " + quality);
+        sim::Face face(files.rig, files.mesh, sim::quality_named(quality), files.place());
+        face.start(drive());
+        std::vector<double> step_ms;
+        int iterations = 0;
+        const int steps = static_cast<int>(kTrack_s / sim::kStep_s);
+        for (int step = 0; step < steps; ++step) {
+            if (step % 20 == 0) watch.tell(0.3 * step / steps, "simulating, " + quality);
+            const Stopwatch stopwatch;
+            iterations += face.step(drive()).iterations;
+            step_ms.push_back(1e3 * stopwatch.seconds());
+            if (poses && step % (steps / kPictures) == 0) poses->push_back(face.pose());
+        }
+        return {{"nodes", face.node_count()},
+                {"tets", face.tet_count()},
+                {"fibres", face.fibre_count()},
+                {"build_s", face.build_s()},
+                {"step_ms", median(step_ms)},
+                {"slowest_step_ms", *std::max_element(step_ms.begin(), step_ms.end())},
+                {"mean_iterations", static_cast<double>(iterations) / steps}};
+    }
+
+    Json draw(int side_px, const rig::Head& head, const std::vector<sim::FacePose>& poses,
+              std::vector<Image>* pictures) const {
+        const int threads = static_cast<int>(std::thread::hardware_concurrency());
+        render::ViewOptions options;
+        options.width_px = options.height_px = side_px;
+        options.threads = threads > 1 ? threads : 0;
+        const Stopwatch building;
+        render::OffscreenView view(scene_from_rig(head, files.rig, files.mesh), options);
+        const double build_s = building.seconds();
+        std::vector<double> picture_ms;
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            watch.tell(0.3 + 0.3 * static_cast<double>(i) / static_cast<double>(poses.size()),
+                       "drawing");
+            const Stopwatch stopwatch;
+            Image image = view.draw(pose_for_view(poses[i]));
+            picture_ms.push_back(1e3 * stopwatch.seconds());
+            if (pictures) pictures->push_back(std::move(image));
+        }
+        return {{"build_s", build_s}, {"frame_ms", median(picture_ms)}};
+    }
+
+    double encode_fps(const std::vector<Image>& pictures, const fs::path& file) const {
+        watch.tell(0.6, "writing");
+        const Stopwatch stopwatch;
+        media::VideoWriter video(
+            file, {.width_px = pictures.front().width_px, .height_px = pictures.front().height_px});
+        for (int frame = 0; frame < kEncoded; ++frame)
+            video.append(pictures[static_cast<std::size_t>(frame) % pictures.size()]);
+        video.finish();
+        return kEncoded / stopwatch.seconds();
+    }
+
+    // One second from script to video
+    Json whole_way(const ScratchFolder& scratch) const {
+        watch.tell(0.7, "from script to video");
+        const fs::path script = scratch / "script.json";
+        write_text(script, bench_script(fs::absolute(files.file).generic_string(), 1.0).dump());
+        AnimateOptions options;
+        options.script = script;
+        options.out = scratch / "video.mp4";
+        options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
+        Watch inner = watch;
+        if (watch.progress)
+            inner.progress = [this](double share, const std::string&) {
+                watch.progress(0.7 + 0.3 * share, "from script to video");
+            };
+        const RunRecord record = animate(options, inner);
+        return {{"seconds_of_video", 1.0},
+                {"threads", options.threads},
+                {"total_s", record.timing.total_s},
+                {"build_s", record.timing.build_s},
+                {"simulate_s", record.timing.simulate_s},
+                {"draw_s", record.timing.draw_s},
+                {"encode_s", record.timing.encode_s},
+                {"real_time_factor", 1.0 / record.timing.total_s}};
+    }
+};
+
+Json bench_rig(const fs::path& rig_file, const Watch& watch) {
+    RigFiles files = read_rig_files(rig_file);
+    const track::ChannelTable channels = files.rig.channels();
+    const auto script = track::read_script(
+        JsonCursor::from_json(bench_script(rig_file.generic_string(), kTrack_s), "bench"), channels,
+        files.rig.facs, files.rig.expressions);
+    const Bench bench{std::move(files), track::Timeline(script, channels), watch};
+
+    const ScratchFolder scratch;
+    std::vector<sim::FacePose> poses;
+    std::vector<Image> pictures;
+    Json out;
+    out["rig"] = rig_file.generic_string();
+    out["name"] = bench.files.rig.name;
+    out["vertices"] = bench.files.mesh.vertex_count();
+    out["preview"] = bench.simulate("preview", nullptr);
+    out["video"] = bench.simulate("video", &poses);
+    out["fine"] = bench.simulate("fine", nullptr);
+    const rig::Head head = rig::place_head(bench.files.rig, bench.files.mesh, bench.files.place());
+    out["draw_512"] = bench.draw(512, head, poses, nullptr);
+    out["draw_1024"] = bench.draw(1024, head, poses, &pictures);
+    out["encode_1024_fps"] = bench.encode_fps(pictures, scratch / "encoded.mp4");
+    out["whole_way"] = bench.whole_way(scratch);
+    out["peak_memory_mb"] = peak_memory_mb();
+    return out;
+}
+
+}  // namespace
+
+Json bench_machine(const BenchOptions& options, const Watch& watch) {
+    std::vector<fs::path> rigs = options.rigs;
+    if (rigs.empty())
+        rigs.push_back(fs::path(RISORIUS_STANDARD_FOLDER).parent_path() / "adult/rig.json");
+    Json out;
+    out["format"] = "risorius-bench";
+    out["version"] = 1;
+    out["toolkit"] = kVersion;
+    out["machine"] = describe_machine();
+    out["rigs"] = Json::array();
+    for (std::size_t i = 0; i < rigs.size(); ++i) {
+        Watch one = watch;
+        if (watch.progress)
+            one.progress = [&, i](double share, const std::string& what) {
+                watch.progress((static_cast<double>(i) + share) / static_cast<double>(rigs.size()),
+                               rigs[i].string() + ", " + what);
+            };
+        out["rigs"].push_back(bench_rig(rigs[i], one));
+    }
+    return out;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,20 @@
+// How fast this machine simulates, draws and writes faces: medians, so that one slow moment does not count.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/watch.h"
+#include "core/json_cursor.h"
+
+namespace risorius::app {
+
+struct BenchOptions {
+    std::vector<std::filesystem::path> rigs;  ///< empty: the adult of this toolkit
+};
+
+/// The report: machine, and per rig the size of the model, ms per simulated step of 1/60 s at every quality, ms per
+/// picture, and the whole way from script to video against real time. Every rig plays the same four seconds.
+Json bench_machine(const BenchOptions& options, const Watch& watch = {});
+
+}  // namespace risorius::app

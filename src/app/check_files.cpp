@@ -1,0 +1,80 @@
+#include "app/check_files.h"
+
+#include "app/landmark_file.h"
+#include "app/part_guess.h"
+#include "app/rig_files.h"
+#include "io/read_mesh.h"
+#include "rig/head.h"
+#include "track/script.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+rig::Head check_rig(const fs::path& file) {
+    const RigFiles files = read_rig_files(file);
+    return rig::place_head(files.rig, files.mesh, files.place());
+}
+
+void check_script(const fs::path& file) {
+    const track::ScriptHeader header = track::read_script_header(file);
+    const RigFiles files = read_rig_files(header.rig_file);
+    track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    rig::place_head(files.rig, files.mesh, files.place());
+}
+
+void check_landmarks(const fs::path& file, CheckResult& result) {
+    const auto atlas = rig::read_atlas_landmarks(
+        JsonCursor::read_file(fs::path(RISORIUS_STANDARD_FOLDER) / "landmarks.json"));
+    const auto landmarks = read_atlas_named_landmarks(file, atlas);
+    for (const std::string& id : rig::required_landmarks())
+        if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
+}
+
+// Eyes and teeth may be open, intersecting pieces; the skin has to be a sound surface.
+void check_mesh_file(const fs::path& file, CheckResult& result) {
+    const geom::PolygonMesh mesh = io::read_mesh(file);
+    geom::MeshCheckOptions options;
+    options.scale = geom::Severity::kIgnore;  // no one has said in which unit it is
+    for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
+        if (role_suggested_by(mesh.group_names[g]) == "skin")
+            options.groups.push_back(static_cast<int>(g));
+    const geom::MeshReport report = geom::check_mesh(mesh, file.string(), options);
+    for (const geom::MeshFinding& finding : report.findings)
+        result.notes.push_back(finding.message());
+}
+
+void check(CheckResult& result) {
+    if (result.file.extension() != ".json") {
+        result.format = "mesh";
+        return check_mesh_file(result.file, result);
+    }
+    const JsonCursor json = JsonCursor::read_file(result.file);
+    const std::string format =
+        json.at("format").one_of({"risorius-script", "risorius-rig", "risorius-landmarks"});
+    result.format = format.substr(std::string("risorius-").size());
+    if (result.format == "script") check_script(result.file);
+    if (result.format == "landmarks") check_landmarks(result.file, result);
+    if (result.format == "rig") {
+        const rig::Head head = check_rig(result.file);
+        if (!head.warped_landmarks.empty())
+            result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
+                                   " landmarks are not given and placed by the atlas");
+    }
+}
+
+}  // namespace
+
+CheckResult check_file(const fs::path& file) {
+    CheckResult result{.file = file, .format = "", .error = "", .notes = {}};
+    try {
+        check(result);
+    } catch (const Error& error) {
+        result.error = error.what();
+    }
+    return result;
+}
+
+}  // namespace risorius::app

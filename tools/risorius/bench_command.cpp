@@ -1,0 +1,65 @@
+// risorius bench [--rig RIG]... [-o FILE]
+#include <cstdio>
+
+#include "app/bench_machine.h"
+#include "app/staged_file.h"
+#include "commands.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    app::BenchOptions options;
+    std::filesystem::path out;
+};
+
+void print(const Json& report) {
+    std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
+                report["machine"]["cores"].get<int>());
+    for (const Json& rig : report["rigs"]) {
+        std::printf("%s\n", rig["rig"].get<std::string>().c_str());
+        for (const char* quality : {"preview", "video", "fine"})
+            std::printf("  %-8s %6d nodes  %7.2f ms per step of 1/60 s  (built in %.2f s)\n",
+                        quality, rig[quality]["nodes"].get<int>(),
+                        rig[quality]["step_ms"].get<double>(),
+                        rig[quality]["build_s"].get<double>());
+        std::printf("  drawing  %7.1f ms at 512 x 512, %.1f ms at 1024 x 1024\n",
+                    rig["draw_512"]["frame_ms"].get<double>(),
+                    rig["draw_1024"]["frame_ms"].get<double>());
+        std::printf("  writing  %7.1f frames of 1024 x 1024 per second\n",
+                    rig["encode_1024_fps"].get<double>());
+        std::printf("  in all   %7.2f x real time from script to video, %.0f MB at most\n",
+                    rig["whole_way"]["real_time_factor"].get<double>(),
+                    rig["peak_memory_mb"].get<double>());
+    }
+}
+
+void run(const Arguments& arguments) {
+    Json report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::bench_machine(arguments.options, bar.watch());
+    }
+    const std::string text = report.dump(2) + "\n";
+    if (!arguments.out.empty()) app::write_text(arguments.out, text);
+    if (arguments.common.json)
+        std::printf("%s", text.c_str());
+    else if (!arguments.common.quiet)
+        print(report);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "How fast this machine is");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("--rig", arguments->options.rigs, "A rig to measure; the adult when none");
+    command->add_option("-o,--out", arguments->out, "Write the report here, as JSON");
+    add_common(*command, arguments->common);
+    command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli

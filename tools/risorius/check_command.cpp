@@ -1,0 +1,53 @@
+// risorius check FILE...
+#include <cstdio>
+
+#include "app/check_files.h"
+#include "commands.h"
+#include "core/error.h"
+#include "core/json_cursor.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    std::vector<std::filesystem::path> files;
+};
+
+// Every file is looked at, so that one call tells all; the messages are those a run would stop with.
+void run(const Arguments& arguments) {
+    Json report = Json::array();
+    int broken = 0;
+    for (const std::filesystem::path& file : arguments.files) {
+        const app::CheckResult result = app::check_file(file);
+        broken += !result.ok();
+        if (!result.ok()) std::fprintf(stderr, "risorius: %s\n", result.error.c_str());
+        report.push_back({{"file", file.generic_string()},
+                          {"format", result.format},
+                          {"ok", result.ok()},
+                          {"error", result.error},
+                          {"notes", result.notes}});
+        if (arguments.common.quiet || arguments.common.json || !result.ok()) continue;
+        std::printf("%s: %s, fine\n", file.string().c_str(), result.format.c_str());
+        for (const std::string& note : result.notes) std::printf("  note: %s\n", note.c_str());
+    }
+    if (arguments.common.json) std::printf("%s\n", report.dump(2).c_str());
+    if (broken) throw SaidAlready();
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("check", "Validate scripts, rigs, landmarks and meshes");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->files, "What to check")->required();
+    add_common(*command, arguments->common);
+    command->footer(
+        "A script is read with its rig and a rig with its mesh. Exit code 2 when a file is "
+        "wrong.\n\n"
+        "Example:\n  risorius check samples/hello/script.json rigs/adult/rig.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli

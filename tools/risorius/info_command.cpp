@@ -1,0 +1,70 @@
+// risorius info RIG
+#include <cstdio>
+
+#include "app/rig_info.h"
+#include "commands.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    std::filesystem::path rig;
+};
+
+void print(const Json& info) {
+    const auto text = [](const Json& value) { return value.get<std::string>(); };
+    std::printf("%s: %s, %d vertices, %d faces, %g m per unit, %.3f of the average adult\n",
+                text(info["name"]).c_str(), text(info["mesh"]["file"]).c_str(),
+                info["mesh"]["vertices"].get<int>(), info["mesh"]["faces"].get<int>(),
+                info["mesh"]["metres_per_unit"].get<double>(), info["size"].get<double>());
+    std::printf("\nParts (faces)\n");
+    for (const auto& [role, groups] : info["parts"].items()) {
+        std::printf("  %-12s", role.c_str());
+        for (const auto& [group, faces] : groups.items())
+            std::printf(" %s (%d)", group.c_str(), faces.get<int>());
+        std::printf("\n");
+    }
+    std::printf("\nMuscles (.l and .r where paired), excitation 0 to 1\n");
+    for (const Json& muscle : info["muscles"]) {
+        const char* sides = muscle["paired"].get<bool>() ? ".l .r" : "";
+        std::printf("  %-40s %-5s  %-7s", text(muscle["id"]).c_str(), sides,
+                    text(muscle["group"]).c_str());
+        if (muscle.contains("force_n"))
+            std::printf("  %5.1f N x %.2f", muscle["force_n"].get<double>(),
+                        muscle["strength"].get<double>());
+        std::printf("%s\n", muscle["min"].get<double>() < 0 ? "  from -1" : "");
+    }
+    std::printf("\nAction units\n");
+    for (const Json& unit : info["action_units"])
+        std::printf("  %-12s %-5s  %s\n", text(unit["id"]).c_str(),
+                    unit["sided"].get<bool>() ? ".l .r" : "", text(unit["name"]).c_str());
+    std::printf("\nExpressions\n ");
+    for (const Json& expression : info["expressions"]) std::printf(" %s", text(expression).c_str());
+    std::printf("\n\nOther channels\n");
+    for (const Json& channel : info["kinematic"])
+        std::printf("  %-20s %g to %g\n", text(channel["name"]).c_str(),
+                    channel["min"].get<double>(), channel["max"].get<double>());
+}
+
+void run(const Arguments& arguments) {
+    const Json info = app::rig_info(arguments.rig);
+    if (arguments.common.json)
+        std::printf("%s\n", info.dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(info);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("info", "Channels, muscles, parts and sizes of a rig");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("RIG", arguments->rig, "The rig")->required();
+    add_common(*command, arguments->common);
+    command->footer("Example:\n  risorius info rigs/adult/rig.json");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
