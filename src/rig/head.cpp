@@ -41,7 +41,8 @@ std::vector<std::string> roles_of_groups(const RigDescription& rig, const geom::
 std::vector<int> weld_seams(const Points& vertices, const Triangles& surface) {
     std::unordered_map<long long, int> edge_use;
     const auto key = [](int a, int b) {
-        return (static_cast<long long>(std::min(a, b)) << 32) | static_cast<unsigned>(std::max(a, b));
+        return (static_cast<long long>(std::min(a, b)) << 32) |
+               static_cast<unsigned>(std::max(a, b));
     };
     for (long f = 0; f < surface.rows(); ++f)
         for (int k = 0; k < 3; ++k) ++edge_use[key(surface(f, k), surface(f, (k + 1) % 3))];
@@ -73,7 +74,8 @@ Triangles apply_weld(Triangles triangles, const std::vector<int>& welded) {
             keep.push_back(f);
     }
     Triangles out(static_cast<long>(keep.size()), 3);
-    for (std::size_t i = 0; i < keep.size(); ++i) out.row(static_cast<long>(i)) = triangles.row(keep[i]);
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        out.row(static_cast<long>(i)) = triangles.row(keep[i]);
     return out;
 }
 
@@ -123,7 +125,8 @@ void measure_profile(const Points& vertices, const std::vector<int>& members, Ey
 }
 
 // Connected pieces of the faces in the listed groups, as vertex lists.
-std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh, const std::vector<int>& groups) {
+std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh,
+                                        const std::vector<int>& groups) {
     std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()), -1);
     const auto find = [&](int v) {
         while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -161,7 +164,8 @@ bool spans_both_jaws(const Head& head, const std::vector<int>& piece) {
 // Gums and tongue modelled in one piece with both jaws: what lies on the upper teeth and the palate stays, what lies on the
 // lower teeth and the tongue goes with the mandible, and the piece stretches in between (harmonic over its edges).
 void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vector<int>& piece,
-                        const std::vector<int>& upper_teeth, const std::vector<int>& lower_teeth, Head& head) {
+                        const std::vector<int>& upper_teeth, const std::vector<int>& lower_teeth,
+                        Head& head) {
     std::map<int, int> index;
     for (int v : piece) index.emplace(v, static_cast<int>(index.size()));
     std::vector<std::set<int>> neighbours(piece.size());
@@ -180,7 +184,8 @@ void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vec
     }
     const auto distance = [&](int v, const std::vector<int>& teeth) {
         double least = 1e300;
-        for (int t : teeth) least = std::min(least, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
+        for (int t : teeth)
+            least = std::min(least, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
         return std::sqrt(least);
     };
     constexpr double kUnknown = -1.0;
@@ -211,7 +216,7 @@ void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vec
         }
     for (std::size_t i = 0; i < piece.size(); ++i) {
         head.jaw_share[piece[i]] = value[i];
-        head.carrier[piece[i]] = tongue[i]          ? Carrier::kTongue
+        head.carrier[piece[i]] = tongue[i]        ? Carrier::kTongue
                                  : value[i] > 0.5 ? Carrier::kMandible
                                                   : Carrier::kSkull;
     }
@@ -262,12 +267,13 @@ double EyeGeometry::profile_at(double angle_rad) const {
 
 const std::vector<std::string>& required_landmarks() {
     static const std::vector<std::string> kRequired{
-        "n",    "prn",  "sn",   "ls",   "sto",  "li",   "pg",   "me",  "t_l",  "t_r",
+        "n",    "prn",  "sn",   "ls",   "sto",  "li",   "pg",   "me",   "t_l",  "t_r",
         "en_l", "en_r", "ex_l", "ex_r", "ps_l", "ps_r", "pi_l", "pi_r", "ch_l", "ch_r"};
     return kRequired;
 }
 
-Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const std::string& place) {
+Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
+                const std::string& place) {
     Head head;
     head.role_of_group = roles_of_groups(rig, mesh, place);
 
@@ -282,16 +288,18 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
                                            : landmark.xyz;
     }
     for (const std::string& id : required_landmarks())
-        if (!in_mesh.count(id)) throw Error(place + ":/landmarks", "the landmark \"" + id + "\"", "none");
+        if (!in_mesh.count(id))
+            throw Error(place + ":/landmarks", "the landmark \"" + id + "\"", "none");
     head.frame = find_head_frame(in_mesh, rig.atlas, rig.metres_per_unit);
     head.size = head.frame.size;
     if (!(head.size > 0.6 && head.size < 1.6)) {
         const double fitting = rig.metres_per_unit / head.size;
         throw Error(place + ":/mesh/metres_per_unit",
-                    "a head of adult or child size (about " + format_number(std::round(fitting * 1e6) / 1e6) +
-                        " for this mesh)",
+                    "a head of adult or child size (about " +
+                        format_number(std::round(fitting * 1e6) / 1e6) + " for this mesh)",
                     format_number(rig.metres_per_unit) + ", a head " +
-                        format_number(std::round(head.size * 100) / 100) + " times the average adult");
+                        format_number(std::round(head.size * 100) / 100) +
+                        " times the average adult");
     }
     head.vertices = head.frame.to_head(mesh.positions);
 
@@ -302,9 +310,11 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
         if (any_of(head.role_of_group[g], {"mouth", "eye_socket"}))
             lining_groups.push_back(static_cast<int>(g));
     }
-    if (skin_groups.empty()) throw Error(place + ":/mesh/parts", "at least one group for \"skin\"", "none");
+    if (skin_groups.empty())
+        throw Error(place + ":/mesh/parts", "at least one group for \"skin\"", "none");
     Triangles skin = geom::triangulate(mesh, skin_groups);
-    Triangles lining = lining_groups.empty() ? Triangles(0, 3) : geom::triangulate(mesh, lining_groups);
+    Triangles lining =
+        lining_groups.empty() ? Triangles(0, 3) : geom::triangulate(mesh, lining_groups);
     Triangles both(skin.rows() + lining.rows(), 3);
     both << skin, lining;
     head.welded = weld_seams(head.vertices, both);
@@ -350,13 +360,14 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
                     highest = std::max(highest, head.vertices(v, 1));
                 }
                 const bool fills = near_middle > 0.2 * static_cast<double>(piece.size());
-                carrier = fills                                ? Carrier::kTongue
+                carrier = fills                                   ? Carrier::kTongue
                           : 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
                                                                   : Carrier::kMandible;
             }
             for (int v : piece) {
                 head.carrier[v] = carrier;
-                head.jaw_share[v] = carrier == Carrier::kMandible || carrier == Carrier::kTongue ? 1.0 : 0.0;
+                head.jaw_share[v] =
+                    carrier == Carrier::kMandible || carrier == Carrier::kTongue ? 1.0 : 0.0;
             }
             if (any_of(role, {"gums_tongue", "gums"}) && spans_both_jaws(head, piece))
                 both_jaws.push_back({static_cast<int>(g), piece});
@@ -396,8 +407,10 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
     if (head.has_teeth) {
         double front = -1e9;
         for (int v : tooth_members)
-            if (std::abs(head.vertices(v, 0)) < head.mm(8)) front = std::max(front, head.vertices(v, 2));
-        if (front > -1e8) head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
+            if (std::abs(head.vertices(v, 0)) < head.mm(8))
+                front = std::max(front, head.vertices(v, 2));
+        if (front > -1e8)
+            head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
     }
     return head;
 }

@@ -4,8 +4,9 @@
 
 namespace risorius::sim {
 
-std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
-                                          const Shell& shell, const TissueMesh& mesh) {
+std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig,
+                                          const Jaw& jaw, const Shell& shell,
+                                          const TissueMesh& mesh) {
     std::vector<Attachment> out;
     for (int v = 0; v < static_cast<int>(shell.vertex.size()); ++v) {
         if (shell.fixed[v]) continue;

@@ -19,15 +19,18 @@ Jaw::Jaw(const rig::Head& head, const rig::JawDescription& d) : size_(head.size)
     stomion_ = head.landmark("sto");
     corner_l_ = head.landmark("ch_l");
     corner_r_ = head.landmark("ch_r");
-    for (const char* id : {"me", "gn", "pjm_l", "pjm_r", "mmb_l", "mmb_r", "ant_l", "ant_r", "go_l", "go_r"})
+    for (const char* id :
+         {"me", "gn", "pjm_l", "pjm_r", "mmb_l", "mmb_r", "ant_l", "ant_r", "go_l", "go_r"})
         border_.push_back(head.landmark(id));
 }
 
 Rigid Jaw::motion(double open, double forward, double side) const {
     // Condyles slide forward and down as the jaw opens; a sideways jaw also turns about the working condyle.
     Rigid motion = Rigid::Identity();
-    const double yaw = side * side_m_ / (size_ * 0.1);  // the chin is about 100 mm ahead of the condyles
-    motion.translate(Vec3(hinge_ + open * slide_ + forward * forward_ + Vec3(0.15 * side * side_m_, 0, 0)));
+    const double yaw =
+        side * side_m_ / (size_ * 0.1);  // the chin is about 100 mm ahead of the condyles
+    motion.translate(
+        Vec3(hinge_ + open * slide_ + forward * forward_ + Vec3(0.15 * side * side_m_, 0, 0)));
     motion.rotate(Eigen::AngleAxisd(0.85 * yaw, Vec3::UnitY()));
     motion.rotate(Eigen::AngleAxisd(open * open_rad_, Vec3::UnitX()));
     motion.translate(-hinge_);
@@ -96,7 +99,8 @@ std::vector<double> ways_from(const Vec3& from, const rig::Head& head, const She
                 start = a;
         }
     std::vector<double> way(count, std::numeric_limits<double>::infinity());
-    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
+        open;
     way[start] = 0;
     open.push({0.0, start});
     while (!open.empty()) {
@@ -134,7 +138,8 @@ std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Sh
     for (int vertex : shell.vertex) {
         const Vec3 p = head.vertices.row(vertex).transpose();
         const double height = jaw.height_over_bite(p);
-        const double near = 1.0 - smoothstep(head.mm(7), head.mm(12), distance_to_polyline(p, lips));
+        const double near =
+            1.0 - smoothstep(head.mm(7), head.mm(12), distance_to_polyline(p, lips));
         const double up = to_upper[vertex], down = to_lower[vertex];
         if (near <= 0 || !std::isfinite(up + down)) {
             out.push_back(height);

@@ -36,7 +36,7 @@ class Jaw {
     Vec3 hinge_, slide_, forward_;
     double open_rad_, side_m_;
     Vec3 stomion_, corner_l_, corner_r_;
-    std::vector<Vec3> border_;   // the lower edge of the mandible, both sides
+    std::vector<Vec3> border_;  // the lower edge of the mandible, both sides
 };
 
 struct Shell;
