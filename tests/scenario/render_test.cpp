@@ -28,7 +28,7 @@ fs::path short_hello(const Folder& folder, double duration_s, int fps) {
     script["view"]["width_px"] = script["view"]["height_px"] = 128;
     Json events = Json::array();
     for (Json event : script["events"]) {
-        event["start_s"] = 0.0;  // the smile and the blink at once
+        event["start_s"] = 0.02;  // the smile and the blink at once
         events.push_back(event);
     }
     script["events"] = events;
@@ -269,8 +269,8 @@ TEST(Help, EveryCommandHasAnExampleAndItsOptions) {
     for (const char* command : {"render", "fit", "check", "info", "bench"}) {
         const Outcome outcome = run(std::string(command) + " --help", kRoot);
         EXPECT_EQ(outcome.code, 0);
-        for (const std::string words : {std::string("--quiet"), std::string("--json"),
-                                        "Example:\n  risorius " + std::string(command)})
+        for (const std::string& words : {std::string("--quiet"), std::string("--json"),
+                                         "Example:\n  risorius " + std::string(command)})
             EXPECT_NE(outcome.out.find(words), std::string::npos) << command << ": " << words;
     }
     EXPECT_EQ(run("--version", kRoot).out, "risorius 0.1.0\n");
