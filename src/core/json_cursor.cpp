@@ -112,13 +112,15 @@ JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
         *document = Json::parse(text.str(), std::ref(duplicates));
     } catch (const Json::parse_error& error) {
         const std::string content = text.str();
-        const std::size_t at = std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, content.size());
-        const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<long>(at), '\n');
+        const std::size_t at =
+            std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, content.size());
+        const auto line =
+            1 + std::count(content.begin(), content.begin() + static_cast<long>(at), '\n');
         const std::size_t line_start = at == 0 ? std::string::npos : content.rfind('\n', at - 1);
         const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
-        const std::string found = at < content.size()
-                                      ? "'" + std::string(1, content[at]) + "' that does not belong there"
-                                      : "the end of the file";
+        const std::string found =
+            at < content.size() ? "'" + std::string(1, content[at]) + "' that does not belong there"
+                                : "the end of the file";
         throw Error(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "valid JSON", found);
     } catch (const Json::out_of_range& error) {
@@ -168,7 +170,8 @@ void JsonCursor::allow_keys(const std::vector<std::string_view>& known) const {
     for (const auto& [key, ignored] : value_->items()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         const std::string near = nearest_name(key, known);
-        std::string expected = near.empty() ? "one of" : "a known key (did you mean \"" + near + "\"?)";
+        std::string expected =
+            near.empty() ? "one of" : "a known key (did you mean \"" + near + "\"?)";
         if (near.empty())
             for (std::string_view k : known) expected += " " + std::string(k);
         at(key).fail(expected, "unknown key \"" + key + "\"");
@@ -186,7 +189,8 @@ std::vector<JsonCursor> JsonCursor::items() const {
     if (!value_->is_array()) fail("an array");
     std::vector<JsonCursor> out;
     for (std::size_t i = 0; i < value_->size(); ++i)
-        out.push_back(JsonCursor(document_, file_, pointer_ + "/" + std::to_string(i), &(*value_)[i]));
+        out.push_back(
+            JsonCursor(document_, file_, pointer_ + "/" + std::to_string(i), &(*value_)[i]));
     return out;
 }
 

@@ -39,19 +39,19 @@ class JsonCursor {
     const Json& json() const { return *value_; }
 
     bool has(std::string_view key) const;
-    JsonCursor at(std::string_view key) const;                 ///< throws when the key is missing
+    JsonCursor at(std::string_view key) const;  ///< throws when the key is missing
     std::optional<JsonCursor> find(std::string_view key) const;
 
     /// Throws when this is not an object or has a key outside the list (naming the nearest known one).
     void allow_keys(const std::vector<std::string_view>& known) const;
-    std::vector<std::string> keys() const;                     ///< throws when this is not an object
-    std::vector<JsonCursor> items() const;                     ///< throws when this is not an array
+    std::vector<std::string> keys() const;  ///< throws when this is not an object
+    std::vector<JsonCursor> items() const;  ///< throws when this is not an array
     bool is_object() const { return value_->is_object(); }
     bool is_array() const { return value_->is_array(); }
     bool is_string() const { return value_->is_string(); }
     bool is_number() const { return value_->is_number(); }
 
-    double number() const;                                     ///< finite
+    double number() const;  ///< finite
     double number(Range range) const;
     int integer(int min, int max) const;
     bool boolean() const;
@@ -66,7 +66,8 @@ class JsonCursor {
     [[noreturn]] void fail(const std::string& expected) const;  ///< found: this value, shortened
 
   private:
-    JsonCursor(std::shared_ptr<const Json> document, std::filesystem::path file, std::string pointer, const Json* value);
+    JsonCursor(std::shared_ptr<const Json> document, std::filesystem::path file,
+               std::string pointer, const Json* value);
 
     std::shared_ptr<const Json> document_;
     std::filesystem::path file_;

@@ -173,8 +173,9 @@ void flip_edges(Surface& s, const DecimateOptions& options) {
 
 }  // namespace
 
-Decimated decimate(const Triangles& triangles, const Points& points, const std::vector<double>& length,
-                   const std::vector<char>& keep, const DecimateOptions& options) {
+Decimated decimate(const Triangles& triangles, const Points& points,
+                   const std::vector<double>& length, const std::vector<char>& keep,
+                   const DecimateOptions& options) {
     Surface s(triangles, points);
     const std::size_t count = static_cast<std::size_t>(points.rows());
     std::vector<int> parent(count, -1), version(count, 0);
@@ -199,8 +200,10 @@ Decimated decimate(const Triangles& triangles, const Points& points, const std::
         if (version[top.a] + version[top.b] != top.version || s.faces_on_edge(top.a, top.b) == 0)
             continue;
         constexpr double kWorstQuality = 0.35;
-        const double ab = kept_always(top.a) ? -1 : collapse_quality(s, top.a, top.b, length, options);
-        const double ba = kept_always(top.b) ? -1 : collapse_quality(s, top.b, top.a, length, options);
+        const double ab =
+            kept_always(top.a) ? -1 : collapse_quality(s, top.a, top.b, length, options);
+        const double ba =
+            kept_always(top.b) ? -1 : collapse_quality(s, top.b, top.a, length, options);
         if (std::max(ab, ba) < kWorstQuality) continue;
         const int gone = ab >= ba ? top.a : top.b, stays = ab >= ba ? top.b : top.a;
 

@@ -10,11 +10,12 @@
 namespace risorius::geom {
 
 struct PolygonMesh {
-    Points positions;                       ///< V x 3
-    std::vector<int> face_begin{0};         ///< F + 1; corners of face f are [face_begin[f], face_begin[f+1])
-    std::vector<int> corner_vertex;         ///< C, vertex index of each corner
-    TexCoords corner_texcoord;              ///< C x 2, or 0 rows when the file has none
-    std::vector<int> face_group;            ///< F, index into group_names
+    Points positions;  ///< V x 3
+    std::vector<int> face_begin{
+        0};  ///< F + 1; corners of face f are [face_begin[f], face_begin[f+1])
+    std::vector<int> corner_vertex;  ///< C, vertex index of each corner
+    TexCoords corner_texcoord;       ///< C x 2, or 0 rows when the file has none
+    std::vector<int> face_group;     ///< F, index into group_names
     std::vector<std::string> group_names;
 
     int vertex_count() const { return static_cast<int>(positions.rows()); }
@@ -30,6 +31,7 @@ struct PolygonMesh {
 /// Fan triangles of the faces whose group is listed (all faces when `groups` is empty), in face order.
 /// A quad is cut along its shorter diagonal in the mesh's own positions. `corners`, when given, receives F x 3 corner
 /// indices (for texture coordinates).
-Triangles triangulate(const PolygonMesh& mesh, const std::vector<int>& groups = {}, Triangles* corners = nullptr);
+Triangles triangulate(const PolygonMesh& mesh, const std::vector<int>& groups = {},
+                      Triangles* corners = nullptr);
 
 }  // namespace risorius::geom

@@ -115,21 +115,23 @@ struct OffscreenView::Impl {
 
         // Baked once: how much sky the skin sees, and its paint
         const double reach = 0.75 * camera.frame_height_m;
-        const Vec3 middle(centre.x(), centre.y(), centre.z());
         const std::vector<float> sky =
-            sky_seen_at_rest(scene.rest, buffers->normals(), buffers->index_count(), middle, reach);
-        buffers->set_occlusion(sky, marks.inside_mouth(scene, sky));
-        paint_map = paint_skin(scene, centre, buffers->paintable_triangles());
+            sky_seen_at_rest(scene.rest, buffers->normals(), buffers->index_count(), centre, reach);
+        const std::vector<float> inside = marks.inside_mouth(scene, sky);
+        buffers->set_occlusion(sky, inside);
+        paint_map = paint_skin(scene, centre, buffers->paintable_triangles(inside));
         pore_map = make_pores(scene.look.seed);
 
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers);
-        lights = std::make_unique<Lights>(camera, middle);
+        lights = std::make_unique<Lights>(camera, centre);
         target = std::make_unique<Target>(tile_width * options.supersampling,
                                           tile_height * options.supersampling);
         glGenBuffers(1, &frame_buffer);
         glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
         glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }
 
     ~Impl() {

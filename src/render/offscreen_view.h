@@ -23,10 +23,14 @@ struct Background {
 struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
-    std::string camera = "front";   ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
-    Background background;
-    int supersampling = 2;          ///< samples per pixel side, 1..4
-    int threads = 0;                ///< llvmpipe worker threads; 0 = draw on the calling thread
+    std::string camera =
+        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
+    Background background{};
+    int supersampling =
+        2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square
+    int threads =
+        0;  ///< llvmpipe worker threads; 0 = draw on the calling thread. The driver reads it once: the
+            ///< first view of a process decides for all. Pictures do not depend on it.
 };
 
 const std::vector<std::string>& camera_names();

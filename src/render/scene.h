@@ -18,9 +18,9 @@ enum class Material { kSkin, kEye, kCornea, kTeeth, kGums, kTongue, kMouth, kLas
 
 struct Surface {
     Material material = Material::kSkin;
-    Triangles triangles;     ///< F x 3, into the shared vertices
-    TexCoords texcoords;     ///< 3F x 2 per triangle corner, or 0 rows
-    int eye = -1;            ///< for kEye and kCornea: 0 left, 1 right
+    Triangles triangles;  ///< F x 3, into the shared vertices
+    TexCoords texcoords;  ///< 3F x 2 per triangle corner, or 0 rows
+    int eye = -1;         ///< for kEye and kCornea: 0 left, 1 right
 };
 
 struct Eye {
@@ -33,28 +33,28 @@ struct Eye {
 
 /// Appearance, generated for any head from its landmarks.
 struct Look {
-    Vec3 skin_tone{0.80, 0.60, 0.50};     ///< sRGB 0..1, average of the cheek
+    Vec3 skin_tone{0.80, 0.60, 0.50};  ///< sRGB 0..1, average of the cheek
     Vec3 lip_tone{0.72, 0.42, 0.40};
-    Vec3 hair_tone{0.22, 0.15, 0.10};     ///< brows, lashes, stubble of the scalp
+    Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
     Vec3 iris_tone{0.35, 0.50, 0.60};
-    double freckles = 0.15;               ///< 0..1
-    double scalp_hair = 0.6;              ///< 0..1, short hair painted above the hairline
+    double freckles = 0.15;   ///< 0..1
+    double scalp_hair = 0.6;  ///< 0..1, short hair painted above the hairline
     unsigned seed = 1;
 };
 
 struct Scene {
-    Points rest;                                ///< V x 3, m, head frame
+    Points rest;  ///< V x 3, m, head frame
     std::vector<Surface> surfaces;
-    std::map<std::string, Vec3> landmarks;      ///< rest, m; ids of rigs/standard/landmarks.json
-    std::array<Eye, 2> eyes;                    ///< left, right
+    std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
+    std::array<Eye, 2> eyes;                ///< left, right
     Look look;
 };
 
 /// What changes from frame to frame.
 struct Pose {
-    Points positions;                                             ///< V x 3, m, world = head frame at rest
+    Points positions;  ///< V x 3, m, world = head frame at rest
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};  ///< world from rest eye
-    double jaw_open = 0.0;                                        ///< ratio, darkens or lights the mouth
+    double jaw_open = 0.0;  ///< ratio, darkens or lights the mouth
 };
 
 }  // namespace risorius::render

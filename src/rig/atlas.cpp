@@ -6,7 +6,6 @@ namespace risorius::rig {
 
 namespace {
 
-
 Body read_body(JsonCursor json) {
     const std::string name = json.one_of({"skull", "mandible", "soft", "neck"});
     return name == "skull"      ? Body::kSkull
@@ -82,7 +81,8 @@ std::vector<MuscleBand> read_muscle_bands(JsonCursor json) {
             for (const JsonCursor& point : item.at("points").items()) {
                 point.allow_keys({"landmark", "offset_mm", "depth"});
                 const bool on_mucosa = point.at("depth").json().is_null();
-                band.points.push_back({point.at("landmark").string(), 1e-3 * point.at("offset_mm").vec3(),
+                band.points.push_back({point.at("landmark").string(),
+                                       1e-3 * point.at("offset_mm").vec3(),
                                        on_mucosa ? -1.0 : point.at("depth").number({0, 1.2})});
             }
             if (band.points.size() < 2) item.at("points").fail("at least two points");

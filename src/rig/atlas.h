@@ -17,7 +17,7 @@ namespace risorius::rig {
 struct AtlasLandmark {
     std::string id;
     std::string name;
-    Vec3 position;       ///< m
+    Vec3 position;  ///< m
     bool core = true;
 };
 
@@ -38,16 +38,17 @@ enum class Body { kSkull, kMandible, kSoft, kNeck };
 
 struct BandPoint {
     std::string landmark;
-    Vec3 offset;               ///< m, at atlas size
-    double depth = 0.5;        ///< ratio of the tissue thickness, 1 = bone; < 0: on the mucosa, taken as it is
+    Vec3 offset;  ///< m, at atlas size
+    double depth =
+        0.5;  ///< ratio of the tissue thickness, 1 = bone; < 0: on the mucosa, taken as it is
 };
 
 /// A sheet of parallel fibres along a path, left side; a band that names right landmarks crosses the midline.
 struct MuscleBand {
     std::string muscle;
     double width_m;
-    double force_n;            ///< isometric force of this side, shared by the muscle's bands
-    double strength = 1.0;     ///< calibration: activation 1 shortens as published
+    double force_n;         ///< isometric force of this side, shared by the muscle's bands
+    double strength = 1.0;  ///< calibration: activation 1 shortens as published
     std::vector<BandPoint> points;
     Body origin = Body::kSkull;
     Body insertion = Body::kSoft;

@@ -41,7 +41,8 @@ std::vector<std::string> roles_of_groups(const RigDescription& rig, const geom::
 std::vector<int> weld_seams(const Points& vertices, const Triangles& surface) {
     std::unordered_map<long long, int> edge_use;
     const auto key = [](int a, int b) {
-        return (static_cast<long long>(std::min(a, b)) << 32) | static_cast<unsigned>(std::max(a, b));
+        return (static_cast<long long>(std::min(a, b)) << 32) |
+               static_cast<unsigned>(std::max(a, b));
     };
     for (long f = 0; f < surface.rows(); ++f)
         for (int k = 0; k < 3; ++k) ++edge_use[key(surface(f, k), surface(f, (k + 1) % 3))];
@@ -73,7 +74,8 @@ Triangles apply_weld(Triangles triangles, const std::vector<int>& welded) {
             keep.push_back(f);
     }
     Triangles out(static_cast<long>(keep.size()), 3);
-    for (std::size_t i = 0; i < keep.size(); ++i) out.row(static_cast<long>(i)) = triangles.row(keep[i]);
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        out.row(static_cast<long>(i)) = triangles.row(keep[i]);
     return out;
 }
 
@@ -123,7 +125,8 @@ void measure_profile(const Points& vertices, const std::vector<int>& members, Ey
 }
 
 // Connected pieces of the faces in the listed groups, as vertex lists.
-std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh, const std::vector<int>& groups) {
+std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh,
+                                        const std::vector<int>& groups) {
     std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()), -1);
     const auto find = [&](int v) {
         while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -145,6 +148,78 @@ std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh, const std
     std::vector<std::vector<int>> out;
     for (auto& [root, members] : pieces) out.push_back(std::move(members));
     return out;
+}
+
+// Whether a piece reaches well above and below the bite.
+bool spans_both_jaws(const Head& head, const std::vector<int>& piece) {
+    double lowest = 1e9, highest = -1e9;
+    for (int v : piece) {
+        lowest = std::min(lowest, head.vertices(v, 1));
+        highest = std::max(highest, head.vertices(v, 1));
+    }
+    const double bite = head.landmark("sto").y();
+    return highest > bite + head.mm(8) && lowest < bite - head.mm(12);
+}
+
+// Gums and tongue modelled in one piece with both jaws: what lies on the upper teeth and the palate stays, what lies on the
+// lower teeth and the tongue goes with the mandible, and the piece stretches in between (harmonic over its edges).
+void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vector<int>& piece,
+                        const std::vector<int>& upper_teeth, const std::vector<int>& lower_teeth,
+                        Head& head) {
+    std::map<int, int> index;
+    for (int v : piece) index.emplace(v, static_cast<int>(index.size()));
+    std::vector<std::set<int>> neighbours(piece.size());
+    std::vector<Vec3> normal(piece.size(), Vec3::Zero());
+    const Triangles triangles = geom::triangulate(mesh, {group});
+    for (long f = 0; f < triangles.rows(); ++f) {
+        if (!index.count(triangles(f, 0))) continue;
+        const Vec3 a = head.vertices.row(triangles(f, 0)), b = head.vertices.row(triangles(f, 1)),
+                   c = head.vertices.row(triangles(f, 2));
+        for (int k = 0; k < 3; ++k) {
+            const int i = index[triangles(f, k)], j = index[triangles(f, (k + 1) % 3)];
+            neighbours[i].insert(j);
+            neighbours[j].insert(i);
+            normal[i] += (b - a).cross(c - a);
+        }
+    }
+    const auto distance = [&](int v, const std::vector<int>& teeth) {
+        double least = 1e300;
+        for (int t : teeth)
+            least = std::min(least, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
+        return std::sqrt(least);
+    };
+    constexpr double kUnknown = -1.0;
+    std::vector<double> share(piece.size(), kUnknown);
+    std::vector<char> tongue(piece.size(), 0);
+    const double corner = std::abs(head.landmark("ch_l").x());
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        const Vec3 p = head.vertices.row(piece[i]).transpose();
+        const double up = distance(piece[i], upper_teeth), down = distance(piece[i], lower_teeth);
+        const double facing = normal[i].normalized().y();
+        if (std::min(up, down) < head.mm(2.5)) {
+            share[i] = up < down ? 0.0 : 1.0;
+        } else if (std::abs(p.x()) < 0.8 * corner && facing > 0.4) {
+            share[i] = 1.0;
+            tongue[i] = 1;
+        } else if (std::abs(p.x()) < corner && facing < -0.4 && p.y() > head.landmark("sto").y()) {
+            share[i] = 0.0;
+        }
+    }
+    std::vector<double> value(piece.size());
+    for (std::size_t i = 0; i < piece.size(); ++i) value[i] = share[i] == kUnknown ? 0.5 : share[i];
+    for (int sweep = 0; sweep < 300; ++sweep)
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            if (share[i] != kUnknown || neighbours[i].empty()) continue;
+            double sum = 0;
+            for (int j : neighbours[i]) sum += value[j];
+            value[i] = sum / static_cast<double>(neighbours[i].size());
+        }
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        head.jaw_share[piece[i]] = value[i];
+        head.carrier[piece[i]] = tongue[i]        ? Carrier::kTongue
+                                 : value[i] > 0.5 ? Carrier::kMandible
+                                                  : Carrier::kSkull;
+    }
 }
 
 Vec3 drop_on_skin(const Vec3& p, const Points& vertices, const std::set<int>& skin_vertices) {
@@ -192,12 +267,13 @@ double EyeGeometry::profile_at(double angle_rad) const {
 
 const std::vector<std::string>& required_landmarks() {
     static const std::vector<std::string> kRequired{
-        "n",    "prn",  "sn",   "ls",   "sto",  "li",   "pg",   "me",  "t_l",  "t_r",
+        "n",    "prn",  "sn",   "ls",   "sto",  "li",   "pg",   "me",   "t_l",  "t_r",
         "en_l", "en_r", "ex_l", "ex_r", "ps_l", "ps_r", "pi_l", "pi_r", "ch_l", "ch_r"};
     return kRequired;
 }
 
-Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const std::string& place) {
+Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
+                const std::string& place) {
     Head head;
     head.role_of_group = roles_of_groups(rig, mesh, place);
 
@@ -212,16 +288,18 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
                                            : landmark.xyz;
     }
     for (const std::string& id : required_landmarks())
-        if (!in_mesh.count(id)) throw Error(place + ":/landmarks", "the landmark \"" + id + "\"", "none");
+        if (!in_mesh.count(id))
+            throw Error(place + ":/landmarks", "the landmark \"" + id + "\"", "none");
     head.frame = find_head_frame(in_mesh, rig.atlas, rig.metres_per_unit);
     head.size = head.frame.size;
     if (!(head.size > 0.6 && head.size < 1.6)) {
         const double fitting = rig.metres_per_unit / head.size;
         throw Error(place + ":/mesh/metres_per_unit",
-                    "a head of adult or child size (about " + format_number(std::round(fitting * 1e6) / 1e6) +
-                        " for this mesh)",
+                    "a head of adult or child size (about " +
+                        format_number(std::round(fitting * 1e6) / 1e6) + " for this mesh)",
                     format_number(rig.metres_per_unit) + ", a head " +
-                        format_number(std::round(head.size * 100) / 100) + " times the average adult");
+                        format_number(std::round(head.size * 100) / 100) +
+                        " times the average adult");
     }
     head.vertices = head.frame.to_head(mesh.positions);
 
@@ -232,9 +310,11 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
         if (any_of(head.role_of_group[g], {"mouth", "eye_socket"}))
             lining_groups.push_back(static_cast<int>(g));
     }
-    if (skin_groups.empty()) throw Error(place + ":/mesh/parts", "at least one group for \"skin\"", "none");
+    if (skin_groups.empty())
+        throw Error(place + ":/mesh/parts", "at least one group for \"skin\"", "none");
     Triangles skin = geom::triangulate(mesh, skin_groups);
-    Triangles lining = lining_groups.empty() ? Triangles(0, 3) : geom::triangulate(mesh, lining_groups);
+    Triangles lining =
+        lining_groups.empty() ? Triangles(0, 3) : geom::triangulate(mesh, lining_groups);
     Triangles both(skin.rows() + lining.rows(), 3);
     both << skin, lining;
     head.welded = weld_seams(head.vertices, both);
@@ -250,7 +330,9 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
     head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);
     const double occlusal_y = head.landmark("sto").y();
     std::array<std::vector<int>, 2> eye_members;
-    std::vector<int> tooth_members;
+    std::vector<int> tooth_members, lower_tooth_members;
+    std::vector<std::pair<int, std::vector<int>>> both_jaws;
+    head.jaw_share.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
         const std::string& role = head.role_of_group[g];
         if (role.empty() || role == "hidden") continue;
@@ -278,19 +360,30 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
                     highest = std::max(highest, head.vertices(v, 1));
                 }
                 const bool fills = near_middle > 0.2 * static_cast<double>(piece.size());
-                carrier = 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
-                          : fills                              ? Carrier::kTongue
-                                                               : Carrier::kMandible;
+                carrier = fills                                   ? Carrier::kTongue
+                          : 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
+                                                                  : Carrier::kMandible;
             }
-            for (int v : piece) head.carrier[v] = carrier;
+            for (int v : piece) {
+                head.carrier[v] = carrier;
+                head.jaw_share[v] =
+                    carrier == Carrier::kMandible || carrier == Carrier::kTongue ? 1.0 : 0.0;
+            }
+            if (any_of(role, {"gums_tongue", "gums"}) && spans_both_jaws(head, piece))
+                both_jaws.push_back({static_cast<int>(g), piece});
             if (carrier == Carrier::kEyeLeft)
                 eye_members[0].insert(eye_members[0].end(), piece.begin(), piece.end());
             if (carrier == Carrier::kEyeRight)
                 eye_members[1].insert(eye_members[1].end(), piece.begin(), piece.end());
             if (any_of(role, {"teeth_upper", "teeth"}) && carrier == Carrier::kSkull)
                 tooth_members.insert(tooth_members.end(), piece.begin(), piece.end());
+            if (any_of(role, {"teeth_lower", "teeth"}) && carrier == Carrier::kMandible)
+                lower_tooth_members.insert(lower_tooth_members.end(), piece.begin(), piece.end());
         }
     }
+    if (!tooth_members.empty() && !lower_tooth_members.empty())
+        for (const auto& [group, piece] : both_jaws)
+            split_between_jaws(mesh, group, piece, tooth_members, lower_tooth_members, head);
 
     // Eyes and teeth
     for (int side = 0; side < 2; ++side) {
@@ -314,8 +407,10 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const 
     if (head.has_teeth) {
         double front = -1e9;
         for (int v : tooth_members)
-            if (std::abs(head.vertices(v, 0)) < head.mm(8)) front = std::max(front, head.vertices(v, 2));
-        if (front > -1e8) head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
+            if (std::abs(head.vertices(v, 0)) < head.mm(8))
+                front = std::max(front, head.vertices(v, 2));
+        if (front > -1e8)
+            head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
     }
     return head;
 }

@@ -23,13 +23,13 @@ enum class Carrier : char {
     kTongue,
     kEyeLeft,
     kEyeRight,
-    kLashes,    ///< follows the skin at its root
+    kLashes,  ///< follows the skin at its root
 };
 
 struct EyeGeometry {
     bool present = false;
     Vec3 centre = Vec3::Zero();
-    double radius_m = 0.0;            ///< of the globe, without the corneal bulge
+    double radius_m = 0.0;  ///< of the globe, without the corneal bulge
     Vec3 forward = Vec3::UnitZ();
     /// Greatest distance of the eye's surface from its centre per degree from the optical axis, 0..90.
     std::vector<double> profile_m;
@@ -38,17 +38,19 @@ struct EyeGeometry {
 
 struct Head {
     HeadFrame frame;
-    double size = 1.0;                            ///< this head / the atlas head
-    Points vertices;                              ///< V x 3
-    std::vector<Carrier> carrier;                 ///< V
-    std::vector<std::string> role_of_group;       ///< per mesh group, "" when unused
-    Triangles skin;                               ///< outer skin, welded vertex indices
-    Triangles lining;                             ///< mouth lining and eye sockets, welded vertex indices
-    std::vector<int> welded;                      ///< V, the vertex that stands for this one on the surface
-    std::map<std::string, Vec3> landmarks;        ///< all of the atlas; the missing ones warped and dropped on the skin
-    std::vector<std::string> warped_landmarks;    ///< which were not given
+    double size = 1.0;              ///< this head / the atlas head
+    Points vertices;                ///< V x 3
+    std::vector<Carrier> carrier;   ///< V
+    std::vector<double> jaw_share;  ///< V, share of the mandible's motion of teeth, gums and tongue
+    std::vector<std::string> role_of_group;  ///< per mesh group, "" when unused
+    Triangles skin;                          ///< outer skin, welded vertex indices
+    Triangles lining;         ///< mouth lining and eye sockets, welded vertex indices
+    std::vector<int> welded;  ///< V, the vertex that stands for this one on the surface
+    std::map<std::string, Vec3>
+        landmarks;  ///< all of the atlas; the missing ones warped and dropped on the skin
+    std::vector<std::string> warped_landmarks;  ///< which were not given
     std::array<EyeGeometry, 2> eyes;
-    double teeth_front_m = 0.0;                   ///< z of the foremost upper tooth, or estimated behind the lips
+    double teeth_front_m = 0.0;  ///< z of the foremost upper tooth, or estimated behind the lips
     bool has_teeth = false;
 
     const Vec3& landmark(const std::string& id) const { return landmarks.at(id); }

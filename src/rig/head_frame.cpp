@@ -53,7 +53,8 @@ HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const At
 
     double squared = 0;
     for (std::size_t i = 0; i < here.size(); ++i)
-        squared += (frame.rotation * here[i] + frame.translation - frame.size * there[i]).squaredNorm();
+        squared +=
+            (frame.rotation * here[i] + frame.translation - frame.size * there[i]).squaredNorm();
     frame.residual_m = std::sqrt(squared / n);
     return frame;
 }

@@ -9,11 +9,12 @@
 namespace risorius::rig {
 
 struct HeadFrame {
-    Mat3 rotation = Mat3::Identity();    ///< head = rotation * (mesh units * metres_per_unit) + translation
-    Vec3 translation = Vec3::Zero();     ///< m
+    Mat3 rotation =
+        Mat3::Identity();  ///< head = rotation * (mesh units * metres_per_unit) + translation
+    Vec3 translation = Vec3::Zero();  ///< m
     double metres_per_unit = 1.0;
-    double size = 1.0;                   ///< this head / the atlas head, ratio of lengths
-    double residual_m = 0.0;             ///< RMS distance of the aligned landmarks from the atlas, m
+    double size = 1.0;        ///< this head / the atlas head, ratio of lengths
+    double residual_m = 0.0;  ///< RMS distance of the aligned landmarks from the atlas, m
 
     Vec3 to_head(const Vec3& mesh_units) const {
         return rotation * (mesh_units * metres_per_unit) + translation;

@@ -20,7 +20,9 @@ Eigen::VectorXd per_column(const std::vector<Muscle>& muscles, double Muscle::*v
 
 }  // namespace
 
-Eigen::VectorXd MuscleTable::activation_s() const { return per_column(muscles, &Muscle::activation_s); }
+Eigen::VectorXd MuscleTable::activation_s() const {
+    return per_column(muscles, &Muscle::activation_s);
+}
 Eigen::VectorXd MuscleTable::deactivation_s() const {
     return per_column(muscles, &Muscle::deactivation_s);
 }
@@ -29,10 +31,29 @@ MuscleTable read_muscle_table(JsonCursor json) {
     json.allow_keys({"source", "frame", "muscles"});
     MuscleTable table;
     for (const JsonCursor& item : json.at("muscles").items()) {
-        item.allow_keys({"id", "name", "group", "type", "paired", "width_mm", "thickness_mm", "csa_mm2", "F0_N",
-                         "F0_range_N", "l0_mm", "tendon_slack_mm", "rest_norm_fibre_length", "pennation_deg",
-                         "max_shortening_frac", "vmax_l0_per_s", "t_act_ms", "t_deact_ms",
-                         "tonic_rest_activation", "action", "action_units", "confidence", "paths"});
+        item.allow_keys({"id",
+                         "name",
+                         "group",
+                         "type",
+                         "paired",
+                         "width_mm",
+                         "thickness_mm",
+                         "csa_mm2",
+                         "F0_N",
+                         "F0_range_N",
+                         "l0_mm",
+                         "tendon_slack_mm",
+                         "rest_norm_fibre_length",
+                         "pennation_deg",
+                         "max_shortening_frac",
+                         "vmax_l0_per_s",
+                         "t_act_ms",
+                         "t_deact_ms",
+                         "tonic_rest_activation",
+                         "action",
+                         "action_units",
+                         "confidence",
+                         "paths"});
         Muscle muscle;
         muscle.id = item.at("id").string();
         muscle.name = item.at("name").string();

@@ -8,7 +8,6 @@ namespace risorius::rig {
 
 namespace {
 
-
 // One list of fields serves reading and writing, so that a key cannot exist in only one of them.
 template <typename Visit>
 void visit_fields(JawDescription& jaw, Visit visit) {
@@ -39,7 +38,9 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("damping_s", tissue.damping_s, Range{0, 10});
     visit("contact_pa_per_m", tissue.contact_pa_per_m, Range{0, 1e12});
     visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
+    visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
     visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
+    visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }
 template <typename Visit>
@@ -68,7 +69,8 @@ struct FieldReader {
         if (const auto found = json.find(key)) value = found->vec3();
     }
     void operator()(const char* key, int& value) const {
-        if (const auto found = json.find(key)) value = found->integer(0, std::numeric_limits<int>::max());
+        if (const auto found = json.find(key))
+            value = found->integer(0, std::numeric_limits<int>::max());
     }
 };
 struct FieldKeys {
@@ -81,7 +83,9 @@ struct FieldKeys {
 struct FieldWriter {
     Json& json;
     void operator()(const char* key, double& value, Range) const { json[key] = value; }
-    void operator()(const char* key, Vec3& value) const { json[key] = {value.x(), value.y(), value.z()}; }
+    void operator()(const char* key, Vec3& value) const {
+        json[key] = {value.x(), value.y(), value.z()};
+    }
     void operator()(const char* key, int& value) const { json[key] = value; }
 };
 
@@ -103,17 +107,19 @@ Json fields_of(const T& value) {
     return json;
 }
 
-constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "muscle_bands", "muscles"};
-constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json", "attachments.json",
-                                       "muscle_bands.json", "muscles.json"};
+constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "muscle_bands",
+                                   "muscles"};
+constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json",
+                                       "attachments.json", "muscle_bands.json", "muscles.json"};
 
 }  // namespace
 
 const std::vector<std::string_view>& part_roles() {
     static const std::vector<std::string_view> kRoles{
-        "skin",        "mouth",       "eye_socket", "eye_l",       "eye_r",       "cornea_l", "cornea_r",
-        "teeth",       "teeth_upper", "teeth_lower", "gums",       "gums_upper",  "gums_lower", "tongue",
-        "gums_tongue", "lashes",      "lashes_l",   "lashes_r",    "hidden"};
+        "skin",     "mouth",      "eye_socket", "eye_l",       "eye_r",
+        "cornea_l", "cornea_r",   "teeth",      "teeth_upper", "teeth_lower",
+        "gums",     "gums_upper", "gums_lower", "tongue",      "gums_tongue",
+        "lashes",   "lashes_l",   "lashes_r",   "hidden"};
     return kRoles;
 }
 
@@ -142,8 +148,8 @@ std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file
 
 RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin", "facs",
-                     "expressions", "look"});
+    json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
+                     "facs", "expressions", "look"});
     json.at("format").one_of({"risorius-rig"});
     json.at("version").integer(1, 1);
     RigDescription rig;
@@ -159,10 +165,12 @@ RigDescription read_rig(const std::filesystem::path& file) {
             rig.parts[role].push_back(group.string());
 
     const JsonCursor landmarks = json.at("landmarks");
-    rig.landmarks = landmarks.is_string() ? read_landmarks(landmarks.path()) : read_landmark_table(landmarks);
+    rig.landmarks =
+        landmarks.is_string() ? read_landmarks(landmarks.path()) : read_landmark_table(landmarks);
 
     const JsonCursor anatomy = follow_table(json.at("anatomy"));
-    anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles", "strength", "jaw", "eyes"});
+    anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
+                        "strength", "jaw", "eyes"});
     rig.atlas.landmarks = read_atlas_landmarks(follow_table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(follow_table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(follow_table(anatomy.at("attachments")));
@@ -176,7 +184,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
                     band.strength = strength->at(muscle).number({0, 100});
                     known = true;
                 }
-            if (!known) strength->at(muscle).fail("a muscle of the muscle bands", "\"" + muscle + "\"");
+            if (!known)
+                strength->at(muscle).fail("a muscle of the muscle bands", "\"" + muscle + "\"");
         }
     for (const auto& [id, landmark] : rig.landmarks)
         if (!rig.atlas.landmark(id)) {
@@ -184,7 +193,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
             for (const AtlasLandmark& l : rig.atlas.landmarks) known.push_back(l.id);
             const std::string near = nearest_name(id, known);
             throw Error(landmarks.place() + "/" + id,
-                        near.empty() ? "a landmark of the atlas" : "a landmark of the atlas (did you mean \"" + near + "\"?)",
+                        near.empty() ? "a landmark of the atlas"
+                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)",
                         "\"" + id + "\"");
         }
 
@@ -198,11 +208,13 @@ RigDescription read_rig(const std::filesystem::path& file) {
     return rig;
 }
 
-void write_rig(const RigDescription& rig, const std::filesystem::path& file, const RigWriteOptions& options) {
+void write_rig(const RigDescription& rig, const std::filesystem::path& file,
+               const RigWriteOptions& options) {
     const std::filesystem::path folder =
         file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     const auto relative = [&](const std::filesystem::path& path) {
-        return std::filesystem::proximate(std::filesystem::absolute(path), std::filesystem::absolute(folder))
+        return std::filesystem::proximate(std::filesystem::absolute(path),
+                                          std::filesystem::absolute(folder))
             .generic_string();
     };
     const auto table = [&](const char* name) -> Json {
@@ -230,7 +242,8 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file, con
     }
     json["landmarks"] = landmarks;
     Json anatomy;
-    for (std::size_t i = 0; i < std::size(kTables); ++i) anatomy[kTables[i]] = table(kTableFiles[i]);
+    for (std::size_t i = 0; i < std::size(kTables); ++i)
+        anatomy[kTables[i]] = table(kTableFiles[i]);
     Json strength = Json::object();
     for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
     anatomy["strength"] = strength;

@@ -23,14 +23,14 @@ namespace risorius::rig {
 const std::vector<std::string_view>& part_roles();
 
 struct Landmark {
-    int vertex = -1;                  ///< of the mesh file, or -1 when xyz is given
-    Vec3 xyz = Vec3::Zero();          ///< mesh units
+    int vertex = -1;          ///< of the mesh file, or -1 when xyz is given
+    Vec3 xyz = Vec3::Zero();  ///< mesh units
 };
 
 /// Mandible motion: rotation about the hinge axis plus a slide of the condyles, growing with the opening ratio.
 struct JawDescription {
-    Vec3 hinge_mm{0, -4, 13};          ///< head frame at atlas size, on the axis through both condyles
-    double open_deg = 25.3;            ///< rotation at jaw_open = 1
+    Vec3 hinge_mm{0, -4, 13};  ///< head frame at atlas size, on the axis through both condyles
+    double open_deg = 25.3;    ///< rotation at jaw_open = 1
     Vec3 open_slide_mm{0, -4.8, 3.4};  ///< at jaw_open = 1
     Vec3 forward_mm{0, -2.7, 8.6};     ///< at jaw_forward = 1
     double side_mm = 7.0;              ///< at jaw_side = 1, to the subject's left
@@ -44,8 +44,9 @@ struct EyesDescription {
     double upper_lid_per_gaze_up = 0.48;
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
-    double wide_deg = 11.5;                 ///< upper lid raised by a fully active levator
-    double lid_closed_share = 0.96;         ///< share of the fissure the upper lid travels, the lower does the rest
+    double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
+    double lid_closed_share =
+        0.96;  ///< share of the fissure the upper lid travels, the lower does the rest
 };
 
 /// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
@@ -54,15 +55,19 @@ struct TissueDescription {
     double superficial_shear_pa = 3000;
     double bulk_pa = 30000;
     double density_kg_m3 = 1000;
-    double damping_s = 0.02;                ///< stiffness-proportional damping
-    double contact_pa_per_m = 1.5e7;       ///< deep tissue against bone and teeth, lip against lip
-    double lid_shear_ratio = 0.05;          ///< lid tissue against the rest
+    double damping_s = 0.02;        ///< stiffness-proportional damping
+    double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
+    double lid_shear_ratio = 0.05;  ///< lid tissue against the rest
+    double lip_shear_ratio =
+        0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 6.0;
-    double force_scale = 1.5;               ///< on every muscle, on top of its strength
+    double fibre_passive_strain =
+        1.2;                   ///< strain at which a relaxed fibre pulls with its isometric force
+    double force_scale = 1.5;  ///< on every muscle, on top of its strength
 };
 
 struct SkinDescription {
-    double membrane_n_per_m = 20;
+    double membrane_n_per_m = 10;
     double bending_n_m = 2e-5;
     double lid_membrane_ratio = 0.02;
 };
@@ -84,7 +89,7 @@ struct RigDescription {
     double metres_per_unit = 1.0;
     std::map<std::string, std::vector<std::string>> parts;  ///< role -> mesh groups
     std::map<std::string, Landmark> landmarks;
-    Atlas atlas;                      ///< landmarks, thickness, attachments, muscle bands
+    Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
     JawDescription jaw;
     EyesDescription eyes;
@@ -103,10 +108,11 @@ RigDescription read_rig(const std::filesystem::path& file);
 /// What `fit` writes: the tables of `standard` are referred to by path when `tables_folder` is given, otherwise written inline.
 /// Written beside and renamed, never half.
 struct RigWriteOptions {
-    std::filesystem::path standard_folder;   ///< where muscles.json, facs.json, ... are
+    std::filesystem::path standard_folder;  ///< where muscles.json, facs.json, ... are
     bool inline_tables = true;
 };
-void write_rig(const RigDescription& rig, const std::filesystem::path& file, const RigWriteOptions& options);
+void write_rig(const RigDescription& rig, const std::filesystem::path& file,
+               const RigWriteOptions& options);
 
 /// Landmark files: {"format": "risorius-landmarks", "version": 1, "landmarks": {id: {"vertex": n} | {"xyz": [..]}}}.
 std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file);

@@ -4,8 +4,9 @@
 
 namespace risorius::sim {
 
-std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
-                                          const Shell& shell, const TissueMesh& mesh) {
+std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig,
+                                          const Jaw& jaw, const Shell& shell,
+                                          const TissueMesh& mesh) {
     std::vector<Attachment> out;
     for (int v = 0; v < static_cast<int>(shell.vertex.size()); ++v) {
         if (shell.fixed[v]) continue;
@@ -21,9 +22,7 @@ std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigD
         }
         out.push_back({v, std::exp(log_normal / weights) * mesh.area_m2[v],
                        std::exp(log_tangential / weights) * mesh.area_m2[v],
-                       jaw.weight(mesh.nodes.row(node_of(v, kDeep)).transpose())});
-        // The skin over a lip says which side of the bite its tissue is on; deep behind it both lie on the teeth.
-        out.back().jaw_weight = jaw.weight(skin);
+                       jaw.weight(skin, shell.over_bite_m[v])});
     }
     return out;
 }

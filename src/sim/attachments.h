@@ -16,11 +16,12 @@ struct Attachment {
     int shell_vertex;
     double normal_n_per_m;
     double tangential_n_per_m;
-    double jaw_weight;          ///< share of the mandible's motion its bone follows
+    double jaw_weight;  ///< share of the mandible's motion its bone follows
 };
 
 /// One per shell vertex that is not fixed.
-std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
-                                          const Shell& shell, const TissueMesh& mesh);
+std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig,
+                                          const Jaw& jaw, const Shell& shell,
+                                          const TissueMesh& mesh);
 
 }  // namespace risorius::sim

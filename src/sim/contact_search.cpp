@@ -10,6 +10,7 @@ namespace risorius::sim {
 namespace {
 
 constexpr int kCandidates = 40;
+constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
 
 std::vector<int> nearest(const Vec3& p, const auto& points) {
     std::vector<std::pair<double, int>> order;
@@ -24,8 +25,9 @@ std::vector<int> nearest(const Vec3& p, const auto& points) {
 
 }  // namespace
 
-ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell, const TissueMesh& mesh,
-                             const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m)
+ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell,
+                             const TissueMesh& mesh, const std::array<EyeLids, 2>& lids,
+                             double stiffness_pa_per_m)
     : rest_(mesh.nodes) {
     const std::vector<Vec3> lips = lip_line(head);
     const int count = static_cast<int>(shell.vertex.size());
@@ -40,9 +42,13 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         if (distance_to_polyline(skin, lips) < head.mm(60)) {
-            const double share = jaw.weight(skin);
-            if (share < 0.6) skull_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
-            if (share > 0.4) mandible_.push_back({deep, mesh.direction[v], node_of(v, kDeep)});
+            // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
+            const double share = jaw.weight(skin, shell.over_bite_m[v]);
+            const double reach = std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v]));
+            const bool above_bite = shell.over_bite_m[v] > 0;
+            if (above_bite && share < 0.6) skull_.push_back({deep, mesh.direction[v], reach});
+            if (!above_bite && share > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
+                mandible_.push_back({deep, mesh.direction[v], reach});
         }
     }
     for (int v = 0; v < count; ++v) {
@@ -52,13 +58,14 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         const double from_mouth = distance_to_polyline(skin, lips);
         if (from_mouth < head.mm(50)) {
-            DeepNode node{node_of(v, kDeep), stiffness, nearest(deep, skull_), nearest(deep, mandible_)};
+            DeepNode node{node_of(v, kDeep), stiffness, nearest(deep, skull_),
+                          nearest(deep, mandible_)};
             deep_.push_back(node);
             touching.push_back({node.node, stiffness});
         }
         if (from_mouth < head.mm(7)) {
-            (jaw.height_over_bite(skin) >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
-            touching.push_back({node_of(v, kSkin), stiffness});
+            (shell.over_bite_m[v] >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
+            touching.push_back({node_of(v, kSkin), kLipStiffness * stiffness});
         }
         for (int side = 0; side < 2; ++side) {
             if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
@@ -78,7 +85,8 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     }
 }
 
-std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible) const {
+std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
+                                                           const Rigid& mandible) const {
     std::vector<tissue::Contacts::Contact> out;
     const Rigid to_mandible = mandible.inverse();
 
@@ -102,6 +110,8 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         const double rest_gap =
             std::min(0.0, (Vec3(rest_.row(node.node).transpose()) - at.point).dot(at.normal));
         if (gap - rest_gap > 3e-3) return;  // too far to matter within one step
+        // Beyond the bone's edge its plane means nothing: a chin that has dropped is not below the upper teeth.
+        if ((p - at.point - gap * at.normal).norm() > at.reach) return;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
         contact.point = carried ? Vec3(*carried * at.point) : at.point;
@@ -116,9 +126,11 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
     }
 
     // Lips: each node against the nearest of the other lip, along the bite's normal half-way between the jaws
-    const Eigen::Quaterniond half = Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(mandible.linear()));
+    const Eigen::Quaterniond half =
+        Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(mandible.linear()));
     const Vec3 up = half * Vec3::UnitY();
-    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other, double sign) {
+    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
+                                 double sign) {
         for (const LipNode& node : lip) {
             const Vec3 p = x.row(node.node).transpose();
             const LipNode* best = nullptr;
@@ -132,7 +144,8 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
             }
             if (!best) continue;
             const double rest_height =
-                sign * (rest_.row(node.node) - rest_.row(best->node)).dot(Vec3::UnitY().transpose());
+                sign *
+                (rest_.row(node.node) - rest_.row(best->node)).dot(Vec3::UnitY().transpose());
             const double threshold = rest_height - lip_gap_m_;
             tissue::Contacts::Contact contact;
             contact.node = node.node;
@@ -141,7 +154,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
             contact.count = 1;
             contact.normal = sign * up;
             contact.rest_gap_m = threshold;
-            contact.stiffness_n_per_m = 0.5 * std::min(node.stiffness, best->stiffness);
+            contact.stiffness_n_per_m = kLipStiffness * std::min(node.stiffness, best->stiffness);
             out.push_back(contact);
         }
     };
@@ -164,7 +177,8 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
     return out;
 }
 
-double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x) {
+double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs,
+                              const Points& x) {
     double deepest = 0;
     for (const auto& pair : pairs)
         deepest = std::max(deepest, pair.rest_gap_m - tissue::Contacts::gap(pair, x));

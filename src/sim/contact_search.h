@@ -34,12 +34,12 @@ class ContactSearch {
   private:
     struct BonePoint {
         Vec3 point, normal;
-        int node;
+        double reach;  // how far its plane stands for the bone around it, m
     };
     struct DeepNode {
         int node;
         double stiffness;
-        std::vector<int> skull, mandible;   // nearest bone points at rest
+        std::vector<int> skull, mandible;  // nearest bone points at rest
     };
     struct LipNode {
         int node;
@@ -59,7 +59,7 @@ class ContactSearch {
     std::vector<LidNode> lid_;
     std::array<Vec3, 2> eye_centre_;
     std::array<double, 2> eye_radius_;
-    double lip_gap_m_;          // opening between the lips at rest
+    double lip_gap_m_;  // opening between the lips at rest
     double lip_reach_m_;
     std::vector<int> nodes_;
     std::vector<double> node_stiffness_;

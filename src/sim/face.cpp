@@ -35,7 +35,7 @@ constexpr double kStaticStep_s = 0.5;        // of the pseudo-time steps towards
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 constexpr int kMemory = 8;
 constexpr double kStepCap_m = 6e-3;
-constexpr int kContactRefresh = 6;           // iterations between searches while settling
+constexpr int kContactRefresh = 6;  // iterations between searches while settling
 
 Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -50,9 +50,11 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
     Rigid motion = Rigid::Identity();
     motion.translate(pivot + Vec3(0, 0, head.mm(drive.at(track::Kinematic::kHeadForward))));
     motion.rotate(Eigen::AngleAxisd(drive.at(track::Kinematic::kHeadYaw) * kDegree, Vec3::UnitY()));
-    motion.rotate(Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadPitch) * kDegree, Vec3::UnitX()));
+    motion.rotate(
+        Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadPitch) * kDegree, Vec3::UnitX()));
     // Tilting to the left lowers the left ear: a turn about the forward axis from left to down.
-    motion.rotate(Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadRoll) * kDegree, Vec3::UnitZ()));
+    motion.rotate(
+        Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadRoll) * kDegree, Vec3::UnitZ()));
     motion.translate(-pivot);
     return motion;
 }
@@ -81,7 +83,7 @@ struct Face::Impl {
 
     std::optional<tissue::TetSolid> tets;
     std::optional<tissue::SkinSheet> skin;
-    std::optional<tissue::Tethers> tethers;   // attachments, then lids
+    std::optional<tissue::Tethers> tethers;  // attachments, then lids
     std::optional<muscle::FibreSet> fibres;
     std::optional<ContactSearch> search;
     tissue::Contacts contacts;
@@ -94,11 +96,12 @@ struct Face::Impl {
     std::vector<LidTether> lid_tethers;
     std::vector<std::pair<int, Vec3>> buccal;  // deep node, outward area m^2
     Eigen::VectorXd mass;
-    Eigen::SparseMatrix<double> damping;       // Ks, full symmetric, N/m
+    Eigen::SparseMatrix<double> damping;  // Ks, full symmetric, N/m
     std::optional<solve::SparseCholesky> metric, static_metric;
     solve::QuasiNewton newton;
     std::optional<SkinBinding> binding;
-    std::optional<Follow> follow;              // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
+    std::optional<Follow>
+        follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
 
     // State: now and one step before, for frames between steps
     struct State {
@@ -112,20 +115,23 @@ struct Face::Impl {
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
+    std::vector<Vec3> lips;
     Points work_, damped_;
 
-    Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh, const Quality& q,
-         const std::string& place)
+    Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
+         const Quality& q, const std::string& place)
         : rig(rig_description),
           quality(q),
           head(rig::place_head(rig, polygon_mesh, place)),
-          lids{EyeLids(head, 0, rig.eyes.lid_closed_share), EyeLids(head, 1, rig.eyes.lid_closed_share)},
+          lids{EyeLids(head, 0, rig.eyes.lid_closed_share),
+               EyeLids(head, 1, rig.eyes.lid_closed_share)},
           jaw(head, rig.jaw),
-          shell(build_shell(head, lids, {q.shell_vertices})),
+          shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           muscles(place_muscles(head, rig, shell, mesh)),
           attachments(place_attachments(head, rig, jaw, shell, mesh)),
-          channels(rig.channels()) {
+          channels(rig.channels()),
+          lips(lip_line(head)) {
         build_terms();
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
@@ -143,8 +149,14 @@ struct Face::Impl {
     double lid_share(const Vec3& p) const {
         double share = 0;
         for (const EyeLids& lid : lids)
-            share = std::max(share, 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(5.5), (p - lid.centre()).norm()));
+            share = std::max(share, 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(5.5),
+                                                     (p - lid.centre()).norm()));
         return share;
+    }
+
+    // Share of lip softness at a skin point: 1 at the line between the lips, 0 a lip's height away.
+    double lip_share(const Vec3& p) const {
+        return 1.0 - smoothstep(head.mm(6), head.mm(14), distance_to_polyline(p, lips));
     }
 
     void build_terms() {
@@ -152,19 +164,24 @@ struct Face::Impl {
         fixed.assign(static_cast<std::size_t>(n), 0);
         for (std::size_t v = 0; v < shell.vertex.size(); ++v)
             if (shell.fixed[v])
-                for (Layer layer : {kDeep, kMiddle, kSkin}) fixed[node_of(static_cast<int>(v), layer)] = 1;
+                for (Layer layer : {kDeep, kMiddle, kSkin})
+                    fixed[node_of(static_cast<int>(v), layer)] = 1;
 
         // Tissue: soft fat below, firmer above, very soft lids, a firm knot at each mouth corner
         Eigen::VectorXd mu(mesh.tets.rows()), bulk(mesh.tets.rows());
-        const std::array<Vec3, 2> modiolus{Vec3(head.landmark("nl3_l")), Vec3(head.landmark("nl3_r"))};
+        const std::array<Vec3, 2> modiolus{Vec3(head.landmark("nl3_l")),
+                                           Vec3(head.landmark("nl3_r"))};
         for (long t = 0; t < mesh.tets.rows(); ++t) {
             Vec3 centre = Vec3::Zero();
-            for (int k = 0; k < 4; ++k) centre += 0.25 * mesh.nodes.row(mesh.tets(t, k)).transpose();
-            double ratio = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre));
+            for (int k = 0; k < 4; ++k)
+                centre += 0.25 * mesh.nodes.row(mesh.tets(t, k)).transpose();
+            double ratio = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre)) *
+                           std::pow(rig.tissue.lip_shear_ratio, lip_share(centre));
             for (const Vec3& knot : modiolus)
                 if ((centre - knot).norm() < head.mm(9)) ratio *= rig.tissue.modiolus_shear_ratio;
-            mu[t] = ratio * (mesh.tet_layer[t] == kMiddle ? rig.tissue.deep_shear_pa : rig.tissue.superficial_shear_pa);
-            bulk[t] = std::min(1.0, ratio) * rig.tissue.bulk_pa;
+            mu[t] = ratio * (mesh.tet_layer[t] == kMiddle ? rig.tissue.deep_shear_pa
+                                                          : rig.tissue.superficial_shear_pa);
+            bulk[t] = std::pow(rig.tissue.lid_shear_ratio, lid_share(centre)) * rig.tissue.bulk_pa;
         }
         tets.emplace(mesh.tets, mesh.nodes, mu, bulk);
 
@@ -176,7 +193,8 @@ struct Face::Impl {
                 centre += mesh.nodes.row(node_of(shell.triangles(f, k), kSkin)).transpose() / 3.0;
                 sheet(f, k) = node_of(shell.triangles(f, k), kSkin);
             }
-            const double ratio = std::pow(rig.skin.lid_membrane_ratio, lid_share(centre));
+            const double ratio = std::pow(rig.skin.lid_membrane_ratio, lid_share(centre)) *
+                                 std::pow(rig.tissue.lip_shear_ratio, lip_share(centre));
             membrane[f] = ratio * rig.skin.membrane_n_per_m;
             bending[f] = ratio * rig.skin.bending_n_m;
         }
@@ -186,15 +204,16 @@ struct Face::Impl {
         std::vector<tissue::Tethers::Tether> held;
         for (const Attachment& a : attachments) {
             const int node = node_of(a.shell_vertex, kDeep);
-            held.push_back({node, mesh.nodes.row(node).transpose(), mesh.direction[a.shell_vertex], a.normal_n_per_m,
-                            a.tangential_n_per_m});
+            held.push_back({node, mesh.nodes.row(node).transpose(), mesh.direction[a.shell_vertex],
+                            a.normal_n_per_m, a.tangential_n_per_m});
         }
         for (std::size_t v = 0; v < shell.vertex.size(); ++v) {
             if (shell.fixed[v]) continue;
             const Vec3 p = mesh.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
             for (int side = 0; side < 2; ++side) {
                 if ((p - lids[side].centre()).norm() > lids[side].zone_m() + head.mm(3)) continue;
-                const LidMember member = lids[side].classify(p, head.mm(2.0), head.mm(4.0), head.mm(2.8));
+                const LidMember member =
+                    lids[side].classify(p, head.mm(2.0), head.mm(4.0), head.mm(2.8));
                 if (member.weight < 1e-3) continue;
                 for (Layer layer : {kDeep, kMiddle, kSkin}) {
                     const int node = node_of(static_cast<int>(v), layer);
@@ -205,17 +224,21 @@ struct Face::Impl {
             }
         }
         tethers.emplace(held);
-        fibres.emplace(muscles.points, muscles.fibres, mesh.nodes);
+        muscle::HillShape hill;
+        hill.passive_strain = rig.tissue.fibre_passive_strain;
+        fibres.emplace(muscles.points, muscles.fibres, mesh.nodes, hill);
         search.emplace(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m);
 
         // Air presses where the deep tissue is free: cheeks and lips
         for (const Attachment& a : attachments) {
-            const double log_stiffness = std::log10(a.normal_n_per_m / mesh.area_m2[a.shell_vertex]);
+            const double log_stiffness =
+                std::log10(a.normal_n_per_m / mesh.area_m2[a.shell_vertex]);
             const double open = 1.0 - smoothstep(3.5, 4.7, log_stiffness);
             const Vec3 p = mesh.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
             if (open > 0 && lid_share(p) == 0 && p.y() < head.landmark("sn").y())
-                buccal.push_back({node_of(a.shell_vertex, kDeep),
-                                  open * mesh.area_m2[a.shell_vertex] * mesh.direction[a.shell_vertex]});
+                buccal.push_back(
+                    {node_of(a.shell_vertex, kDeep),
+                     open * mesh.area_m2[a.shell_vertex] * mesh.direction[a.shell_vertex]});
         }
 
         mass = tets->lumped_mass(rig.tissue.density_kg_m3, n);
@@ -252,16 +275,23 @@ struct Face::Impl {
         pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
         pose.lower_closure = (1.0 - pose.upper_closure) * 4.0 * lower + pose.upper_closure;
         constexpr double kDegree = 3.14159265358979323846 / 180.0;
-        const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft : track::Kinematic::kGazePitchRight);
+        const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft
+                                                : track::Kinematic::kGazePitchRight);
         const double open = 1.0 - pose.upper_closure;
-        pose.upper_gaze_rad = -open * kDegree * (pitch > 0 ? rig.eyes.upper_lid_per_gaze_up : rig.eyes.upper_lid_per_gaze_down) * pitch;
-        pose.lower_gaze_rad = -open * kDegree * (pitch > 0 ? rig.eyes.lower_lid_per_gaze_up : rig.eyes.lower_lid_per_gaze_down) * pitch;
-        pose.upper_gaze_rad -= kDegree * rig.eyes.wide_deg * (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
+        pose.upper_gaze_rad =
+            -open * kDegree *
+            (pitch > 0 ? rig.eyes.upper_lid_per_gaze_up : rig.eyes.upper_lid_per_gaze_down) * pitch;
+        pose.lower_gaze_rad =
+            -open * kDegree *
+            (pitch > 0 ? rig.eyes.lower_lid_per_gaze_up : rig.eyes.lower_lid_per_gaze_down) * pitch;
+        pose.upper_gaze_rad -= kDegree * rig.eyes.wide_deg *
+                               (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
         return pose;
     }
 
     Rigid mandible(const track::Drive& drive) const {
-        return jaw.motion(drive.at(track::Kinematic::kJawOpen), drive.at(track::Kinematic::kJawForward),
+        return jaw.motion(drive.at(track::Kinematic::kJawOpen),
+                          drive.at(track::Kinematic::kJawForward),
                           drive.at(track::Kinematic::kJawSide));
     }
 
@@ -273,11 +303,12 @@ struct Face::Impl {
             const Attachment& a = attachments[i];
             const Vec3 rest = mesh.nodes.row(held[i].node).transpose();
             held[i].target = rest + a.jaw_weight * (moved * rest - rest);
-            held[i].normal =
-                ((1 - a.jaw_weight) * mesh.direction[a.shell_vertex] + a.jaw_weight * (moved.linear() * mesh.direction[a.shell_vertex]))
-                    .normalized();
+            held[i].normal = ((1 - a.jaw_weight) * mesh.direction[a.shell_vertex] +
+                              a.jaw_weight * (moved.linear() * mesh.direction[a.shell_vertex]))
+                                 .normalized();
         }
-        const std::array<LidPose, 2> lid{lid_pose(0, activation, drive), lid_pose(1, activation, drive)};
+        const std::array<LidPose, 2> lid{lid_pose(0, activation, drive),
+                                         lid_pose(1, activation, drive)};
         for (std::size_t i = 0; i < lid_tethers.size(); ++i) {
             const LidTether& t = lid_tethers[i];
             held[attachments.size() + i].target =
@@ -320,8 +351,9 @@ struct Face::Impl {
     }
 
     // One implicit step of length h from `start` at `speed`, beginning the search at x.
-    StepFigures implicit_step(const solve::SparseCholesky& factor, double h, const Points& start, const Points& aim,
-                              const Eigen::VectorXd& activation, const solve::QuasiNewtonOptions& options, Points& x) {
+    StepFigures implicit_step(const solve::SparseCholesky& factor, double h, const Points& start,
+                              const Points& aim, const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x) {
         const double inertia = 1.0 / (h * h), viscous = rig.tissue.damping_s / h;
         const auto energy = [&](const Points& at, Points& gradient) {
             work_ = at - start;
@@ -347,7 +379,8 @@ struct Face::Impl {
         return figures;
     }
 
-    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive, int iterations) {
+    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
+                       int iterations) {
         if (!static_metric) static_metric.emplace(build_metric(kStaticStep_s));
         Points x = now.x;
         predict(x, now.drive, drive);
@@ -356,9 +389,13 @@ struct Face::Impl {
         while (figures.iterations < iterations) {
             contacts.set(search->find(x, mandible(drive)));
             const Points start = x;
-            const StepFigures part = implicit_step(
-                *static_metric, kStaticStep_s, start, start, activation,
-                {.iterations = std::max(kContactRefresh, 20), .memory = kMemory, .step_cap_m = kStepCap_m, .tolerance_rms_m = 1e-6}, x);
+            const StepFigures part =
+                implicit_step(*static_metric, kStaticStep_s, start, start, activation,
+                              {.iterations = std::max(kContactRefresh, 20),
+                               .memory = kMemory,
+                               .step_cap_m = kStepCap_m,
+                               .tolerance_rms_m = 1e-6},
+                              x);
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
@@ -378,7 +415,8 @@ struct Face::Impl {
     }
 
     StepFigures step(const DriveAt& drive_at) {
-        const double from = static_cast<double>(steps) * kStep_s, to = static_cast<double>(steps + 1) * kStep_s;
+        const double from = static_cast<double>(steps) * kStep_s,
+                     to = static_cast<double>(steps + 1) * kStep_s;
         const track::Drive drive = drive_at(to);
         Eigen::VectorXd excitation;
         dynamics->advance(
@@ -395,11 +433,12 @@ struct Face::Impl {
         prescribe(activation, drive);
         contacts.set(search->find(x, mandible(drive)));
         const Points aim = now.x + kStep_s * velocity;
-        const StepFigures figures =
-            implicit_step(*metric, kStep_s, now.x, aim, activation,
-                          {.iterations = quality.iterations, .memory = kMemory, .step_cap_m = kStepCap_m,
-                           .tolerance_rms_m = quality.tolerance_rms_m},
-                          x);
+        const StepFigures figures = implicit_step(*metric, kStep_s, now.x, aim, activation,
+                                                  {.iterations = quality.iterations,
+                                                   .memory = kMemory,
+                                                   .step_cap_m = kStepCap_m,
+                                                   .tolerance_rms_m = quality.tolerance_rms_m},
+                                                  x);
         velocity = (x - now.x) / kStep_s;
         now.x = x;
         now.activation = activation;
@@ -413,24 +452,31 @@ struct Face::Impl {
         // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
         track::Drive drive = now.drive;
         for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
-            drive.kinematic[k] = (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
+            drive.kinematic[k] =
+                (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
         const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
         Points displacement(static_cast<long>(shell.vertex.size()), 3);
         for (long v = 0; v < displacement.rows(); ++v) {
             const int node = node_of(static_cast<int>(v), kSkin);
-            displacement.row(v) = (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
+            displacement.row(v) =
+                (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
         }
         FacePose out;
         const Rigid moved = mandible(drive);
         out.jaw_open = drive.at(track::Kinematic::kJawOpen);
-        const std::array<Mat3, 2> gaze{gaze_rotation(drive.at(track::Kinematic::kGazeYawLeft), drive.at(track::Kinematic::kGazePitchLeft)),
-                                       gaze_rotation(drive.at(track::Kinematic::kGazeYawRight), drive.at(track::Kinematic::kGazePitchRight))};
-        const std::array<LidPose, 2> lid{lid_pose(0, activation, drive), lid_pose(1, activation, drive)};
+        const std::array<Mat3, 2> gaze{gaze_rotation(drive.at(track::Kinematic::kGazeYawLeft),
+                                                     drive.at(track::Kinematic::kGazePitchLeft)),
+                                       gaze_rotation(drive.at(track::Kinematic::kGazeYawRight),
+                                                     drive.at(track::Kinematic::kGazePitchRight))};
+        const std::array<LidPose, 2> lid{lid_pose(0, activation, drive),
+                                         lid_pose(1, activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
         out.head = head_motion(head, drive);
-        follow->apply({moved, gaze, lid, drive.at(track::Kinematic::kTongueOut), out.head}, out.vertices);
-        for (int side = 0; side < 2; ++side) out.eye_rotation[side] = out.head.linear() * gaze[side];
+        follow->apply({moved, gaze, lid, drive.at(track::Kinematic::kTongueOut), out.head},
+                      out.vertices);
+        for (int side = 0; side < 2; ++side)
+            out.eye_rotation[side] = out.head.linear() * gaze[side];
         return out;
     }
 };
@@ -439,7 +485,8 @@ Face::Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const 
            const std::string& place) {
     const auto begin = std::chrono::steady_clock::now();
     impl_ = std::make_unique<Impl>(rig, mesh, quality, place);
-    impl_->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    impl_->build_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 Face::~Face() = default;
 Face::Face(Face&&) noexcept = default;
@@ -448,11 +495,13 @@ void Face::start(const DriveAt& drive) {
     const track::Drive first = drive(0.0);
     Eigen::VectorXd activation = first.excitation;
     for (long i = 0; i < activation.size(); ++i)
-        if (first.activation.size() > 0 && !std::isnan(first.activation[i])) activation[i] = first.activation[i];
+        if (first.activation.size() > 0 && !std::isnan(first.activation[i]))
+            activation[i] = first.activation[i];
     impl_->steps = 0;
     impl_->history.clear();
     impl_->dynamics->set_activation(activation);
-    const bool at_rest = activation.isZero(0.0) && impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
+    const bool at_rest = activation.isZero(0.0) &&
+                         impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
                          first.at(track::Kinematic::kMouthPressure) == 0.0;
     impl_->now.x = impl_->mesh.nodes;
     impl_->now.drive.kinematic.fill(0.0);
@@ -485,7 +534,8 @@ Eigen::VectorXd Face::activation_at(double t_s) const {
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 
-StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic, int iterations) {
+StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                         int iterations) {
     return impl_->settle(activation, kinematic, iterations);
 }
 
@@ -507,7 +557,8 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
         if (side == Side::kRight && column == impl_->channels.column(muscle, Side::kLeft)) continue;
         for (std::size_t f = 0; f < impl_->fibres->fibres().size(); ++f)
             if (impl_->fibres->fibres()[f].column == column)
-                impl_->fibres->set_f0(static_cast<int>(f), factor * impl_->fibres->fibres()[f].f0_n);
+                impl_->fibres->set_f0(static_cast<int>(f),
+                                      factor * impl_->fibres->fibres()[f].f0_n);
     }
 }
 
@@ -526,17 +577,20 @@ double Face::mean_stretch(const std::string& muscle) const {
 
 Points Face::skin_nodes() const {
     Points out(static_cast<long>(impl_->shell.vertex.size()), 3);
-    for (long v = 0; v < out.rows(); ++v) out.row(v) = impl_->now.x.row(node_of(static_cast<int>(v), kSkin));
+    for (long v = 0; v < out.rows(); ++v)
+        out.row(v) = impl_->now.x.row(node_of(static_cast<int>(v), kSkin));
     return out;
 }
 Points Face::rest_skin_nodes() const {
     Points out(static_cast<long>(impl_->shell.vertex.size()), 3);
-    for (long v = 0; v < out.rows(); ++v) out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
+    for (long v = 0; v < out.rows(); ++v)
+        out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
     return out;
 }
 double Face::kinetic_energy_j() const {
     double sum = 0;
-    for (int i = 0; i < impl_->nodes(); ++i) sum += 0.5 * impl_->mass[i] * impl_->velocity.row(i).squaredNorm();
+    for (int i = 0; i < impl_->nodes(); ++i)
+        sum += 0.5 * impl_->mass[i] * impl_->velocity.row(i).squaredNorm();
     return sum;
 }
 

@@ -24,9 +24,10 @@ inline constexpr double kStep_s = 1.0 / 60.0;
 
 struct Quality {
     std::string name;
-    int shell_vertices = 800;        ///< three nodes each
-    int iterations = 6;              ///< per step, at most
-    double tolerance_rms_m = 0.0;    ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
+    int shell_vertices = 800;  ///< three nodes each
+    int iterations = 6;        ///< per step, at most
+    double tolerance_rms_m =
+        0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
 };
 /// "preview": six iterations, real time. "video": until the step changes less than 0.05 mm RMS.
 /// "fine": as video, with 1,700 skin vertices.
@@ -39,16 +40,16 @@ struct StepFigures {
     int iterations = 0;
     int evaluations = 0;
     double last_step_rms_m = 0;
-    double contact_depth_m = 0;      ///< deepest penetration left
+    double contact_depth_m = 0;  ///< deepest penetration left
     bool converged = false;
 };
 
 /// Where everything is, in the head frame; the head's own turn is already applied to the vertices.
 struct FacePose {
-    Points vertices;                               ///< V x 3, m, the mesh's own order
-    std::array<Mat3, 2> eye_rotation;              ///< world from rest, left and right
+    Points vertices;                   ///< V x 3, m, the mesh's own order
+    std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
     Rigid head = Rigid::Identity();
-    double jaw_open = 0;                           ///< ratio
+    double jaw_open = 0;  ///< ratio
 };
 
 class Face {
@@ -69,18 +70,19 @@ class Face {
     FacePose pose_at(double t_s, const DriveAt& drive);
 
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
-    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic, int iterations = 400);
+    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                       int iterations = 400);
 
-    FacePose pose() const;                         ///< after the last step
+    FacePose pose() const;  ///< after the last step
     double time_s() const;
-    const Eigen::VectorXd& activation() const;     ///< per column, at the last step
+    const Eigen::VectorXd& activation() const;        ///< per column, at the last step
     Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
     int node_count() const;
     int tet_count() const;
     int inverted_tets() const;
     int dropped_tets() const;
     int fibre_count() const;
-    double build_s() const;                        ///< wall time of the construction, for benchmarks
+    double build_s() const;  ///< wall time of the construction, for benchmarks
     const rig::Head& head() const;
     const std::vector<StepFigures>& history() const;  ///< of every step since start()
 

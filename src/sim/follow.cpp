@@ -14,8 +14,8 @@ constexpr double kNotKept = -1.0;  // m; no lid lies this far inside its eye
 
 }  // namespace
 
-Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std::array<EyeLids, 2>& lids,
-               SkinBinding& binding)
+Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
+               const std::array<EyeLids, 2>& lids, SkinBinding& binding)
     : head_(head), lids_(lids), rest_(head.vertices) {
     tongue_range_m_ = 1e-3 * rig.facs.ranges.tongue_out_mm * head.size;
     const long count = head.vertices.rows();
@@ -35,10 +35,11 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std:
             member.vertex = static_cast<int>(v);
             const Vec3 r = p - lids[side].centre();
             const Vec3 gaze = head.eyes[side].forward;
-            const double surface = head.eyes[side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze)));
+            const double surface =
+                head.eyes[side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze)));
             // Never more than at rest, so that rest stays as it was imported
             const double clearance = std::min(from_centre - surface, head.mm(1.6));
-            lid_vertices_.push_back({side, member, from_centre < lids[side].zone_m() + head.mm(1) ? clearance : kNotKept});
+            lid_vertices_.push_back({side, member, clearance});
         }
     }
 
@@ -78,27 +79,39 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig, const std:
         switch (head.carrier[v]) {
             case rig::Carrier::kTongue: {
                 const double along = (head.vertices(v, 2) - back) / std::max(1e-6, front - back);
-                tongue_.push_back({static_cast<int>(v), along * along, 0.55 + 0.4 * smoothstep(0.0, 0.7, along)});
+                tongue_.push_back({static_cast<int>(v), along * along,
+                                   head.jaw_share[v] * (0.55 + 0.4 * smoothstep(0.0, 0.7, along))});
                 break;
             }
-            case rig::Carrier::kMandible: mandible_.push_back(static_cast<int>(v)); break;
-            case rig::Carrier::kEyeLeft: eye_[0].push_back(static_cast<int>(v)); break;
-            case rig::Carrier::kEyeRight: eye_[1].push_back(static_cast<int>(v)); break;
-            default: break;
+            case rig::Carrier::kSkull:
+            case rig::Carrier::kMandible:
+                if (head.jaw_share[v] > 0)
+                    on_jaw_.push_back({static_cast<int>(v), head.jaw_share[v]});
+                break;
+            case rig::Carrier::kEyeLeft:
+                eye_[0].push_back(static_cast<int>(v));
+                break;
+            case rig::Carrier::kEyeRight:
+                eye_[1].push_back(static_cast<int>(v));
+                break;
+            default:
+                break;
         }
     }
 
     // The head turns above the jaw line; the neck gives way down to its base
-    const double top = head.mm(-70), base = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
+    const double top = head.mm(-70),
+                 base = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
     head_share_.resize(static_cast<std::size_t>(count));
     for (long v = 0; v < count; ++v) {
         const Vec3 p = head.vertices.row(v).transpose();
         // Behind the jaw the neck begins higher up than under the chin.
         const double under_chin = smoothstep(head.mm(10), head.mm(60), p.z());
         const double start = top - head.mm(30) * under_chin;
-        head_share_[v] = head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
-                             ? smoothstep(base, start, p.y())
-                             : 1.0;
+        head_share_[v] =
+            head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
+                ? smoothstep(base, start, p.y())
+                : 1.0;
     }
 }
 
@@ -107,8 +120,10 @@ void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
         const int v = lid.member.vertex;
         const Vec3 rest = rest_.row(v).transpose();
         if (lid.member.weight > 0) {
-            const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member.upper, lid.member.place, drive.lid[lid.side]);
-            vertices.row(v) = (1 - lid.member.weight) * vertices.row(v) + lid.member.weight * ride.transpose();
+            const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member.upper, lid.member.place,
+                                                          drive.lid[lid.side]);
+            vertices.row(v) =
+                (1 - lid.member.weight) * vertices.row(v) + lid.member.weight * ride.transpose();
         }
         if (lid.clearance == kNotKept) continue;
         // The lid slides over the cornea: it is lifted where the eye's surface comes closer than at rest
@@ -116,8 +131,10 @@ void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
         const double distance = r.norm();
         const Vec3 gaze = drive.gaze[lid.side] * head_.eyes[lid.side].forward;
         const double wanted =
-            head_.eyes[lid.side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze))) + lid.clearance;
-        if (distance < wanted && distance > 0) vertices.row(v) += ((wanted / distance - 1) * r).transpose();
+            head_.eyes[lid.side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze))) +
+            lid.clearance;
+        if (distance < wanted && distance > 0)
+            vertices.row(v) += ((wanted / distance - 1) * r).transpose();
     }
 }
 
@@ -126,9 +143,13 @@ void Follow::apply(const FollowDrive& drive, Points& vertices) const {
     for (int side = 0; side < 2; ++side) {
         const Vec3& centre = head_.eyes[side].centre;
         for (int v : eye_[side])
-            vertices.row(v) = (centre + drive.gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
+            vertices.row(v) =
+                (centre + drive.gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
     }
-    for (int v : mandible_) vertices.row(v) = (drive.mandible * Vec3(rest_.row(v).transpose())).transpose();
+    for (const auto& [v, share] : on_jaw_) {
+        const Vec3 rest = rest_.row(v).transpose();
+        vertices.row(v) = (rest + share * (drive.mandible * rest - rest)).transpose();
+    }
     for (const TongueVertex& t : tongue_) {
         const Vec3 rest = rest_.row(t.vertex).transpose();
         const Vec3 out = drive.tongue_out * tongue_range_m_ * t.tip * Vec3(0, -0.12, 1.0);

@@ -24,8 +24,8 @@ struct FollowDrive {
 class Follow {
   public:
     /// Binds lashes through `binding`.
-    Follow(const rig::Head& head, const rig::RigDescription& rig, const std::array<EyeLids, 2>& lids,
-           SkinBinding& binding);
+    Follow(const rig::Head& head, const rig::RigDescription& rig,
+           const std::array<EyeLids, 2>& lids, SkinBinding& binding);
 
     /// `vertices` come with the skin already moved.
     void apply(const FollowDrive& drive, Points& vertices) const;
@@ -34,12 +34,12 @@ class Follow {
     struct LidVertex {
         int side;
         LidMember member;
-        double clearance;    ///< kept from the eye's surface, m
+        double clearance;  ///< kept from the eye's surface, m
     };
     struct TongueVertex {
         int vertex;
-        double tip;          ///< 0 at the root, 1 at the tip
-        double over_jaw;     ///< share of the mandible's motion
+        double tip;       ///< 0 at the root, 1 at the tip
+        double over_jaw;  ///< share of the mandible's motion
     };
     void apply_lids(const FollowDrive& drive, Points& vertices) const;
 
@@ -48,9 +48,9 @@ class Follow {
     Points rest_;
     std::vector<LidVertex> lid_vertices_;
     std::vector<TongueVertex> tongue_;
-    std::vector<int> mandible_;
+    std::vector<std::pair<int, double>> on_jaw_;  // vertex, share of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
-    std::vector<double> head_share_;     ///< V, of the head's turn
+    std::vector<double> head_share_;  ///< V, of the head's turn
     double tongue_range_m_;
 };
 

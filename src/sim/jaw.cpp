@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <queue>
 
 #include "sim/polyline.h"
+#include "sim/shell.h"
 
 namespace risorius::sim {
 
@@ -16,15 +19,18 @@ Jaw::Jaw(const rig::Head& head, const rig::JawDescription& d) : size_(head.size)
     stomion_ = head.landmark("sto");
     corner_l_ = head.landmark("ch_l");
     corner_r_ = head.landmark("ch_r");
-    for (const char* id : {"me", "gn", "pjm_l", "pjm_r", "mmb_l", "mmb_r", "ant_l", "ant_r", "go_l", "go_r"})
+    for (const char* id :
+         {"me", "gn", "pjm_l", "pjm_r", "mmb_l", "mmb_r", "ant_l", "ant_r", "go_l", "go_r"})
         border_.push_back(head.landmark(id));
 }
 
 Rigid Jaw::motion(double open, double forward, double side) const {
     // Condyles slide forward and down as the jaw opens; a sideways jaw also turns about the working condyle.
     Rigid motion = Rigid::Identity();
-    const double yaw = side * side_m_ / (size_ * 0.1);  // the chin is about 100 mm ahead of the condyles
-    motion.translate(Vec3(hinge_ + open * slide_ + forward * forward_ + Vec3(0.15 * side * side_m_, 0, 0)));
+    const double yaw =
+        side * side_m_ / (size_ * 0.1);  // the chin is about 100 mm ahead of the condyles
+    motion.translate(
+        Vec3(hinge_ + open * slide_ + forward * forward_ + Vec3(0.15 * side * side_m_, 0, 0)));
     motion.rotate(Eigen::AngleAxisd(0.85 * yaw, Vec3::UnitY()));
     motion.rotate(Eigen::AngleAxisd(open * open_rad_, Vec3::UnitX()));
     motion.translate(-hinge_);
@@ -63,17 +69,88 @@ double Jaw::border_height(const Vec3& p) const {
     return sum / weights;
 }
 
-double Jaw::weight(const Vec3& p) const {
+double Jaw::weight(const Vec3& p, double height_over_bite_m) const {
     const double mm = 1e-3 * size_;
     const double lateral = std::abs(p.x());
     const double corner = 0.5 * (corner_l_.x() - corner_r_.x());
     // The change from skull to mandible is sharp between the lips and wide over cheek and ramus.
     double half = (1.5 + 10.5 * smoothstep(0.6 * corner, corner + 12 * mm, lateral)) * mm;
     half += 2.0 * mm * smoothstep(50 * mm, 62 * mm, lateral);
-    double w = 1.0 - smoothstep(-half, half, height_over_bite(p));
+    double w = 1.0 - smoothstep(-half, half, height_over_bite_m);
     w *= 1.0 - smoothstep(0.0, 48 * mm, border_height(p) - p.y());
     w *= smoothstep(2 * mm, 25 * mm, p.z());
     return w;
+}
+
+namespace {
+
+// Shortest ways along the edges of the fine shell from the vertex nearest to `from`; infinite where there is none.
+std::vector<double> ways_from(const Vec3& from, const rig::Head& head, const Shell& shell) {
+    const std::size_t count = static_cast<std::size_t>(head.vertices.rows());
+    std::vector<std::vector<int>> neighbours(count);
+    int start = shell.fine(0, 0);
+    for (long f = 0; f < shell.fine.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = shell.fine(f, k), b = shell.fine(f, (k + 1) % 3);
+            neighbours[a].push_back(b);
+            neighbours[b].push_back(a);
+            if ((head.vertices.row(a).transpose() - from).squaredNorm() <
+                (head.vertices.row(start).transpose() - from).squaredNorm())
+                start = a;
+        }
+    std::vector<double> way(count, std::numeric_limits<double>::infinity());
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
+        open;
+    way[start] = 0;
+    open.push({0.0, start});
+    while (!open.empty()) {
+        const auto [distance, v] = open.top();
+        open.pop();
+        if (distance > way[v]) continue;
+        for (int w : neighbours[v]) {
+            const double longer = distance + (head.vertices.row(v) - head.vertices.row(w)).norm();
+            if (longer < way[w]) {
+                way[w] = longer;
+                open.push({longer, w});
+            }
+        }
+    }
+    return way;
+}
+
+}  // namespace
+
+std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
+    // Three places on each border, so that the lips' whole width is near one of them.
+    std::vector<double> to_upper, to_lower;
+    const auto nearest_of = [&](const std::vector<const char*>& ids) {
+        std::vector<double> least = ways_from(head.landmark(ids[0]), head, shell);
+        for (std::size_t i = 1; i < ids.size(); ++i) {
+            const std::vector<double> way = ways_from(head.landmark(ids[i]), head, shell);
+            for (std::size_t v = 0; v < least.size(); ++v) least[v] = std::min(least[v], way[v]);
+        }
+        return least;
+    };
+    to_upper = nearest_of({"ls", "ulc_l", "ulc_r"});
+    to_lower = nearest_of({"li", "llc_l", "llc_r"});
+    const std::vector<Vec3> lips = lip_line(head);
+    std::vector<double> out;
+    for (int vertex : shell.vertex) {
+        const Vec3 p = head.vertices.row(vertex).transpose();
+        const double height = jaw.height_over_bite(p);
+        const double near =
+            1.0 - smoothstep(head.mm(7), head.mm(12), distance_to_polyline(p, lips));
+        const double up = to_upper[vertex], down = to_lower[vertex];
+        if (near <= 0 || !std::isfinite(up + down)) {
+            out.push_back(height);
+            continue;
+        }
+        // +1 on the upper border, -1 on the lower one, 0 at the corners where both are equally far
+        const double side = (down - up) / (down + up + 1e-9);
+        const double sided = head.mm(8) * side;
+        out.push_back((1 - near) * height + near * sided);
+    }
+    return out;
 }
 
 }  // namespace risorius::sim

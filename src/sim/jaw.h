@@ -19,10 +19,15 @@ class Jaw {
 
     /// Share of the mandible's motion that tissue at its bone side follows: 1 on the lower lip and chin, 0 above the occlusal
     /// line, blended over the cheek and ramus, fading down the neck.
-    double weight(const Vec3& p) const;
+    double weight(const Vec3& p) const { return weight(p, height_over_bite(p)); }
+    /// For skin whose side of the bite is known better than by its height (see bite_heights).
+    double weight(const Vec3& p, double height_over_bite_m) const;
 
     /// Signed height over the line on which the lips meet and, behind them, the occlusal plane, m.
     double height_over_bite(const Vec3& p) const;
+
+    /// Signed height over the lower border of the mandible, m.
+    double height_over_border(const Vec3& p) const { return p.y() - border_height(p); }
 
   private:
     double border_height(const Vec3& p) const;
@@ -31,7 +36,13 @@ class Jaw {
     Vec3 hinge_, slide_, forward_;
     double open_rad_, side_m_;
     Vec3 stomion_, corner_l_, corner_r_;
-    std::vector<Vec3> border_;   // the lower edge of the mandible, both sides
+    std::vector<Vec3> border_;  // the lower edge of the mandible, both sides
 };
+
+struct Shell;
+
+/// Height over the bite of every shell vertex, m. At the lips, which touch and may roll over each other, the side comes from
+/// the way along the skin to the upper and the lower vermilion border.
+std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Shell& shell);
 
 }  // namespace risorius::sim

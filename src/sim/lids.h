@@ -18,16 +18,16 @@ namespace risorius::sim {
 struct LidPose {
     double upper_closure = 0.0;
     double lower_closure = 0.0;
-    double upper_gaze_rad = 0.0;   ///< positive lowers
-    double lower_gaze_rad = 0.0;   ///< positive lowers
+    double upper_gaze_rad = 0.0;  ///< positive lowers
+    double lower_gaze_rad = 0.0;  ///< positive lowers
 };
 
 /// Where a vertex belongs to a lid, and how strongly it rides on the tarsal plate.
 struct LidMember {
     int vertex;
     bool upper;
-    double weight;     ///< 1 on the margin, 0 where the lid ends
-    double place;      ///< s
+    double weight;  ///< 1 on the margin, 0 where the lid ends
+    double place;   ///< s
 };
 
 class EyeLids {
@@ -35,14 +35,15 @@ class EyeLids {
     EyeLids(const rig::Head& head, int side, double upper_share);
 
     /// Weight of a point on the upper or lower tarsal plate: 1 within `core` of the margin, 0 beyond `fade` more, 0 at the canthi.
-    LidMember classify(const Vec3& p, double core_m, double upper_fade_m, double lower_fade_m) const;
+    LidMember classify(const Vec3& p, double core_m, double upper_fade_m,
+                       double lower_fade_m) const;
     double margin_distance(const Vec3& p) const;
 
     /// Displacement of a rest point that rides rigidly on its lid.
     Vec3 ride(const Vec3& rest, bool upper, double place, const LidPose& pose) const;
 
-    double fissure_m() const { return fissure_m_; }   ///< canthus to canthus
-    double zone_m() const { return zone_m_; }         ///< distance of the canthi from the eye centre
+    double fissure_m() const { return fissure_m_; }  ///< canthus to canthus
+    double zone_m() const { return zone_m_; }        ///< distance of the canthi from the eye centre
     const Vec3& centre() const { return centre_; }
     const Vec3& axis() const { return axis_; }
     const std::vector<Vec3>& upper_margin() const { return upper_; }
@@ -54,7 +55,7 @@ class EyeLids {
     double margin_angle(const std::vector<Vec3>& margin, double place) const;
 
     Vec3 centre_, axis_, forward_, up_;
-    double inner_, outer_;           // places of the canthi along the axis, m
+    double inner_, outer_;  // places of the canthi along the axis, m
     double fissure_m_, zone_m_;
     double upper_share_;
     std::vector<Vec3> upper_, lower_;  // margins from inner to outer canthus

@@ -1,10 +1,9 @@
 #include "sim/muscle_placement.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <Eigen/LU>
 
 #include "geom/closest_point.h"
 #include "sim/polyline.h"
@@ -55,7 +54,8 @@ class TissueLocator {
             if (far > 4e-4) continue;
             const Eigen::Vector4d w = weights(t, p);
             // How far outside, in metres: least weight times the tet's size.
-            const double outside = -std::min(0.0, w.minCoeff()) * std::sqrt(far) + (w.minCoeff() < 0 ? far : 0.0);
+            const double outside =
+                -std::min(0.0, w.minCoeff()) * std::sqrt(far) + (w.minCoeff() < 0 ? far : 0.0);
             if (outside < best_outside) {
                 best_outside = outside;
                 best_tet = t;
@@ -111,14 +111,15 @@ rig::MuscleBand mirrored(const rig::MuscleBand& band) {
 }
 
 int bands_of(const rig::Atlas& atlas, const std::string& muscle) {
-    return static_cast<int>(std::count_if(atlas.bands.begin(), atlas.bands.end(),
-                                          [&](const rig::MuscleBand& b) { return b.muscle == muscle; }));
+    return static_cast<int>(
+        std::count_if(atlas.bands.begin(), atlas.bands.end(),
+                      [&](const rig::MuscleBand& b) { return b.muscle == muscle; }));
 }
 
 }  // namespace
 
-MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
-                              const TissueMesh& mesh) {
+MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,
+                              const Shell& shell, const TissueMesh& mesh) {
     constexpr double kFibreSpacing_mm = 4.0, kPointSpacing_mm = 5.0;
     const TissueLocator locator(shell, mesh);
     const track::ChannelTable channels = rig.channels();
@@ -134,21 +135,28 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             const auto tissue = locator.column_at(over);
             outward.push_back(tissue.outward);
             centre.push_back(point.depth < 0 ? over
-                                             : Vec3(tissue.skin - point.depth * tissue.thickness * tissue.outward));
+                                             : Vec3(tissue.skin - point.depth * tissue.thickness *
+                                                                      tissue.outward));
         }
         // Parallel fibres across the width: each point moves sideways along the skin at its own depth
         const int bands = bands_of(rig.atlas, band.muscle);
-        const int strands = std::max(2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
-        const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size * head.size / (strands * bands);
+        const int strands = std::max(
+            2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
+        const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size *
+                             head.size / (strands * bands);
         for (int strand = 0; strand < strands; ++strand) {
-            const double across = band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
+            const double across =
+                band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
             std::vector<Vec3> through;
             for (std::size_t i = 0; i < centre.size(); ++i) {
-                const Vec3 along = (centre[std::min(i + 1, centre.size() - 1)] - centre[i > 0 ? i - 1 : 0]).normalized();
+                const Vec3 along =
+                    (centre[std::min(i + 1, centre.size() - 1)] - centre[i > 0 ? i - 1 : 0])
+                        .normalized();
                 const Vec3 sideways = along.cross(outward[i]).normalized();
                 Vec3 p = centre[i] + across * sideways;
                 if (band.points[i].depth >= 0) {
-                    const auto tissue = locator.column_at(p + (band.points[i].depth * 2e-3) * outward[i]);
+                    const auto tissue =
+                        locator.column_at(p + (band.points[i].depth * 2e-3) * outward[i]);
                     p = tissue.skin - band.points[i].depth * tissue.thickness * tissue.outward;
                 }
                 through.push_back(p);
@@ -157,7 +165,8 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             // Points too close together would make a stiff segment
             std::vector<Vec3> spaced{path.front()};
             for (std::size_t i = 1; i + 1 < path.size(); ++i)
-                if ((path[i] - spaced.back()).norm() > head.mm(1.5) && (path[i] - path.back()).norm() > head.mm(1.5))
+                if ((path[i] - spaced.back()).norm() > head.mm(1.5) &&
+                    (path[i] - path.back()).norm() > head.mm(1.5))
                     spaced.push_back(path[i]);
             spaced.push_back(path.back());
             // Ends on bone ride on it; the rest is embedded, and what fell together outside the tissue is one point
@@ -165,8 +174,11 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             std::vector<Vec3> places;
             for (std::size_t i = 0; i < spaced.size(); ++i) {
                 const bool first = i == 0, last = i + 1 == spaced.size();
-                const rig::Body body = first ? band.origin : last ? band.insertion : rig::Body::kSoft;
-                const bool on_bone = (first && band.origin_attach == "bone") || (last && band.insertion_attach == "bone");
+                const rig::Body body = first  ? band.origin
+                                       : last ? band.insertion
+                                              : rig::Body::kSoft;
+                const bool on_bone = (first && band.origin_attach == "bone") ||
+                                     (last && band.insertion_attach == "bone");
                 muscle::FibrePoint point;
                 Vec3 place = spaced[i];
                 if (on_bone && (body == rig::Body::kSkull || body == rig::Body::kMandible)) {

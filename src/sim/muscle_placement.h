@@ -16,10 +16,10 @@ enum BodyIndex { kSkullBody = 0, kMandibleBody = 1, kBodies = 2 };
 struct MusclePlacement {
     std::vector<muscle::FibrePoint> points;
     std::vector<muscle::Fibre> fibres;
-    std::vector<std::vector<Vec3>> paths;   ///< of each fibre at rest, for drawing
+    std::vector<std::vector<Vec3>> paths;  ///< of each fibre at rest, for drawing
 };
 
-MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
-                              const TissueMesh& mesh);
+MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,
+                              const Shell& shell, const TissueMesh& mesh);
 
 }  // namespace risorius::sim

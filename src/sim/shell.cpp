@@ -137,11 +137,11 @@ std::vector<Vec3> lip_line(const rig::Head& head) {
     const auto mid = [&](const char* a, const char* b) {
         return Vec3(0.5 * (head.landmark(a) + head.landmark(b)));
     };
-    return {head.landmark("ch_r"), mid("uli_r", "lli_r"), head.landmark("sto"), mid("uli_l", "lli_l"),
-            head.landmark("ch_l")};
+    return {head.landmark("ch_r"), mid("uli_r", "lli_r"), head.landmark("sto"),
+            mid("uli_l", "lli_l"), head.landmark("ch_l")};
 }
 
-Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
+Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
                   const ShellOptions& options) {
     const long count = head.vertices.rows();
     const std::vector<Vec3> lips = lip_line(head);
@@ -157,7 +157,8 @@ Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
     std::vector<char> border(static_cast<std::size_t>(count), 0);
     std::vector<char> used(static_cast<std::size_t>(count), 0);
     for (long f = 0; f < head.skin.rows(); ++f) {
-        const bool whole = inside[head.skin(f, 0)] && inside[head.skin(f, 1)] && inside[head.skin(f, 2)];
+        const bool whole =
+            inside[head.skin(f, 0)] && inside[head.skin(f, 1)] && inside[head.skin(f, 2)];
         for (int k = 0; k < 3; ++k) (whole ? used : border)[head.skin(f, k)] = 1;
         if (whole) region.push_back(f);
     }
@@ -174,7 +175,8 @@ Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
         d = ((1 - mouth) * d + mouth * out_of_mouth).normalized();
         for (const EyeLids& lid : lids) {
             const Vec3 r = p - lid.centre();
-            const double eye = 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
+            const double eye =
+                1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
             d = ((1 - eye) * d + eye * r.normalized()).normalized();
         }
         shell.direction.row(v) = d.transpose();
@@ -224,7 +226,8 @@ Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
 
     shell.vertex = coarse.kept;
     std::vector<int> index(static_cast<std::size_t>(count), -1);
-    for (std::size_t i = 0; i < coarse.kept.size(); ++i) index[coarse.kept[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < coarse.kept.size(); ++i)
+        index[coarse.kept[i]] = static_cast<int>(i);
     shell.triangles = coarse.triangles;
     for (long f = 0; f < shell.triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) shell.triangles(f, k) = index[coarse.triangles(f, k)];
@@ -232,6 +235,7 @@ Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids,
     for (long v = 0; v < count; ++v)
         if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
     for (int v : shell.vertex) shell.fixed.push_back(border[v]);
+    shell.over_bite_m = bite_heights(head, jaw, shell);
     return shell;
 }
 

@@ -16,20 +16,22 @@
 namespace risorius::sim {
 
 struct ShellOptions {
-    int vertices = 800;            ///< wanted number of skin nodes
+    int vertices = 800;  ///< wanted number of skin nodes
 };
 
 struct Shell {
-    Triangles fine;                    ///< the shell at the mesh's own resolution, mesh vertex indices
-    Points direction;                  ///< V x 3, smooth outward direction, unit; zero outside the region
-    std::vector<int> vertex;           ///< N, mesh vertex of each shell vertex
-    Triangles triangles;               ///< over 0..N-1
-    std::vector<int> collapsed_to;     ///< V -> 0..N-1, -1 off the shell
-    std::vector<char> fixed;           ///< N, on the border to the rest of the head
-    std::vector<double> spacing_m;     ///< V, wanted edge length
+    Triangles fine;           ///< the shell at the mesh's own resolution, mesh vertex indices
+    Points direction;         ///< V x 3, smooth outward direction, unit; zero outside the region
+    std::vector<int> vertex;  ///< N, mesh vertex of each shell vertex
+    Triangles triangles;      ///< over 0..N-1
+    std::vector<int> collapsed_to;    ///< V -> 0..N-1, -1 off the shell
+    std::vector<char> fixed;          ///< N, on the border to the rest of the head
+    std::vector<double> spacing_m;    ///< V, wanted edge length
+    std::vector<double> over_bite_m;  ///< N, height over the bite, see bite_heights()
 };
 
-Shell build_shell(const rig::Head& head, const std::array<EyeLids, 2>& lids, const ShellOptions& options);
+Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
+                  const ShellOptions& options);
 
 /// The line between the lips, corner to corner, from landmarks.
 std::vector<Vec3> lip_line(const rig::Head& head);

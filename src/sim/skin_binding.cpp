@@ -25,7 +25,8 @@ struct Terms {
         merged.reserve(nodes.size() + other.nodes.size());
         std::size_t i = 0, j = 0;
         while (i < nodes.size() || j < other.nodes.size()) {
-            if (j == other.nodes.size() || (i < nodes.size() && nodes[i].first < other.nodes[j].first)) {
+            if (j == other.nodes.size() ||
+                (i < nodes.size() && nodes[i].first < other.nodes[j].first)) {
                 merged.push_back(nodes[i++]);
             } else if (i == nodes.size() || other.nodes[j].first < nodes[i].first) {
                 merged.push_back({other.nodes[j].first, scale * other.nodes[j].second});
@@ -85,9 +86,11 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
                 for (long g : faces_of[shell.triangles(f, k)]) near.insert(g);
         double best_squared = 1e300;
         for (long f : near) {
-            const int a = shell.triangles(f, 0), b = shell.triangles(f, 1), c = shell.triangles(f, 2);
-            const geom::TrianglePoint foot = geom::closest_point_on_triangle(
-                at(static_cast<int>(v)), at(shell.vertex[a]), at(shell.vertex[b]), at(shell.vertex[c]));
+            const int a = shell.triangles(f, 0), b = shell.triangles(f, 1),
+                      c = shell.triangles(f, 2);
+            const geom::TrianglePoint foot =
+                geom::closest_point_on_triangle(at(static_cast<int>(v)), at(shell.vertex[a]),
+                                                at(shell.vertex[b]), at(shell.vertex[c]));
             if (foot.squared_distance >= best_squared) continue;
             best_squared = foot.squared_distance;
             const Vec3& w = foot.barycentric;
@@ -122,12 +125,15 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
     }
     int outside_piece = -1;
     for (std::size_t id = 0; id < low.size(); ++id)
-        if (outside_piece < 0 || (high[id] - low[id]).norm() > (high[outside_piece] - low[outside_piece]).norm())
+        if (outside_piece < 0 ||
+            (high[id] - low[id]).norm() > (high[outside_piece] - low[outside_piece]).norm())
             outside_piece = static_cast<int>(id);
 
     // Which of them is held, and by what
     const std::vector<Vec3> lips = lip_line(head);
     std::vector<char> held(static_cast<std::size_t>(count), 0);
+    std::vector<double> pull(static_cast<std::size_t>(count),
+                             0.0);  // towards terms, beside the neighbours
     for (long v = 0; v < count; ++v) {
         if (!on_surface[v] || on_shell[v]) continue;
         const Vec3 p = at(static_cast<int>(v));
@@ -145,6 +151,24 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
             held[v] = 1;
             terms[v].jaw = 1.0 - smoothstep(-head.mm(4), head.mm(4), jaw.height_over_bite(p));
             terms[v].jaw_point = terms[v].jaw * p;
+        } else if (from_lips > head.mm(4) && from_lips < head.mm(40) &&
+                   p.y() < head.landmark("sn").y() && p.z() < lips[2].z()) {
+            // The lining of lips and cheeks goes with the skin in front of it, or it would come through
+            const double side = jaw.height_over_bite(p);
+            int nearest = -1;
+            double least = head.mm(16) * head.mm(16);
+            for (long w = 0; w < count; ++w) {
+                if (!on_shell[w]) continue;
+                const double squared = (head.vertices.row(w) - head.vertices.row(v)).squaredNorm();
+                if (squared < least && side * jaw.height_over_bite(at(static_cast<int>(w))) >= 0) {
+                    least = squared;
+                    nearest = static_cast<int>(w);
+                }
+            }
+            if (nearest >= 0) {
+                pull[v] = smoothstep(head.mm(2), head.mm(7), std::abs(side));
+                terms[v] = terms[nearest];
+            }
         }
     }
 
@@ -158,45 +182,60 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
     if (!free.empty()) {
         std::vector<Eigen::Triplet<double>> entries;
         std::vector<int> column_of(static_cast<std::size_t>(shell_count), -1), node_of_column;
-        for (int v : free)
+        const auto add_columns = [&](const Terms& row) {
+            for (const auto& [node, weight] : row.nodes)
+                if (column_of[node] < 0) {
+                    column_of[node] = static_cast<int>(node_of_column.size());
+                    node_of_column.push_back(node);
+                }
+        };
+        for (int v : free) {
+            if (pull[v] > 0) add_columns(terms[v]);
             for (int w : neighbours[v])
-                for (const auto& [node, weight] : terms[w].nodes)
-                    if (unknown[w] < 0 && column_of[node] < 0) {
-                        column_of[node] = static_cast<int>(node_of_column.size());
-                        node_of_column.push_back(node);
-                    }
+                if (unknown[w] < 0) add_columns(terms[w]);
+        }
         const long columns = static_cast<long>(node_of_column.size());
         Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<long>(free.size()), columns + 4);
         for (std::size_t i = 0; i < free.size(); ++i) {
             const int v = free[i];
             double diagonal = 1e-9;
+            const auto add_known = [&](const Terms& row, double weight) {
+                diagonal += weight;
+                for (const auto& [node, share] : row.nodes)
+                    right(static_cast<long>(i), column_of[node]) += weight * share;
+                right(static_cast<long>(i), columns) += weight * row.jaw;
+                for (int k = 0; k < 3; ++k)
+                    right(static_cast<long>(i), columns + 1 + k) += weight * row.jaw_point[k];
+            };
+            double around = 0;
             for (int w : neighbours[v]) {
                 const double weight = 1.0 / std::max(1e-6, (at(v) - at(w)).norm());
-                diagonal += weight;
-                if (unknown[w] >= 0) {
+                around += weight;
+                if (unknown[w] < 0) {
+                    add_known(terms[w], weight);
+                } else {
+                    diagonal += weight;
                     entries.emplace_back(static_cast<int>(i), unknown[w], -weight);
-                    continue;
                 }
-                for (const auto& [node, share] : terms[w].nodes)
-                    right(static_cast<long>(i), column_of[node]) += weight * share;
-                right(static_cast<long>(i), columns) += weight * terms[w].jaw;
-                for (int k = 0; k < 3; ++k)
-                    right(static_cast<long>(i), columns + 1 + k) += weight * terms[w].jaw_point[k];
             }
+            if (pull[v] > 0) add_known(terms[v], pull[v] * around);
             entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal);
         }
-        Eigen::SparseMatrix<double> laplacian(static_cast<long>(free.size()), static_cast<long>(free.size()));
+        Eigen::SparseMatrix<double> laplacian(static_cast<long>(free.size()),
+                                              static_cast<long>(free.size()));
         laplacian.setFromTriplets(entries.begin(), entries.end());
         const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
         const Eigen::MatrixXd solution = factor.solve(right);
         for (std::size_t i = 0; i < free.size(); ++i) {
             Terms& row = terms[free[i]];
+            row.nodes.clear();
             for (long c = 0; c < columns; ++c)
                 if (solution(static_cast<long>(i), c) > 1e-6)
                     row.nodes.push_back({node_of_column[c], solution(static_cast<long>(i), c)});
             std::sort(row.nodes.begin(), row.nodes.end());
             row.jaw = solution(static_cast<long>(i), columns);
-            for (int k = 0; k < 3; ++k) row.jaw_point[k] = solution(static_cast<long>(i), columns + 1 + k);
+            for (int k = 0; k < 3; ++k)
+                row.jaw_point[k] = solution(static_cast<long>(i), columns + 1 + k);
             row.prune();
         }
     }
@@ -237,14 +276,16 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
     }
 }
 
-void SkinBinding::apply(const Points& shell_displacement, const Rigid& mandible, Points& vertices) const {
+void SkinBinding::apply(const Points& shell_displacement, const Rigid& mandible,
+                        Points& vertices) const {
     for (long v = 0; v < vertices.rows(); ++v) {
         const Row& row = rows_[v];
         Vec3 u = Vec3::Zero();
         for (int k = row.begin; k < row.end; ++k)
             u += weight_[k] * shell_displacement.row(column_[k]).transpose();
         if (row.jaw != 0.0)
-            u += mandible.linear() * row.jaw_point + row.jaw * mandible.translation() - row.jaw_point;
+            u += mandible.linear() * row.jaw_point + row.jaw * mandible.translation() -
+                 row.jaw_point;
         vertices.row(v) += u.transpose();
     }
 }

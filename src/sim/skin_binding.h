@@ -35,7 +35,7 @@ class SkinBinding {
         double jaw = 0.0;
         Vec3 jaw_point = Vec3::Zero();
     };
-    std::vector<Row> rows_;        // V
+    std::vector<Row> rows_;  // V
     std::vector<int> column_;
     std::vector<double> weight_;
 };

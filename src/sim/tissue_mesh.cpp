@@ -10,13 +10,13 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kMiddleDepth = 0.42;   // of the thickness, from the skin
-constexpr double kLeastVolume = 0.12;   // of a tet's nominal volume
+constexpr double kMiddleDepth = 0.42;  // of the thickness, from the skin
+constexpr double kLeastVolume = 0.12;  // of a tet's nominal volume
 constexpr int kRepairRounds = 60;
 
 // Inverse-distance interpolation (power 4) of the measured soft-tissue thickness.
-double interpolate_thickness(const rig::Head& head, const std::vector<rig::ThicknessSample>& samples,
-                             const Vec3& p) {
+double interpolate_thickness(const rig::Head& head,
+                             const std::vector<rig::ThicknessSample>& samples, const Vec3& p) {
     double sum = 0, weights = 0;
     for (const rig::ThicknessSample& sample : samples) {
         const Vec3 at = head.landmark(sample.landmark) + head.size * sample.offset;
@@ -29,7 +29,8 @@ double interpolate_thickness(const rig::Head& head, const std::vector<rig::Thick
 }
 
 // Three tetrahedra per prism, with diagonals from the smallest vertex so that neighbours agree.
-void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top, std::vector<std::array<int, 4>>& out) {
+void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top,
+               std::vector<std::array<int, 4>>& out) {
     std::array<int, 3> v = base;
     bool odd = false;
     for (int i = 0; i < 2; ++i)
@@ -40,7 +41,8 @@ void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top, std::vec
             }
     const auto b = [&](int k) { return node_of(v[k], bottom); };
     const auto t = [&](int k) { return node_of(v[k], top); };
-    const std::array<std::array<int, 4>, 3> tets{{{b(0), b(1), b(2), t(2)}, {b(0), b(1), t(2), t(1)}, {b(0), t(1), t(2), t(0)}}};
+    const std::array<std::array<int, 4>, 3> tets{
+        {{b(0), b(1), b(2), t(2)}, {b(0), b(1), t(2), t(1)}, {b(0), t(1), t(2), t(0)}}};
     for (std::array<int, 4> tet : tets) {
         if (odd) std::swap(tet[1], tet[2]);
         out.push_back(tet);
@@ -49,8 +51,8 @@ void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top, std::vec
 
 }  // namespace
 
-TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
-                             const std::array<EyeLids, 2>& lids) {
+TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
+                             const Shell& shell, const std::array<EyeLids, 2>& lids) {
     const int count = static_cast<int>(shell.vertex.size());
     TissueMesh mesh;
     std::vector<Vec3> skin(static_cast<std::size_t>(count));
@@ -68,7 +70,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
         const double lip = 1.0 - smoothstep(head.mm(7), head.mm(16), distance_to_polyline(p, lips));
         if (lip > 0) {
             const double x_mm = p.x() / head.mm(1);
-            const double overjet = head.mm(2.6) * smoothstep(head.mm(2), head.mm(-2), p.y() - lips[2].y());
+            const double overjet =
+                head.mm(2.6) * smoothstep(head.mm(2), head.mm(-2), p.y() - lips[2].y());
             const double arch = arch_z - overjet - head.mm(0.03 * x_mm * x_mm);
             const double to_arch = std::clamp(p.z() - arch, head.mm(3), head.mm(14));
             thickness = (1 - lip) * thickness + lip * to_arch;
@@ -78,7 +81,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
             const double from_centre = (p - lids[side].centre()).norm();
             const double lid = 1.0 - smoothstep(lids[side].zone_m() - head.mm(2.5),
                                                 lids[side].zone_m() + head.mm(3), from_centre);
-            const double to_globe = std::clamp(from_centre - head.eyes[side].radius_m, head.mm(1.0), head.mm(9));
+            const double to_globe =
+                std::clamp(from_centre - head.eyes[side].radius_m, head.mm(1.0), head.mm(9));
             thickness = (1 - lid) * thickness + lid * to_globe;
         }
         mesh.thickness_m[v] = thickness;
@@ -86,7 +90,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
 
     std::vector<std::array<int, 4>> tets;
     for (long f = 0; f < shell.triangles.rows(); ++f) {
-        const std::array<int, 3> base{shell.triangles(f, 0), shell.triangles(f, 1), shell.triangles(f, 2)};
+        const std::array<int, 3> base{shell.triangles(f, 0), shell.triangles(f, 1),
+                                      shell.triangles(f, 2)};
         cut_prism(base, kDeep, kMiddle, tets);
         cut_prism(base, kMiddle, kSkin, tets);
     }
@@ -125,7 +130,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
             const long face = static_cast<long>(t / 6);
             const double share = t % 6 < 3 ? 1 - kMiddleDepth : kMiddleDepth;
             double thickness = 0;
-            for (int k = 0; k < 3; ++k) thickness += mesh.thickness_m[shell.triangles(face, k)] / 3.0;
+            for (int k = 0; k < 3; ++k)
+                thickness += mesh.thickness_m[shell.triangles(face, k)] / 3.0;
             if (volume < kLeastVolume * face_area[face] * thickness * share / 3.0) {
                 good[t] = 0;
                 any_bad = true;
@@ -138,7 +144,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
             if (!bad_vertex[v]) continue;
             mesh.thickness_m[v] = std::max(head.mm(0.8), 0.9 * mesh.thickness_m[v]);
             Vec3 sum = mesh.direction[v];
-            for (int w : neighbours[v]) sum += mesh.direction[w] / static_cast<double>(neighbours[v].size());
+            for (int w : neighbours[v])
+                sum += mesh.direction[w] / static_cast<double>(neighbours[v].size());
             turned[v] = sum.normalized();
         }
         mesh.direction = turned;

@@ -19,16 +19,17 @@ enum Layer { kDeep = 0, kMiddle = 1, kSkin = 2, kLayers = 3 };
 inline int node_of(int shell_vertex, Layer layer) { return kLayers * shell_vertex + layer; }
 
 struct TissueMesh {
-    Points nodes;                       ///< 3N x 3, rest
+    Points nodes;  ///< 3N x 3, rest
     Tets tets;
-    std::vector<Layer> tet_layer;       ///< the outer layer of the slab a tet lies in: kMiddle (deep slab) or kSkin
-    std::vector<double> thickness_m;    ///< N
-    std::vector<Vec3> direction;        ///< N, outward, unit
-    std::vector<double> area_m2;        ///< N, skin area that a vertex stands for
-    int dropped_tets = 0;               ///< too thin to be used
+    std::vector<Layer>
+        tet_layer;  ///< the outer layer of the slab a tet lies in: kMiddle (deep slab) or kSkin
+    std::vector<double> thickness_m;  ///< N
+    std::vector<Vec3> direction;      ///< N, outward, unit
+    std::vector<double> area_m2;      ///< N, skin area that a vertex stands for
+    int dropped_tets = 0;             ///< too thin to be used
 };
 
-TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
-                             const std::array<EyeLids, 2>& lids);
+TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
+                             const Shell& shell, const std::array<EyeLids, 2>& lids);
 
 }  // namespace risorius::sim

@@ -12,7 +12,8 @@ double Globe::radius_at(double cosine) const {
     const double cornea = cosine > 0 && under > 0 ? b + std::sqrt(under) : 0.0;
     // A soft maximum rounds the limbus over about half a millimetre.
     const double d = cornea - sclera_radius, soft = 0.25;
-    return sclera_radius + 0.5 * (d + std::sqrt(d * d + soft * soft)) - 0.5 * soft * soft / (std::abs(d) + soft) * 0.5;
+    return sclera_radius + 0.5 * (d + std::sqrt(d * d + soft * soft)) -
+           0.5 * soft * soft / (std::abs(d) + soft) * 0.5;
 }
 
 geom::PolygonMesh globe_mesh(const Globe& globe, double side, const std::string& group) {
@@ -22,15 +23,18 @@ geom::PolygonMesh globe_mesh(const Globe& globe, double side, const std::string&
     mesh.positions.resize(2 + (kRings - 1) * kAround, 3);
     const auto put = [&](int row, double angle, double around) {
         const double r = globe.radius_at(std::cos(angle));
-        mesh.positions.row(row) << side * (globe.centre.x() + r * std::sin(angle) * std::cos(around)),
-            globe.centre.y() + r * std::sin(angle) * std::sin(around), globe.centre.z() + r * std::cos(angle);
+        mesh.positions.row(row) << side *
+                                       (globe.centre.x() + r * std::sin(angle) * std::cos(around)),
+            globe.centre.y() + r * std::sin(angle) * std::sin(around),
+            globe.centre.z() + r * std::cos(angle);
     };
     put(0, 0, 0);
     for (int ring = 1; ring < kRings; ++ring) {
         // Denser in front, where the highlight is.
         const double t = static_cast<double>(ring) / kRings;
         const double angle = M_PI * t * (0.55 + 0.45 * t);
-        for (int k = 0; k < kAround; ++k) put(1 + (ring - 1) * kAround + k, angle, 2 * M_PI * k / kAround);
+        for (int k = 0; k < kAround; ++k)
+            put(1 + (ring - 1) * kAround + k, angle, 2 * M_PI * k / kAround);
     }
     const int last = 1 + (kRings - 1) * kAround;
     put(last, M_PI, 0);

@@ -19,7 +19,8 @@ void HalfMesh::quad(int a, int b, int c, int d, int in_group) {
     group.push_back(in_group);
 }
 
-void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed, int in_group) {
+void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed,
+                      int in_group) {
     const std::size_t n = outer.size();
     for (std::size_t k = 0; k + (closed ? 0 : 1) < n; ++k) {
         const std::size_t next = (k + 1) % n;
@@ -28,7 +29,8 @@ void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inn
 }
 
 void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold how) {
-    std::vector<std::vector<int>> id(static_cast<std::size_t>(rows) + 1, std::vector<int>(static_cast<std::size_t>(columns) + 1, -1));
+    std::vector<std::vector<int>> id(static_cast<std::size_t>(rows) + 1,
+                                     std::vector<int>(static_cast<std::size_t>(columns) + 1, -1));
     const auto at = [&](int place) { return loop[static_cast<std::size_t>(place) % loop.size()]; };
     for (int r = 0; r <= rows; ++r) {
         id[r][0] = at(r);
@@ -41,14 +43,18 @@ void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold ho
     for (int r = 1; r < rows; ++r)
         for (int c = 1; c < columns; ++c) {
             const double u = static_cast<double>(c) / columns, v = static_cast<double>(r) / rows;
-            const auto p = [&](int row, int column) { return point[static_cast<std::size_t>(id[row][column])]; };
-            const Vec3 coons = (1 - u) * p(r, 0) + u * p(r, columns) + (1 - v) * p(0, c) + v * p(rows, c) -
-                               (1 - u) * (1 - v) * p(0, 0) - u * (1 - v) * p(0, columns) -
-                               (1 - u) * v * p(rows, 0) - u * v * p(rows, columns);
+            const auto p = [&](int row, int column) {
+                return point[static_cast<std::size_t>(id[row][column])];
+            };
+            const Vec3 coons = (1 - u) * p(r, 0) + u * p(r, columns) + (1 - v) * p(0, c) +
+                               v * p(rows, c) - (1 - u) * (1 - v) * p(0, 0) -
+                               u * (1 - v) * p(0, columns) - (1 - u) * v * p(rows, 0) -
+                               u * v * p(rows, columns);
             id[r][c] = add(coons, how);
         }
     for (int r = 0; r < rows; ++r)
-        for (int c = 0; c < columns; ++c) quad(id[r][c], id[r + 1][c], id[r + 1][c + 1], id[r][c + 1]);
+        for (int c = 0; c < columns; ++c)
+            quad(id[r][c], id[r + 1][c], id[r + 1][c + 1], id[r][c + 1]);
 }
 
 std::vector<std::vector<int>> HalfMesh::neighbours() const {
@@ -65,7 +71,8 @@ std::vector<std::vector<int>> HalfMesh::neighbours() const {
     return lists;
 }
 
-void HalfMesh::relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project, Hold which) {
+void HalfMesh::relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,
+                     Hold which) {
     const auto around = neighbours();
     std::vector<Vec3> moved = point;
     for (int iteration = 0; iteration < iterations; ++iteration) {
@@ -115,7 +122,8 @@ void HalfMesh::smooth(int iterations, const std::vector<double>& share) {
     }
 }
 
-std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count, bool closed) {
+std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count,
+                               bool closed) {
     std::vector<Vec3> out;
     const int n = static_cast<int>(through.size());
     const auto knot = [&](int i) -> std::pair<double, Vec3> {
@@ -125,10 +133,12 @@ std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& throu
             return {base.first + turns * count, base.second};
         }
         if (i < 0) {
-            return {2 * through[0].first - through[1].first, 2 * through[0].second - through[1].second};
+            return {2 * through[0].first - through[1].first,
+                    2 * through[0].second - through[1].second};
         }
         if (i >= n) {
-            const auto &a = through[static_cast<std::size_t>(n - 1)], &b = through[static_cast<std::size_t>(n - 2)];
+            const auto &a = through[static_cast<std::size_t>(n - 1)],
+                       &b = through[static_cast<std::size_t>(n - 2)];
             return {2 * a.first - b.first, 2 * a.second - b.second};
         }
         return through[static_cast<std::size_t>(i)];
@@ -147,8 +157,8 @@ std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& throu
         };
         const Vec3 mb = slope(a, b, c), mc = slope(b, c, d);
         const double t2 = t * t, t3 = t2 * t;
-        out.push_back((2 * t3 - 3 * t2 + 1) * b.second + (t3 - 2 * t2 + t) * h * mb + (3 * t2 - 2 * t3) * c.second +
-                      (t3 - t2) * h * mc);
+        out.push_back((2 * t3 - 3 * t2 + 1) * b.second + (t3 - 2 * t2 + t) * h * mb +
+                      (3 * t2 - 2 * t3) * c.second + (t3 - t2) * h * mc);
     }
     return out;
 }
@@ -157,7 +167,8 @@ std::vector<int> mirror_map(const HalfMesh& half) {
     const int n = static_cast<int>(half.point.size());
     std::vector<int> other(static_cast<std::size_t>(n));
     int next = n;
-    for (int v = 0; v < n; ++v) other[static_cast<std::size_t>(v)] = half.midline[static_cast<std::size_t>(v)] ? v : next++;
+    for (int v = 0; v < n; ++v)
+        other[static_cast<std::size_t>(v)] = half.midline[static_cast<std::size_t>(v)] ? v : next++;
     return other;
 }
 
@@ -171,7 +182,8 @@ geom::PolygonMesh mirrored(const HalfMesh& half) {
         const Vec3& p = half.point[static_cast<std::size_t>(v)];
         mesh.positions.row(v) = p.transpose();
         if (other[static_cast<std::size_t>(v)] != v)
-            mesh.positions.row(other[static_cast<std::size_t>(v)]) = Vec3(-p.x(), p.y(), p.z()).transpose();
+            mesh.positions.row(other[static_cast<std::size_t>(v)]) =
+                Vec3(-p.x(), p.y(), p.z()).transpose();
     }
     mesh.group_names = {"skin", "mouth"};
     const auto append = [&](const std::array<int, 4>& f, int group, bool mirror) {
@@ -184,7 +196,8 @@ geom::PolygonMesh mirrored(const HalfMesh& half) {
         mesh.face_group.push_back(group);
     };
     for (const bool mirror : {false, true})
-        for (std::size_t f = 0; f < half.face.size(); ++f) append(half.face[f], half.group[f], mirror);
+        for (std::size_t f = 0; f < half.face.size(); ++f)
+            append(half.face[f], half.group[f], mirror);
     return mesh;
 }
 

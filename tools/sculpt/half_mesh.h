@@ -12,9 +12,9 @@
 namespace risorius::sculpt {
 
 enum class Hold {
-    kOnHead,   ///< slides on the head surface while relaxing
-    kSmooth,   ///< follows its neighbours in space (cap, nostril, ear: lofted parts)
-    kPinned,   ///< stays
+    kOnHead,  ///< slides on the head surface while relaxing
+    kSmooth,  ///< follows its neighbours in space (cap, nostril, ear: lofted parts)
+    kPinned,  ///< stays
 };
 
 struct HalfMesh {
@@ -28,7 +28,8 @@ struct HalfMesh {
     void quad(int a, int b, int c, int d, int in_group = 0);
 
     /// Faces between two loops of equal length, seen from outside counter-clockwise; `closed` joins last to first.
-    void bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed, int in_group = 0);
+    void bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed,
+                int in_group = 0);
 
     /// Fills the rectangle bounded by `loop` (left side down `rows`, bottom right `columns`, right side up, top back).
     void fill(const std::vector<int>& loop, int rows, int columns, Hold how);
@@ -40,11 +41,13 @@ struct HalfMesh {
     void smooth(int iterations, const std::vector<double>& share);
 
     /// Moves vertices towards the mean of their neighbours; those on the head are put back on it by `project`.
-    void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project, Hold which);
+    void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,
+               Hold which);
 };
 
 /// Points of a curve through `places`, one for each vertex 0..count-1 (closed) or 0..count (open).
-std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count, bool closed);
+std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count,
+                               bool closed);
 
 /// Both halves: the left one first in its own order, then the mirrored vertices; groups "skin", "mouth".
 geom::PolygonMesh mirrored(const HalfMesh& half);

@@ -26,7 +26,8 @@ void append(geom::PolygonMesh& whole, const geom::PolygonMesh& part) {
         whole.face_begin.push_back(static_cast<int>(whole.corner_vertex.size()));
         whole.face_group.push_back(static_cast<int>(whole.group_names.size()) + part.face_group[f]);
     }
-    whole.group_names.insert(whole.group_names.end(), part.group_names.begin(), part.group_names.end());
+    whole.group_names.insert(whole.group_names.end(), part.group_names.begin(),
+                             part.group_names.end());
 }
 
 /// Nearest vertices, each used once; the right side mirrors the left.
@@ -44,7 +45,8 @@ std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& 
         const bool middle = p.x() == 0;
         int best = -1;
         for (const int v : on_skin) {
-            if (used.count(v) || (middle && !skin.mesh.midline[static_cast<std::size_t>(v)])) continue;
+            if (used.count(v) || (middle && !skin.mesh.midline[static_cast<std::size_t>(v)]))
+                continue;
             if (best < 0 || (skin.mesh.point[static_cast<std::size_t>(v)] - p).squaredNorm() <
                                 (skin.mesh.point[static_cast<std::size_t>(best)] - p).squaredNorm())
                 best = v;
@@ -55,7 +57,8 @@ std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& 
     const std::vector<int> other = mirror_map(skin.mesh);
     std::map<std::string, int> both = named;
     for (const auto& [id, v] : named)
-        if (id.size() > 2 && id.ends_with("_l")) both[id.substr(0, id.size() - 2) + "_r"] = other[static_cast<std::size_t>(v)];
+        if (id.size() > 2 && id.ends_with("_l"))
+            both[id.substr(0, id.size() - 2) + "_r"] = other[static_cast<std::size_t>(v)];
     return both;
 }
 
@@ -91,22 +94,26 @@ HeadModel make_head(const DesignTables& tables) {
 }
 
 void write_head(const HeadModel& model, const std::filesystem::path& folder) {
-    std::string text = "# Risorius adult head, made by tools/sculpt from models/adult/design. CC0. Millimetres; see ORIGIN.md.\n";
+    std::string text =
+        "# Risorius adult head, made by tools/sculpt from models/adult/design. CC0. Millimetres; "
+        "see ORIGIN.md.\n";
     char line[96];
     const auto& mesh = model.mesh;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         // Adding zero turns a rounded -0 into 0.
-        const auto rounded = [&](int axis) { return std::round(mesh.positions(v, axis) * 1000) / 1000 + 0.0; };
+        const auto rounded = [&](int axis) {
+            return std::round(mesh.positions(v, axis) * 1000) / 1000 + 0.0;
+        };
         std::snprintf(line, sizeof line, "v %.3f %.3f %.3f\n", rounded(0), rounded(1), rounded(2));
         text += line;
     }
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
-        text += "g " + mesh.group_names[g] + "\n";
+        text.append("g ").append(mesh.group_names[g]).append("\n");
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
             text += "f";
             for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-                text += " " + std::to_string(mesh.corner_vertex[c] + 1);
+                text.append(" ").append(std::to_string(mesh.corner_vertex[c] + 1));
             text += "\n";
         }
     }
@@ -115,7 +122,8 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
     text = "{\n  \"format\": \"risorius-landmarks\",\n  \"version\": 1,\n  \"landmarks\": {";
     const char* separator = "\n";
     for (const auto& [id, v] : model.landmarks) {
-        text += separator + ("    \"" + id + "\": {\"vertex\": " + std::to_string(v) + "}");
+        text.append(separator).append("    \"").append(id).append("\": {\"vertex\": ");
+        text.append(std::to_string(v)).append("}");
         separator = ",\n";
     }
     text += "\n  }\n}\n";
@@ -132,9 +140,11 @@ std::string fit_report(const HeadModel& model, const DesignTables& tables) {
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
             ++faces;
-            used.insert(mesh.corner_vertex.begin() + mesh.face_begin[f], mesh.corner_vertex.begin() + mesh.face_begin[f + 1]);
+            used.insert(mesh.corner_vertex.begin() + mesh.face_begin[f],
+                        mesh.corner_vertex.begin() + mesh.face_begin[f + 1]);
         }
-        out << "  " << mesh.group_names[g] << ": " << used.size() << " vertices, " << faces << " faces\n";
+        out << "  " << mesh.group_names[g] << ": " << used.size() << " vertices, " << faces
+            << " faces\n";
     }
     // Depth: front-most skin under each measured ray.
     const Triangles skin = geom::triangulate(mesh, {mesh.group_index("skin")});
@@ -147,11 +157,15 @@ std::string fit_report(const HeadModel& model, const DesignTables& tables) {
             if (std::isnan(measured)) continue;
             double z = -1e9;
             for (long t = 0; t < skin.rows(); ++t) {
-                const Vec3 a = mesh.positions.row(skin(t, 0)), b = mesh.positions.row(skin(t, 1)), d = mesh.positions.row(skin(t, 2));
-                const double area = (b.x() - a.x()) * (d.y() - a.y()) - (b.y() - a.y()) * (d.x() - a.x());
+                const Vec3 a = mesh.positions.row(skin(t, 0)), b = mesh.positions.row(skin(t, 1)),
+                           d = mesh.positions.row(skin(t, 2));
+                const double area =
+                    (b.x() - a.x()) * (d.y() - a.y()) - (b.y() - a.y()) * (d.x() - a.x());
                 if (area < 1e-9) continue;  // only what faces forward
-                const double u = ((x - a.x()) * (d.y() - a.y()) - (y - a.y()) * (d.x() - a.x())) / area;
-                const double v = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
+                const double u =
+                    ((x - a.x()) * (d.y() - a.y()) - (y - a.y()) * (d.x() - a.x())) / area;
+                const double v =
+                    ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
                 if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
                 z = std::max(z, (1 - u - v) * a.z() + u * b.z() + v * d.z());
             }
@@ -167,14 +181,16 @@ std::string fit_report(const HeadModel& model, const DesignTables& tables) {
             }
         }
     out.precision(3);
-    out << "face depth: RMS " << std::sqrt(sum / count) << " mm over " << count << " rays; in front of z = 40: RMS "
-        << std::sqrt(inner_sum / inner) << " mm, greatest " << worst << " mm\n";
+    out << "face depth: RMS " << std::sqrt(sum / count) << " mm over " << count
+        << " rays; in front of z = 40: RMS " << std::sqrt(inner_sum / inner) << " mm, greatest "
+        << worst << " mm\n";
     double square = 0, greatest = 0;
     std::string which;
     int n = 0;
     std::ostringstream over;
     for (const auto& [id, p] : tables.landmarks) {
-        const double error = (Vec3(mesh.positions.row(model.landmarks.at(id)).transpose()) - p).norm();
+        const double error =
+            (Vec3(mesh.positions.row(model.landmarks.at(id)).transpose()) - p).norm();
         square += error * error;
         ++n;
         if (error > greatest) {
@@ -183,7 +199,9 @@ std::string fit_report(const HeadModel& model, const DesignTables& tables) {
         }
         if (error > 1.5 && !id.ends_with("_r")) over << "  " << id << " " << error << " mm\n";
     }
-    out << "landmarks: RMS " << std::sqrt(square / n) << " mm, greatest " << greatest << " mm (" << which << ")\n" << over.str();
+    out << "landmarks: RMS " << std::sqrt(square / n) << " mm, greatest " << greatest << " mm ("
+        << which << ")\n"
+        << over.str();
     return out.str();
 }
 

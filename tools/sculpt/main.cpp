@@ -6,7 +6,8 @@
 #include "head_model.h"
 
 int main(int argc, char** argv) {
-    std::filesystem::path design = std::string(RISORIUS_SOURCE_DIR) + "/models/adult/design", output;
+    std::filesystem::path design = std::string(RISORIUS_SOURCE_DIR) + "/models/adult/design",
+                          output;
     for (int k = 1; k < argc; ++k) {
         const std::string flag = argv[k];
         if (flag == "--output" && k + 1 < argc) {
@@ -14,9 +15,11 @@ int main(int argc, char** argv) {
         } else if (flag == "--design" && k + 1 < argc) {
             design = argv[++k];
         } else {
-            std::printf("usage: sculpt --output FOLDER [--design FOLDER]\n"
-                        "writes head.obj and landmarks.json, prints how well the head meets the design tables\n"
-                        "example: sculpt --output models/adult\n");
+            std::printf(
+                "usage: sculpt --output FOLDER [--design FOLDER]\n"
+                "writes head.obj and landmarks.json, prints how well the head meets the design "
+                "tables\n"
+                "example: sculpt --output models/adult\n");
             return flag == "--help" ? 0 : 2;
         }
     }

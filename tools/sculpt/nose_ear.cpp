@@ -7,8 +7,9 @@
 namespace risorius::sculpt {
 namespace {
 
-std::vector<Vec3> loop_points(const std::map<std::string, std::vector<LoopPoint>>& loops, const std::string& name,
-                              int count, const std::function<double(double)>& place) {
+std::vector<Vec3> loop_points(const std::map<std::string, std::vector<LoopPoint>>& loops,
+                              const std::string& name, int count,
+                              const std::function<double(double)>& place) {
     const auto found = loops.find(name);
     if (found == loops.end()) throw Error("design loops", "a loop named " + name, "none");
     std::vector<std::pair<double, Vec3>> through;
@@ -24,7 +25,8 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     const auto named = [&](const char* name) {
         return loop_points(tables.nose_loops, name, kLoop, [](double p) { return p; });
     };
-    const std::vector<Vec3> crease = named("crease"), wing = named("wing"), edge = named("edge"), rim = named("rim");
+    const std::vector<Vec3> crease = named("crease"), wing = named("wing"), edge = named("edge"),
+                            rim = named("rim");
     std::vector<int> previous = block;
     const auto ring = [&](const std::vector<Vec3>& points, Hold hold) {
         std::vector<int> ids;
@@ -32,14 +34,16 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
         mesh.bridge(previous, ids, true);
         previous = ids;
     };
-    const auto between = [&](const std::vector<Vec3>& before, const std::vector<Vec3>& a, const std::vector<Vec3>& b,
-                             const std::vector<Vec3>& after) {
+    const auto between = [&](const std::vector<Vec3>& before, const std::vector<Vec3>& a,
+                             const std::vector<Vec3>& b, const std::vector<Vec3>& after) {
         std::vector<Vec3> points;
-        for (int k = 0; k < kLoop; ++k) points.push_back((9 * (a[k] + b[k]) - before[k] - after[k]) / 16);
+        for (int k = 0; k < kLoop; ++k)
+            points.push_back((9 * (a[k] + b[k]) - before[k] - after[k]) / 16);
         return points;
     };
     std::vector<Vec3> halfway;
-    for (int k = 0; k < kLoop; ++k) halfway.push_back(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] + crease[k]));
+    for (int k = 0; k < kLoop; ++k)
+        halfway.push_back(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] + crease[k]));
     ring(halfway, Hold::kSmooth);
     ring(crease, Hold::kPinned);
     ring(between(halfway, crease, wing, edge), Hold::kSmooth);
@@ -48,21 +52,29 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
     const std::size_t inner = mesh.point.size() - kLoop;
-    // The nostril goes up and slightly back, narrowing.
+    // The vestibule goes back and up from the rim, so that who looks in from the front looks into depth.
     Vec3 centre = Vec3::Zero();
     for (const Vec3& p : rim) centre += p / kLoop;
-    const struct { double width; Vec3 shift; } kInside[] = {
-        {0.94, Vec3(0, 1.6, -0.4)}, {0.9, Vec3(-0.2, 4.5, -1.2)}, {0.75, Vec3(-0.8, 8, -3)}, {0.5, Vec3(-1.2, 11, -5)}};
+    const struct {
+        double width;
+        Vec3 shift;
+    } kInside[] = {{0.92, Vec3(0, 0.9, -0.8)},
+                   {0.98, Vec3(0, 3, -3.4)},
+                   {0.9, Vec3(-0.4, 6, -7.5)},
+                   {0.6, Vec3(-1.0, 9.5, -13)}};
     for (const auto& inside : kInside) {
         std::vector<Vec3> points;
-        for (const Vec3& p : rim) points.push_back(centre + inside.width * (p - centre) + inside.shift);
+        for (const Vec3& p : rim)
+            points.push_back(centre + inside.width * (p - centre) + inside.shift);
         ring(points, Hold::kPinned);
     }
     mesh.fill(previous, kRows, kAcross, Hold::kPinned);
-    for (std::size_t v = inner; v < mesh.point.size(); ++v) skin.fixed.push_back(static_cast<int>(v));
+    for (std::size_t v = inner; v < mesh.point.size(); ++v)
+        skin.fixed.push_back(static_cast<int>(v));
 }
 
-void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables) {
+void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables,
+             const HeadSurface& head) {
     constexpr int kRows = 20, kAcross = 6, kLoop = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
     // The tables count 36 places, 12 along each long side; the mesh has 20 there.
@@ -96,10 +108,13 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         for (int k = 0; k < kLoop; ++k) points.push_back(0.5 * (last[k] + next[k]));
         ring(points, Hold::kSmooth);
     };
-    halfway_to(named("behind"));
-    ring(named("behind"), Hold::kPinned);
+    std::vector<Vec3> behind = named("behind");
+    for (int k = kRows / 6; k <= kRows + 1; ++k) behind[k] = head.project(behind[k]);
+    halfway_to(behind);
+    ring(behind, Hold::kPinned);
     halfway_to(named("outer"));
-    for (const char* name : {"outer", "helix", "scapha", "antihelix", "concha"}) ring(named(name), Hold::kPinned);
+    for (const char* name : {"outer", "helix", "scapha", "antihelix", "concha"})
+        ring(named(name), Hold::kPinned);
     mesh.fill(previous, kRows, kAcross, Hold::kSmooth);
 }
 

@@ -64,8 +64,9 @@ std::map<std::string, std::vector<LoopPoint>> read_loops(const std::filesystem::
     for (std::size_t r = 1; r < cells.size(); ++r) {
         const auto& row = cells[r];
         if (row.size() != 5) throw Error(file.string(), "loop,place and three lengths", row[0]);
-        loops[row[0]].push_back({number(file, row[1]), Vec3(number(file, row[2]), number(file, row[3]),
-                                                            number(file, row[4]))});
+        loops[row[0]].push_back(
+            {number(file, row[1]),
+             Vec3(number(file, row[2]), number(file, row[3]), number(file, row[4]))});
     }
     return loops;
 }
@@ -79,8 +80,8 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     const auto file = folder / "landmarks.csv";
     const auto cells = read_csv(file);
     for (std::size_t r = 1; r < cells.size(); ++r)
-        tables.landmarks[cells[r][0]] = Vec3(number(file, cells[r][2]), number(file, cells[r][3]),
-                                             number(file, cells[r][4]));
+        tables.landmarks[cells[r][0]] =
+            Vec3(number(file, cells[r][2]), number(file, cells[r][3]), number(file, cells[r][4]));
     tables.nose_loops = read_loops(folder / "nose_loops.csv");
     tables.ear_loops = read_loops(folder / "ear_loops.csv");
     return tables;

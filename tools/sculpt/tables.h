@@ -24,11 +24,12 @@ struct LoopPoint {
 };
 
 struct DesignTables {
-    GridTable face_depth;                                      ///< z over rows y, columns x
-    GridTable head_radius;                                     ///< r about (x 0, z 20) over rows y, columns azimuth
-    std::map<std::string, Vec3> landmarks;                     ///< head frame
+    GridTable face_depth;                   ///< z over rows y, columns x
+    GridTable head_radius;                  ///< r about (x 0, z 20) over rows y, columns azimuth
+    std::map<std::string, Vec3> landmarks;  ///< head frame
     std::map<std::string, std::vector<LoopPoint>> nose_loops;  ///< left side, head frame
-    std::map<std::string, std::vector<LoopPoint>> ear_loops;   ///< left side, ear frame: back, up, out
+    std::map<std::string, std::vector<LoopPoint>>
+        ear_loops;  ///< left side, ear frame: back, up, out
 };
 
 /// Throws Error on a missing or malformed table.

@@ -1,4 +1,4 @@
-// Coordinates on a ribbon of eyelashes, so that single hairs can be cut out of it without texture or alpha.
+// Places on a ribbon of eyelashes, so that single hairs can be cut out of it without texture or alpha.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,14 @@
 
 namespace risorius::render {
 
-/// Two floats per vertex of the scene: length along the lid in m, and share of the way from root to tip. Zero for what is no
-/// lash. Roots are where the ribbon meets the skin.
-std::vector<float> lash_coordinates(const Scene& scene);
+struct LashPlace {
+    bool is_lash = false;
+    bool lower_lid = false;
+    float along_m = 0.0F;  ///< of its root, along the lid
+    float share = 0.0F;    ///< of the way from root to tip
+};
+
+/// One per vertex of the scene. Roots are the edge of the ribbon nearest to the middle of the eye.
+std::vector<LashPlace> lash_places(const Scene& scene);
 
 }  // namespace risorius::render

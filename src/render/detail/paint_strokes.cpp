@@ -65,23 +65,58 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
         const double band_s = offset * half_band;
         const Vec2 root = map[k] + (at - static_cast<double>(k)) * (map[k + 1] - map[k]) +
                           kMapPerMetre * (band_s - 0.0006) * up;
-        const double lean = (52.0 - 40.0 * std::min(1.0, t / 0.40)) -
+        const double lean = (42.0 - 30.0 * std::min(1.0, t / 0.40)) -
                             42.0 * offset * std::min(1.0, t / 0.3) + 22.0 * (random.next() - 0.5);
         const double angle = lean * std::numbers::pi / 180;
         const double length = (0.0045 + 0.0035 * random.next()) * (1.0 - 0.35 * t);
         const Vec2 direction = std::cos(angle) * axis + std::sin(angle) * up;
         const double shade = 0.7 + 0.7 * random.next();
-        const double density = 0.52 + 0.25 * random.next();
+        const double density = 0.46 + 0.25 * random.next();
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00022,
                 hair * shade, density * std::min(1.0, 0.35 + t / 0.22));
     }
 }
 
+/// Cells of the map that ears cover.
+class EarMask {
+  public:
+    EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+            const std::vector<unsigned>& skin)
+        : covered_(kSide * kSide, false) {
+        constexpr int kSteps = 6;
+        for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+            Vec3 corner[3];
+            bool ear = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
+                ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
+            }
+            if (!ear) continue;
+            for (int a = 0; a <= kSteps; ++a)
+                for (int b = 0; a + b <= kSteps; ++b)
+                    covered_[cell(paint_place(
+                        (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
+                        centre))] = true;
+        }
+    }
+    bool at(const Vec2& place) const { return covered_[cell(place)]; }
+
+  private:
+    static constexpr std::size_t kSide = 256;
+    static std::size_t cell(const Vec2& place) {
+        const auto along = [](double x) {
+            return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
+        };
+        return along(place.y()) * kSide + along(place.x());
+    }
+    std::vector<bool> covered_;
+};
+
 /// Cropped hair beyond the hairline, lying away from the whorl at the crown.
-void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, StrokeRandom& random,
-           StrokePad& pad) {
+void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
+           StrokeRandom& random, StrokePad& pad) {
     if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
-    constexpr int kHairs = 60000;
+    constexpr int kHairs = 90000;
     const Vec3 hair = linear_from_srgb(scene.look.hair_tone);
     const auto crown = scene.landmarks.find("v");
     const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
@@ -94,25 +129,17 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, StrokeR
         const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
         const double inside = (radius - hairline_radius(plan, root)) / 0.030;
         if (keep > std::clamp(inside + 0.25, 0.0, 1.0)) continue;
-        bool on_ear = false;
-        for (const EarPatch& ear : plan.ears) {
-            const Vec2 d = root - ear.place;
-            if (ear.half_size.x() > 0 && ear.half_size.y() > 0)
-                on_ear |= std::pow(d.x() / ear.half_size.x(), 2) +
-                              std::pow(d.y() / ear.half_size.y(), 2) <
-                          1;
-        }
-        if (on_ear) continue;
         Vec2 away = root - whorl;
         const double distance = away.norm();
         away = distance > 1e-4 ? Vec2(away / distance) : Vec2(0, 1);
         const double angle = (bend - 0.5) * 0.8;
         const Vec2 direction(std::cos(angle) * away.x() - std::sin(angle) * away.y(),
                              std::sin(angle) * away.x() + std::cos(angle) * away.y());
-        const double length = 0.0022 + 0.0025 * length_draw;
-        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00020,
+        const double length = 0.0018 + 0.0020 * length_draw;
+        if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
+        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00017,
                 hair * (0.6 + 0.8 * shade),
-                scene.look.scalp_hair * (0.45 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
+                scene.look.scalp_hair * (0.60 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
     }
 }
 
@@ -143,14 +170,38 @@ double StrokeRandom::next() {
     return static_cast<double>((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
 }
 
-std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
-                                       const Vec3& centre) {
+std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                                       const std::vector<unsigned>& skin) {
     StrokeRandom random(scene.look.seed);
     StrokePad pad;
     freckles(scene, plan, random, pad);
-    scalp(scene, plan, centre, random, pad);
+    scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
     for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
     return pad.take();
+}
+
+std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
+                                          const Vec3& centre) {
+    std::vector<StrokeVertex> fan;
+    if (plan.lip_outline.empty()) return fan;
+    const Eigen::Vector3f tone =
+        (0.85 * linear_from_srgb(scene.look.lip_tone)).cwiseSqrt().cast<float>();
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : plan.lip_outline)
+        middle += p / static_cast<double>(plan.lip_outline.size());
+    const auto corner = [&](const Vec3& p) {
+        const Vec2 place = paint_place(p, centre);
+        // The middle of a stroke's shaft, where it is opaque
+        fan.push_back({{static_cast<float>(place.x()), static_cast<float>(place.y())},
+                       {0.5F, 0.0F},
+                       {tone.x(), tone.y(), tone.z(), 1.0F}});
+    };
+    for (std::size_t i = 0; i < plan.lip_outline.size(); ++i) {
+        corner(middle);
+        corner(plan.lip_outline[i]);
+        corner(plan.lip_outline[(i + 1) % plan.lip_outline.size()]);
+    }
+    return fan;
 }
 
 void draw_strokes(const std::vector<StrokeVertex>& strokes) {

@@ -25,9 +25,13 @@ struct StrokeVertex {
     float rgba[4];   ///< square root of linear colour, opacity
 };
 
-/// Six vertices per stroke.
-std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
-                                       const Vec3& centre);
+/// Six vertices per stroke. `skin` are the painted triangles: no hair is laid over those of ears.
+std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                                       const std::vector<unsigned>& skin);
+
+/// The whole outline of the lips in their tone, as a fan.
+std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
+                                          const Vec3& centre);
 
 /// Blends them over the bound framebuffer.
 void draw_strokes(const std::vector<StrokeVertex>& strokes);

@@ -78,22 +78,15 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     index_count_ = static_cast<int>(indices_.size());
 
     const auto vertices = static_cast<std::size_t>(scene.rest.rows());
-    const std::vector<float> lash = lash_coordinates(scene);
-    std::vector<bool> is_lash(vertices, false);
-    for (const Surface& surface : scene.surfaces)
-        if (surface.material == Material::kLashes)
-            for (Eigen::Index i = 0; i < surface.triangles.size(); ++i)
-                is_lash[static_cast<std::size_t>(surface.triangles.data()[i])] = true;
+    lashes_ = lash_places(scene);
     std::vector<float> fixed;
     for (std::size_t v = 0; v < vertices; ++v) {
         const Vec3 p = scene.rest.row(static_cast<Eigen::Index>(v)).transpose();
         const Vec2 place = paint_place(p, paint_centre);
         for (int k = 0; k < 3; ++k) fixed.push_back(static_cast<float>(p[k]));
-        for (int k = 0; k < 2; ++k) {
-            fixed.push_back(is_lash[v] ? lash[2 * v + static_cast<std::size_t>(k)]
-                                       : static_cast<float>(place[k]));
-            paint_.push_back(static_cast<float>(place[k]));
-        }
+        for (int k = 0; k < 2; ++k) paint_.push_back(static_cast<float>(place[k]));
+        fixed.push_back(lashes_[v].is_lash ? lashes_[v].along_m : static_cast<float>(place.x()));
+        fixed.push_back(lashes_[v].is_lash ? lashes_[v].share : static_cast<float>(place.y()));
     }
 
     glGenVertexArrays(1, &array_);
@@ -141,7 +134,7 @@ void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
                                  const std::vector<float>& inside_mouth) {
     std::vector<float> both(2 * sky_seen.size());
     for (std::size_t v = 0; v < sky_seen.size(); ++v) {
-        both[2 * v] = sky_seen[v];
+        both[2 * v] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
         both[2 * v + 1] = inside_mouth[v];
     }
     glBindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_);
@@ -160,17 +153,21 @@ void SceneBuffers::draw(const Batch& batch) const {
     glDisable(GL_CULL_FACE);
 }
 
-std::vector<unsigned> SceneBuffers::paintable_triangles() const {
+std::vector<unsigned> SceneBuffers::paintable_triangles(
+    const std::vector<float>& inside_mouth) const {
     // Around the back of the head a triangle may span the whole rim of the map.
     constexpr float kWidest = 0.15F;
     std::vector<unsigned> triangles;
     for (std::size_t i = 0; i < static_cast<std::size_t>(skin_index_count()); i += 3) {
+        const bool hidden = inside_mouth[indices_[i]] > 0.5F &&
+                            inside_mouth[indices_[i + 1]] > 0.5F &&
+                            inside_mouth[indices_[i + 2]] > 0.5F;
         float widest = 0;
         for (std::size_t a = 0; a < 3; ++a)
             for (std::size_t k = 0; k < 2; ++k)
                 widest = std::max(widest, std::abs(paint_[2 * indices_[i + a] + k] -
                                                    paint_[2 * indices_[i + (a + 1) % 3] + k]));
-        if (widest < kWidest)
+        if (!hidden && widest < kWidest)
             triangles.insert(triangles.end(), {indices_[i], indices_[i + 1], indices_[i + 2]});
     }
     return triangles;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/detail/gl_context.h"
+#include "render/detail/lash_strands.h"
 #include "render/detail/smooth_normals.h"
 #include "render/scene.h"
 
@@ -36,14 +37,15 @@ class SceneBuffers {
     int skin_index_count() const;
     const std::vector<float>& normals() const { return normals_; }
 
-    /// Skin triangles that the map of the paint shows unbroken.
-    std::vector<unsigned> paintable_triangles() const;
+    /// Skin triangles outside the mouth that the map of the paint shows unbroken.
+    std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
 
   private:
     SmoothNormals smooth_;
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
     std::vector<float> paint_;
+    std::vector<LashPlace> lashes_;
     std::vector<float> positions_, normals_, moving_;
     int index_count_ = 0;
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0, elements_ = 0;

@@ -5,6 +5,16 @@ namespace {
 
 // Pattern from the rest position in the frame of the eye (z forward). Without a cornea of its own the surface is taken for
 // it: the view ray is refracted there and meets the iris plane behind.
+constexpr const char* kWindow = R"(
+// The key as the eye mirrors it: photographers add a low lamp so that the catchlight stays clear of the upper lid.
+vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.32, 0.0)); }
+
+// A large soft lamp mirrored in the tear film: a disc whose edge falls off over a few degrees.
+float window_light(vec3 back, vec3 l, float edge) {
+    return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
+}
+)";
+
 constexpr const char* kEye = R"(
 in vec3 position;
 in vec3 normal;
@@ -44,8 +54,15 @@ void main() {
     vec3 v = normalize(camera.xyz - position);
     vec3 q = eye_from_rest * (rest - centre);
     vec3 hit = q;
+    vec3 wet = n;   // normal of the tear film
     if (!separate_cornea) {
-        vec3 d = refract(-(eye_from_world * v), eye_from_world * n, 1.0 / 1.336);
+        // Scans have little or no corneal bulge; a cornea curves with 1.31 times the radius of its iris.
+        vec2 c = q.xy / (1.31 * iris_radius);
+        vec3 bulge = vec3(c, sqrt(max(1.0 - dot(c, c), 0.05)));
+        float on_cornea = q.z > 0.0 ? smoothstep(1.15, 0.90, length(q.xy) / iris_radius) : 0.0;
+        vec3 local = normalize(mix(eye_from_world * n, bulge, on_cornea));
+        wet = local * eye_from_world;
+        vec3 d = refract(-(eye_from_world * v), local, 1.0 / 1.336);
         float depth = max(q.z - iris_depth, 0.0) / max(-d.z, 0.2);
         hit = q + d * depth;
     }
@@ -66,7 +83,8 @@ void main() {
     float fibre = noise(vec3(round_ * 17.0 + 50.0, r * 3.0 + 5.0)) * 0.6 + noise(vec3(round_ * 38.0 + 90.0, r * 5.0 + 9.0)) * 0.4;
     float p = pupil_radius / iris_radius;
     float ring = (r - p) / (1.0 - p);
-    vec3 iris = iris_tone * (0.22 + 0.75 * fibre);
+    vec3 base = mix(iris_tone, vec3(dot(iris_tone, vec3(0.3, 0.5, 0.2))), 0.35);
+    vec3 iris = base * (0.22 + 0.75 * fibre);
     vec3 warm = vec3(0.24, 0.13, 0.045) * (0.5 + 0.9 * fibre);
     iris = mix(iris, warm, 0.55 * smoothstep(0.42, 0.08, ring + 0.25 * (fibre - 0.5)));
     iris *= mix(1.0, 0.28, smoothstep(0.72, 1.0, r));
@@ -92,10 +110,11 @@ void main() {
 
     // Wet surface: window-like highlights of key and fill and a faint picture of the surroundings
     if (!separate_cornea) {
-        vec3 gloss = key_radiance.rgb * smoothstep(0.1, 0.6, s) * min(glint(n, v, k, 0.15, 0.03), 2.2);
-        gloss += fill_radiance.rgb * open * min(glint(n, v, f, 0.17, 0.03), 1.5);
-        float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-        gloss += ambient(reflect(-v, n)) * open * (0.03 + 0.4 * edge * edge * edge);
+        vec3 back = reflect(-v, wet);
+        vec3 gloss = key_radiance.rgb * sqrt(open) * window_light(back, catchlight(), 0.957);
+        gloss += fill_radiance.rgb * open * 0.45 * window_light(back, f, 0.950);
+        float edge = 1.0 - clamp(dot(wet, v), 0.0, 1.0);
+        gloss += ambient(back) * open * (0.025 + 0.4 * edge * edge * edge);
         c += gloss;
     }
     colour = vec4(film(c), 1.0);
@@ -111,10 +130,11 @@ void main() {
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz, f = fill_direction.xyz;
     float s = key_visibility(position, n);
-    vec3 gloss = key_radiance.rgb * s * min(glint(n, v, k, 0.15, 0.03), 2.2);
-    gloss += fill_radiance.rgb * min(glint(n, v, f, 0.17, 0.03), 1.5);
+    vec3 back = reflect(-v, n);
+    vec3 gloss = key_radiance.rgb * smoothstep(0.0, 0.4, s) * window_light(back, catchlight(), 0.957);
+    gloss += fill_radiance.rgb * 0.45 * window_light(back, f, 0.950);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-    gloss += ambient(reflect(-v, n)) * (0.03 + 0.3 * edge * edge * edge);
+    gloss += ambient(back) * (0.015 + 0.2 * edge * edge * edge);
     // Premultiplied: clear glass adds its highlight and hides next to nothing.
     colour = vec4(film(gloss), clamp(dot(gloss, vec3(0.3)), 0.0, 0.9));
 }
@@ -122,7 +142,7 @@ void main() {
 
 }  // namespace
 
-std::string eye_shader() { return lighting_chunk() + noise_chunk() + kEye; }
-std::string cornea_shader() { return lighting_chunk() + kCornea; }
+std::string eye_shader() { return lighting_chunk() + noise_chunk() + kWindow + kEye; }
+std::string cornea_shader() { return lighting_chunk() + kWindow + kCornea; }
 
 }  // namespace risorius::render

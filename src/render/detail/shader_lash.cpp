@@ -9,20 +9,21 @@ constexpr const char* kLash = R"(
 in vec3 position;
 in vec3 normal;
 in vec2 paint;            // m along the lid, 0..1 from root to tip
+in float sky_seen;        // of a lash: 1 on the lower lid
 out vec4 colour;
 uniform vec3 albedo;      // linear
 
 float random(float i, float row) { return fract(sin(i * 12.9898 + row * 78.233) * 43758.5453); }
 
 // Share of half a hair's width at which the point lies, 1 at its edge.
-float in_hair(float spacing, float half_width, float row) {
+float in_hair(float spacing, float half_width, float longest, float row) {
     float across = paint.x / spacing + 0.37 * row;
     // Hairs lean over into their neighbours' cells.
     float nearest = 4.0;
     for (float j = -1.0; j <= 1.0; j += 1.0) {
         float i = floor(across) + j;
         float lean = (random(i, row) - 0.5) * 1.5;
-        float reach = 0.62 + 0.38 * random(i, row + 5.0);
+        float reach = longest * (0.62 + 0.38 * random(i, row + 5.0));
         float t = paint.y / reach;
         float middle = i + 0.5 + 0.5 * (random(i, row + 9.0) - 0.5) + lean * t * t;
         float width = half_width / spacing * (1.0 - 0.85 * t);
@@ -32,7 +33,10 @@ float in_hair(float spacing, float half_width, float row) {
 }
 
 void main() {
-    if (min(in_hair(0.00085, 0.000125, 1.0), in_hair(0.00127, 0.00011, 2.0)) > 1.0) discard;
+    // The lower lid has few, thin and short ones.
+    float edge = sky_seen > 0.5 ? in_hair(0.00110, 0.000070, 0.68, 1.0)
+                               : min(in_hair(0.00072, 0.000105, 1.0, 1.0), in_hair(0.00109, 0.00009, 1.0, 2.0));
+    if (edge > 1.0) discard;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     float d = 0.5 + 0.5 * dot(n, key_direction.xyz);
     colour = vec4(film(albedo * (key_radiance.rgb * d + ambient(n))), 1.0);

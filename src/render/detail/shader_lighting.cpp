@@ -25,17 +25,21 @@ float key_visibility(vec3 p, vec3 n) {
     float texel = mouth_axis.w;
     vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
-    float turn = 0.314159 * float(q.x + 2 * (q.x ^ q.y));
-    float r = 0.0040 / (texel * 1024.0);
-    vec2 e = vec2(cos(turn), sin(turn)) * r;
+    // Turned by 0, 18, 36 and 54 degrees, over a disc of 3.5 mm.
+    vec2 turned = q.x == q.y ? (q.x == 0 ? vec2(1.0, 0.0) : vec2(0.9511, 0.3090))
+                             : (q.x == 0 ? vec2(0.8090, 0.5878) : vec2(0.5878, 0.8090));
+    vec2 e = turned * (0.0035 / (texel * float(textureSize(shadow_map, 0).x)));
     vec2 f = vec2(-e.y, e.x);
-    // Five points of a pentagon; every other one drawn in so that the disc fills evenly.
+    // A pentagon around a triangle: the disc filled evenly.
     float s = texture(shadow_map, vec3(c.xy + e, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.55 * (0.309 * e + 0.951 * f), c.z));
+    s += texture(shadow_map, vec3(c.xy + 0.309 * e + 0.951 * f, c.z));
     s += texture(shadow_map, vec3(c.xy - 0.809 * e + 0.588 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.55 * (-0.809 * e - 0.588 * f), c.z));
+    s += texture(shadow_map, vec3(c.xy - 0.809 * e - 0.588 * f, c.z));
     s += texture(shadow_map, vec3(c.xy + 0.309 * e - 0.951 * f, c.z));
-    return s * 0.2;
+    s += texture(shadow_map, vec3(c.xy - 0.48 * e, c.z));
+    s += texture(shadow_map, vec3(c.xy + 0.24 * e + 0.416 * f, c.z));
+    s += texture(shadow_map, vec3(c.xy + 0.24 * e - 0.416 * f, c.z));
+    return s * 0.125;
 }
 
 // GGX with the visibility term of Kelemen and Szirmay-Kalos 2001; includes the cosine at the surface.
@@ -48,6 +52,18 @@ float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
     float m = 1.0 - lh, m2 = m * m;
     float fresnel = f0 + (1.0 - f0) * m2 * m2 * m;
     return nl * fresnel * a2 / (12.566 * d * d * max(lh * lh, 0.05));
+}
+
+// Two lobes of one light, each with its roughness and share.
+float two_glints(vec3 n, vec3 v, vec3 l, vec2 roughness, vec2 share, float f0) {
+    vec3 h = normalize(v + l);
+    float nl = clamp(dot(n, l), 0.0, 1.0), nh = clamp(dot(n, h), 0.0, 1.0), lh = clamp(dot(l, h), 0.0, 1.0);
+    vec2 a2 = roughness * roughness;
+    a2 *= a2;
+    vec2 d = nh * nh * (a2 - 1.0) + 1.0;
+    float m = 1.0 - lh, m2 = m * m;
+    float fresnel = f0 + (1.0 - f0) * m2 * m2 * m;
+    return nl * fresnel * dot(share, a2 / (d * d)) / (12.566 * max(lh * lh, 0.05));
 }
 
 // Light from all around: what the sky half and the ground half send.
@@ -83,6 +99,7 @@ out vec3 normal;
 out vec3 rest;
 out vec2 paint;
 out float sky_seen;
+out float behind_seen;    // of light from behind the head, which never comes in through the lips
 uniform bool inside_mouth;
 
 // Share of what comes through the open lips that reaches a point behind them: the gap seen as a disc at the distance of
@@ -100,6 +117,7 @@ void main() {
     paint = in_paint;
     float inside = inside_mouth ? 1.0 : in_occlusion.y;
     sky_seen = mix(in_occlusion.x, seen_through_lips(in_position), inside);
+    behind_seen = (1.0 - inside) * in_occlusion.x;
     gl_Position = clip_from_world * vec4(in_position, 1.0);
 }
 )";

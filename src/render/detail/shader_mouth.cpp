@@ -16,7 +16,7 @@ void main() {
     vec3 wrap = vec3(0.35, 0.32, 0.28);
     vec3 kd = clamp((dot(n, k) + wrap) / (1.0 + wrap), 0.0, 1.0);
     vec3 fd = clamp((dot(n, f) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 enamel = vec3(0.60, 0.545, 0.455);
+    vec3 enamel = vec3(0.52, 0.465, 0.375);
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
     vec3 light = key_radiance.rgb * kd * s + (fill_radiance.rgb * fd + ambient(n)) * sky_seen * tint;

@@ -10,10 +10,19 @@ layout(location = 2) in vec3 in_rest;
 layout(location = 3) in vec2 in_paint;
 out vec3 rest;
 out vec2 place;
+out vec4 zone_sum;         // log of tint, added oil: smooth enough to be interpolated
 uniform vec3 centre;
+uniform int zones;
+uniform vec4 zone_place[48];
+uniform vec4 zone_tint[48];
 void main() {
     rest = in_rest;
     place = in_paint;
+    zone_sum = vec4(0.0);
+    for (int i = 0; i < zones; ++i) {
+        vec3 d = in_rest - zone_place[i].xyz;
+        zone_sum += exp(-dot(d, d) * zone_place[i].w) * zone_tint[i];
+    }
     // The farther out, the nearer: what the surface hides under its folds is not painted.
     gl_Position = vec4(2.0 * in_paint - 1.0, 1.0 - 2.0 * min(length(in_rest - centre) / 0.5, 1.0), 1.0);
 }
@@ -22,18 +31,16 @@ void main() {
 constexpr const char* kPaint = R"(
 in vec3 rest;
 in vec2 place;
+in vec4 zone_sum;
 out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
 uniform float scalp_hair, seed;
-uniform int zones;
-uniform vec4 zone_place[48];
-uniform vec4 zone_tint[48];
 uniform int lip_points;
 uniform vec2 lip_outline[96];
 uniform vec4 lip_box;
 uniform float lip_back;
 uniform float hairline[32];
-uniform vec4 ears[2];
+uniform vec4 ear_low[2], ear_high[2];   // box; w: |x| of its inner plane, and how that leans back
 
 // Signed distance to the closed outline of the lips, negative inside, m.
 float outside_lips(vec2 p) {
@@ -58,14 +65,8 @@ float hair_start(vec2 d) {
 
 void main() {
     vec3 p = rest * 1000.0 + 500.0 + seed;   // mm, positive for the noise
-    vec3 tint = vec3(0.0);
-    float oil = 0.32;
-    for (int i = 0; i < zones; ++i) {
-        vec3 d = rest - zone_place[i].xyz;
-        float w = exp(-dot(d, d) * zone_place[i].w);
-        tint += w * zone_tint[i].rgb;
-        oil += w * zone_tint[i].a;
-    }
+    vec3 tint = zone_sum.rgb;
+    float oil = 0.32 + zone_sum.a;
     // Mottling: patches of blood a centimetre wide, of pigment a few millimetres wide, and grain
     float blood = noise(p * 0.11) + 0.6 * noise(p * 0.27 + 9.0) - 0.8;
     float pigment = noise(p * 0.55 + 70.0) + 0.7 * noise(p * 1.3 + 30.0) - 0.85;
@@ -77,12 +78,15 @@ void main() {
     float r = length(from_middle);
     float hair = smoothstep(-0.006, 0.034, r - hair_start(from_middle) + 0.010 * (noise(p * 0.35 + 3.0) - 0.5));
     for (int i = 0; i < 2; ++i) {
-        vec2 d = (place - ears[i].xy) / max(ears[i].zw, vec2(1e-4));
-        if (ears[i].z > 0.0) hair *= smoothstep(0.85, 1.15, length(d));
+        if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;
+        vec3 from_top = ear_high[i].xyz - rest;
+        float out_of = abs(rest.x) - ear_low[i].w - ear_high[i].w * (from_top.z + max(0.0, rest.y));
+        float bowl = smoothstep(0.010, 0.020, from_top.y) * smoothstep(0.034, 0.028, from_top.z) * smoothstep(0.0, 0.005, from_top.z);
+        hair *= smoothstep(0.002, -0.001, out_of) * (1.0 - bowl);
     }
-    vec3 under_hair = mix(albedo, hair_tone, 0.42) * vec3(0.88, 0.90, 0.93);
+    vec3 under_hair = mix(albedo, hair_tone, 0.85) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
-    oil *= 1.0 - 0.7 * hair;
+    oil *= 1.0 - 0.85 * hair;
 
     bool near_lips = lip_points > 0 && all(greaterThan(rest.xy, lip_box.xy)) && all(lessThan(rest.xy, lip_box.zw)) && rest.z > lip_back;
     if (near_lips) {

@@ -11,6 +11,7 @@ in vec3 position;
 in vec3 normal;
 in vec2 paint;
 in float sky_seen;
+in float behind_seen;
 out vec4 colour;
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
 layout(binding = 2) uniform sampler2D pore_map;    // slope
@@ -30,7 +31,9 @@ void main() {
     float oil = painted.a;
 
     // The paint lies almost along world x and y on the face, which is frame enough for pores.
-    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * 0.9;
+    // Lips have none, and towards the back the map is too stretched for them.
+    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, length(paint - 0.5)) + 0.08;
+    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
     vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
     vec3 m = normalize(n - slope.x * t - slope.y * cross(n, t));
 
@@ -42,18 +45,18 @@ void main() {
     float soft = dot(n, k), bent = dot(m, k);
     vec3 diffuse = key_radiance.rgb * shade * scattered(mix(soft, bent, 0.5));
     diffuse += fill_radiance.rgb * ao * scattered(mix(dot(n, f), dot(m, f), 0.5));
-    diffuse += rim_radiance.rgb * ao * scattered(dot(n, r));
+    diffuse += rim_radiance.rgb * behind_seen * scattered(dot(n, r));
     diffuse += ambient(m) * ao;
 
     float rough = 0.52 - 0.14 * oil;
     float narrow = rough * 0.58;
     float seen = sky_seen * sky_seen;
-    vec3 gloss = key_radiance.rgb * s * (0.75 * glint(m, v, k, rough, 0.028) + 0.35 * oil * glint(m, v, k, narrow, 0.028));
+    vec3 gloss = key_radiance.rgb * s * two_glints(m, v, k, vec2(rough, narrow), vec2(0.75, 0.35 * oil), 0.028);
     gloss += fill_radiance.rgb * seen * glint(m, v, f, rough, 0.028);
-    gloss += rim_radiance.rgb * seen * glint(m, v, r, rough, 0.028);
+    gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-    gloss += ambient(reflect(-v, n)) * seen * (0.02 + 0.25 * edge * edge * edge * edge) ;
-    colour = vec4(film(albedo * diffuse + gloss * 3.1416 * (0.35 + 0.65 * oil)), 1.0);
+    gloss += ambient(reflect(-v, n)) * seen * (0.02 + 0.10 * edge * edge * edge * edge * sky_seen);
+    colour = vec4(film(albedo * diffuse + gloss * 3.1416 * (0.20 + 1.10 * oil)), 1.0);
 }
 )";
 

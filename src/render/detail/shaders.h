@@ -28,9 +28,9 @@ enum VertexAttribute {
     kPosition = 0,
     kNormal = 1,
     kRest = 2,
-    kPaintPlace =
-        3,          ///< where on the painted skin, see paint_place(); of lashes, lash_coordinates()
-    kOcclusion = 4  ///< x: share of the sky seen at rest, y: 1 inside the mouth
+    kPaintPlace = 3,  ///< where on the painted skin, see paint_place(); of lashes, lash_places()
+    kOcclusion =
+        4  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
 };
 
 std::string surface_vertex_shader();  ///< for every material

@@ -42,11 +42,11 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
 
     std::vector<float> lips;
     Vec2 low(1e3, 1e3), high(-1e3, -1e3);
-    for (const Vec2& p : plan.lip_outline) {
+    for (const Vec3& p : plan.lip_outline) {
         lips.push_back(static_cast<float>(p.x()));
         lips.push_back(static_cast<float>(p.y()));
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        low = low.cwiseMin(p.head<2>());
+        high = high.cwiseMax(p.head<2>());
     }
     const auto points = static_cast<GLsizei>(plan.lip_outline.size());
     glUniform1i(program.location("lip_points"), points);
@@ -60,11 +60,17 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
     for (const double r : plan.hairline) hairline.push_back(static_cast<float>(r));
     glUniform1fv(program.location("hairline"), static_cast<GLsizei>(hairline.size()),
                  hairline.data());
-    std::vector<float> ears;
-    for (const auto& ear : plan.ears)
-        for (const double x : {ear.place.x(), ear.place.y(), ear.half_size.x(), ear.half_size.y()})
-            ears.push_back(static_cast<float>(x));
-    glUniform4fv(program.location("ears"), 2, ears.data());
+    std::vector<float> ear_low, ear_high;
+    for (const EarRegion& ear : plan.ears) {
+        for (int k = 0; k < 3; ++k) {
+            ear_low.push_back(ear.known ? static_cast<float>(ear.low[k]) : 1.0F);
+            ear_high.push_back(ear.known ? static_cast<float>(ear.high[k]) : -1.0F);
+        }
+        ear_low.push_back(static_cast<float>(ear.out_m));
+        ear_high.push_back(static_cast<float>(ear.lean));
+    }
+    glUniform4fv(program.location("ear_low"), 2, ear_low.data());
+    glUniform4fv(program.location("ear_high"), 2, ear_high.data());
 }
 
 }  // namespace
@@ -111,6 +117,10 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
     glViewport(0, 0, kMapSide, kMapSide);
     glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+    // Between the lips the map is bare, and their inner sides look there.
+    glDisable(GL_DEPTH_TEST);
+    draw_strokes(plan_lip_ground(scene, plan, centre));
     glEnable(GL_DEPTH_TEST);
 
     // Skin: where the surface folds, the outermost layer is what can be seen.
@@ -135,7 +145,7 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
 
     // Hair and freckles over it
     glDisable(GL_DEPTH_TEST);
-    draw_strokes(plan_strokes(scene, plan, centre));
+    draw_strokes(plan_strokes(scene, plan, centre, triangles));
     glEnable(GL_DEPTH_TEST);
 
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -86,8 +86,7 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     if (upper.empty() || lower.empty()) return;
     for (const std::vector<Vec3>& border : {upper, lower}) {
         const std::vector<Vec3> curve = smooth_curve(border, border.size() == 7 ? 5 : 7);
-        for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-            plan.lip_outline.emplace_back(curve[i].x(), curve[i].y());
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i) plan.lip_outline.push_back(curve[i]);
     }
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }
@@ -159,6 +158,13 @@ std::vector<Vec3> smooth_curve(const std::vector<Vec3>& knots, int steps) {
     return points;
 }
 
+bool EarRegion::contains(const Vec3& p) const {
+    if (!known || (p.array() < low.array()).any() || (p.array() > high.array()).any()) return false;
+    const bool bowl = p.z() > high.z() - 0.030 && p.y() < high.y() - 0.016;
+    return bowl ||
+           std::abs(p.x()) > out_m + lean * (high.z() - p.z()) + lean * std::max(0.0, p.y());
+}
+
 double hairline_radius(const SkinPlan& plan, const Vec2& place) {
     const Vec2 d = place - Vec2(0.5, 0.5);
     const double turn = std::atan2(d.x(), d.y()) / (2 * std::numbers::pi);
@@ -178,14 +184,13 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
         const std::string s = side == 0 ? "_l" : "_r";
         const std::vector<Vec3> ear = marks.all({"sa" + s, "sba" + s, "t" + s});
         if (!ear.empty()) {
-            const double height = ear[0].y() - ear[1].y();
-            const Vec3 middle((ear[0].x() + ear[2].x()) / 2, (ear[0].y() + ear[1].y()) / 2,
-                              ear[2].z() - 0.22 * height);
-            const Vec2 place = paint_place(middle, paint_centre);
-            const Vec2 back = paint_place(middle - Vec3(0, 0, 0.36 * height), paint_centre);
-            const Vec2 top = paint_place(middle + Vec3(0, 0.56 * height, 0), paint_centre);
-            plan.ears[side] = {place,
-                               {std::abs(back.x() - place.x()), std::abs(top.y() - place.y())}};
+            EarRegion& region = plan.ears[side];
+            region.known = true;
+            const double x = ear[2].x(), out = 0.06 * (x > 0 ? 1 : -1);
+            region.low = {std::min(x, x + out) - 0.01, ear[1].y() - 0.006, ear[2].z() - 0.050};
+            region.high = {std::max(x, x + out) + 0.01, ear[0].y() + 0.006, ear[2].z() + 0.006};
+            region.out_m = std::abs(x) + 0.002;
+            region.lean = 0.20;
         }
         const std::vector<Vec3> brow = marks.all({"bm" + s, "bc" + s, "bp" + s, "bl" + s});
         if (!brow.empty()) plan.brows[side] = smooth_curve(brow, 12);

@@ -16,20 +16,25 @@ struct SkinZone {
     double oil;  ///< added gloss
 };
 
-struct EarPatch {
-    Vec2 place{0, 0};  ///< on the map
-    Vec2 half_size{0, 0};
+/// What of the skin belongs to an ear: inside the box, its bowl, and what is farther out than a plane that leans outwards
+/// backwards and upwards, as the auricle does.
+struct EarRegion {
+    bool known = false;
+    Vec3 low, high;      ///< rest, m
+    double out_m = 0.0;  ///< |x| of the plane at the front of the box
+    double lean = 0.0;   ///< growth of that |x| per metre backwards and up
+    bool contains(const Vec3& p) const;
 };
 
 struct SkinPlan {
     static constexpr int kHairlineSteps = 32;
 
     std::vector<SkinZone> zones;
-    std::vector<Vec2> lip_outline;  ///< closed, frontal projection, m; empty when not marked
+    std::vector<Vec3> lip_outline;  ///< closed, rest, m; empty when not marked
     double lip_back_m = 0.0;        ///< lips lie in front of this z
     /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
     std::array<double, kHairlineSteps> hairline;
-    std::array<EarPatch, 2> ears;
+    std::array<EarRegion, 2> ears;
     std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from the middle outwards, rest, m
 };
 
