@@ -265,6 +265,15 @@ TEST(Render, ReportsAsJsonOnStandardOutputAndOtherwiseInOneLine) {
     EXPECT_EQ(run(render + " --quiet", kRoot).out, "");
 }
 
+TEST(AdultRig, HasTheLandmarksOfItsModel) {
+    const Json rig = JsonCursor::read_file(kRoot / "rigs/adult/rig.json").json();
+    const Json model = JsonCursor::read_file(kRoot / "models/adult/landmarks.json").json();
+    EXPECT_EQ(rig["landmarks"].size(), model["landmarks"].size());
+    for (const auto& [id, landmark] : model["landmarks"].items())
+        EXPECT_EQ(rig["landmarks"][id], landmark)
+            << id << ": rigs/README.md says how to fit it again";
+}
+
 TEST(Help, EveryCommandHasAnExampleAndItsOptions) {
     for (const char* command : {"render", "fit", "check", "info", "bench"}) {
         const Outcome outcome = run(std::string(command) + " --help", kRoot);
