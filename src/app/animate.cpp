@@ -1,12 +1,12 @@
 #include "app/animate.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <optional>
 
 #include "app/frame_table.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
+#include "app/shot.h"
 #include "app/staged_file.h"
 #include "app/stopwatch.h"
 #include "app/two_stages.h"
@@ -15,7 +15,6 @@
 #include "media/video_writer.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
-#include "track/script.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -23,68 +22,6 @@ namespace risorius::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-// What to show: the script's own view and whatever the options put in its place.
-struct Shot {
-    track::ScriptHeader script;
-    int frames = 0;
-    double first_s = 0;
-    render::ViewOptions view;
-
-    double time_s(int frame) const { return first_s + static_cast<double>(frame) / script.fps; }
-    media::VideoOptions video() const {
-        return {.width_px = view.width_px, .height_px = view.height_px, .fps = script.fps};
-    }
-};
-
-Shot plan_shot(const AnimateOptions& options) {
-    Shot shot;
-    shot.script = track::read_script_header(options.script);
-    if (options.rig) shot.script.rig_file = *options.rig;
-    if (options.fps) {
-        if (*options.fps < 1 || *options.fps > 240)
-            throw Error("--fps", "an integer in [1, 240]", std::to_string(*options.fps));
-        shot.script.fps = *options.fps;
-    }
-    shot.frames = shot.script.frame_count();
-    if (shot.frames < 1)
-        throw Error("--fps",
-                    "at least one frame in " + format_number(shot.script.duration_s) + " s",
-                    std::to_string(shot.script.fps));
-    const track::ScriptView& asked = shot.script.view;
-    shot.view.width_px = options.size ? options.size->width_px : asked.width_px;
-    shot.view.height_px = options.size ? options.size->height_px : asked.height_px;
-    shot.view.camera = options.camera.value_or(asked.camera);
-    shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
-    shot.view.threads = options.threads > 1 ? options.threads : 0;
-
-    // Refuse now what would only fail after minutes
-    const auto& cameras = render::camera_names();
-    if (std::find(cameras.begin(), cameras.end(), shot.view.camera) == cameras.end()) {
-        std::string names;
-        for (const std::string& name : cameras) names += " \"" + name + "\"";
-        throw Error("--camera", "one of" + names, "\"" + shot.view.camera + "\"");
-    }
-    for (int side : {shot.view.width_px, shot.view.height_px})
-        if (side < 16 || side > 8192)
-            throw Error("--size", "a width and a height in [16, 8192]", std::to_string(side));
-    if (!options.still_s) {
-        media::check_target(options.out, shot.video());
-        if (shot.view.background.transparent && options.out.extension() == ".mp4")
-            throw Error(options.out.string(), "an ending that keeps transparency, .mkv or /",
-                        "\".mp4\"");
-        return shot;
-    }
-    if (!(*options.still_s >= 0 && *options.still_s <= shot.script.duration_s))
-        throw Error("--still", "a time in [0, " + format_number(shot.script.duration_s) + "]",
-                    format_number(*options.still_s));
-    if (options.out.extension() != ".png")
-        throw Error(options.out.string(), "an ending of .png for a still",
-                    "\"" + options.out.extension().string() + "\"");
-    shot.frames = 1;
-    shot.first_s = *options.still_s;
-    return shot;
-}
 
 // A video, or for a still a single picture.
 class Output {
@@ -118,17 +55,6 @@ fs::path beside(const fs::path& out, const char* ending) {
     return base;
 }
 
-std::string background_text(const render::Background& background) {
-    if (background.transparent) return "transparent";
-    char text[8];
-    const auto byte = [&](int k) {
-        return static_cast<unsigned>(
-            std::lround(255 * background.rgb[static_cast<std::size_t>(k)]));
-    };
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(0) & 255, byte(1) & 255, byte(2) & 255);
-    return text;
-}
-
 // The jaw follows its channels, whatever the muscles that would move it do.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
                                         const rig::MuscleTable& muscles) {
@@ -157,7 +83,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFil
     record.width_px = shot.view.width_px;
     record.height_px = shot.view.height_px;
     record.camera = shot.view.camera;
-    record.background = background_text(shot.view.background);
+    record.background = shot.background_text();
     record.quality = options.quality;
     record.nodes = face.node_count();
     record.tets = face.tet_count();

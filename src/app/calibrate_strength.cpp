@@ -7,7 +7,7 @@ namespace risorius::app {
 
 namespace {
 
-constexpr double kWeakest = 0.25, kStrongest = 6.0;
+constexpr double kWeakest = 0.1, kStrongest = 6.0;
 constexpr double kTolerance = 0.01;  // of the stretch; a fibre's own scatter is larger
 constexpr int kTrials = 6;
 constexpr int kIterations = 200;  // of the solver, per trial
@@ -18,6 +18,10 @@ double target_stretch(const std::string& muscle) {
     if (muscle == "platysma") return 0.86;
     if (muscle == "orbicularis_oculi_orbital") return 0.85;
     if (muscle.starts_with("orbicularis_oculi_palpebral")) return 0.80;
+    // Measured expressions shorten these less than the others: sneer, mouth frown, pucker.
+    if (muscle == "levator_labii_superioris_alaeque_nasi") return 0.82;
+    if (muscle == "depressor_anguli_oris") return 0.80;
+    if (muscle.starts_with("orbicularis_oris") || muscle.starts_with("incisivus")) return 0.80;
     return 0.72;
 }
 

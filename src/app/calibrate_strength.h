@@ -1,9 +1,10 @@
 // Finds for one head how strong every muscle has to be for activation 1 to shorten it as published.
 //
-//   s   strength: force / force from the cross-section, ratio, [0.25, 6]
+//   s   strength: force / force from the cross-section, ratio, [0.1, 6]
 //   l   mean fibre length / rest length at activation 1
 //
-// Targets for l: 0.72; platysma 0.86; orbicularis oculi 0.85 (orbital) and 0.80 (palpebral).
+// Targets for l: 0.72; platysma 0.86; orbicularis oculi 0.85 (orbital) and 0.80 (palpebral); levator labii superioris
+// alaeque nasi 0.82; depressor anguli oris, orbicularis oris and incisivi 0.80.
 #pragma once
 
 #include <string>

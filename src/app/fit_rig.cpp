@@ -71,9 +71,29 @@ double unit_from_landmarks(const std::map<std::string, Vec3>& landmarks, const r
     return best;
 }
 
+// Left and right exchanged, or all in one place: mistakes that would only look like a wrong size below.
+void check_sides(const std::map<std::string, Vec3>& landmarks, const rig::Atlas& atlas,
+                 const FitOptions& options) {
+    const std::string place = options.landmarks.string() + ":/landmarks";
+    const Vec3& first = landmarks.begin()->second;
+    double widest = 0;
+    for (const auto& [id, p] : landmarks) widest = std::max(widest, (p - first).norm());
+    if (!(widest > 0)) throw Error(place, "landmarks in different places", "all in one");
+    std::map<std::string, Vec3> exchanged;
+    for (const auto& [id, p] : landmarks) exchanged[rig::mirrored_landmark(id)] = p;
+    const auto misfit = [&](const std::map<std::string, Vec3>& marks) {
+        const rig::HeadFrame frame = rig::find_head_frame(marks, atlas, 1.0);
+        return frame.residual_m / frame.size;
+    };
+    if (misfit(exchanged) < 0.5 * misfit(landmarks))
+        throw Error(place, "_l on the subject's left and _r on the right",
+                    "them the other way round");
+}
+
 void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
+    const double step = std::pow(10, std::floor(std::log10(frame.size)) - 1);  // two digits
     const std::string found =
-        format_number(std::round(100 * frame.size) / 100) + " times the average adult";
+        format_number(std::round(frame.size / step) * step) + " times the average adult";
     if (!(frame.size > kSmallestHead && frame.size < kLargestHead)) {
         if (options.metres_per_unit)
             throw Error("--metres-per-unit", "a unit that makes a head of this mesh",
@@ -88,8 +108,7 @@ void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
         throw Error(options.landmarks.string() + ":/landmarks",
                     "landmarks that lie as on a head, within " +
                         format_number(kLargestResidual_mm) + " mm of the atlas (RMS)",
-                    format_number(std::round(residual_mm)) +
-                        " mm: are they those of this mesh, and _l the subject's left?");
+                    format_number(std::round(residual_mm)) + " mm (are they those of this mesh?)");
 }
 
 void check_on_skin(const rig::Head& head, const std::map<std::string, Vec3>& landmarks,
@@ -138,6 +157,8 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
     const std::map<std::string, Vec3> landmarks = checked_landmarks(rig, mesh, options.landmarks);
 
+    check_sides(landmarks, rig.atlas, options);
+
     // How large it is, and what its groups are
     FitReport report;
     report.out = options.out;
@@ -171,9 +192,9 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
 
     // Prove that a face can be built of it
     watch.tell(0, "building the face");
+    check_on_skin(rig::place_head(rig, mesh, options.out.string()), landmarks, options);
     sim::Face face(rig, mesh, sim::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
-    check_on_skin(head, landmarks, options);
 
     // Make every muscle as strong as it has to be on this head
     if (options.calibrate) {

@@ -69,7 +69,8 @@ std::string role_suggested_by(const std::string& group) {
     if (name.has({"eyelid", "lips"})) return "skin";
     if (name.has({"mouth", "oral"})) return "mouth";
     if (name.has({"eye", "sclera", "iris"})) return "eye" + name.side();
-    if (name.has({"skin", "face", "head", "neck", "body", "bust", "torso"}) ||
+    const bool face = name.has({"face"}) && !name.has({"surface"});
+    if (face || name.has({"skin", "head", "neck", "body", "bust", "torso"}) ||
         name.has_word({"nose", "ear", "ears", "cheek", "chin", "forehead"}))
         return "skin";
     return "";

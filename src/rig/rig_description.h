@@ -57,7 +57,7 @@ struct TissueDescription {
     double density_kg_m3 = 1000;
     double damping_s = 0.02;        ///< stiffness-proportional damping
     double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
-    double lid_shear_ratio = 0.05;  ///< lid tissue against the rest
+    double lid_shear_ratio = 0.2;   ///< lid tissue against the rest
     double lip_shear_ratio =
         0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 6.0;

@@ -63,8 +63,8 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
 
 Quality quality_named(const std::string& name) {
     if (name == "preview") return {"preview", 800, 6, 0.0};
-    if (name == "video") return {"video", 800, 80, 0.05e-3};
-    if (name == "fine") return {"fine", 1700, 120, 0.05e-3};
+    if (name == "video") return {"video", 800, 80, 0.005e-3};
+    if (name == "fine") return {"fine", 1700, 120, 0.005e-3};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
 }
 

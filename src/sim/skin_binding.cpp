@@ -166,7 +166,7 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
                 }
             }
             if (nearest >= 0) {
-                pull[v] = smoothstep(head.mm(2), head.mm(7), std::abs(side));
+                pull[v] = smoothstep(head.mm(6), head.mm(12), std::abs(side));
                 terms[v] = terms[nearest];
             }
         }

@@ -113,7 +113,11 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCh
                 ++report.iterations;
                 continue;
             }
-            report.stalled = true;
+            // No lower energy within rounding, and the step asked for is below the tolerance: this is the minimum.
+            const double wanted =
+                std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
+            report.converged = wanted < options.tolerance_rms_m;
+            report.stalled = !report.converged;
             return report;
         }
 
