@@ -587,6 +587,17 @@ Points Face::rest_skin_nodes() const {
         out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
     return out;
 }
+double Face::tissue_volume_m3() const {
+    const Points& x = impl_->now.x;
+    double six = 0;
+    for (long t = 0; t < impl_->mesh.tets.rows(); ++t) {
+        const auto edge = [&](int k) -> Vec3 {
+            return (x.row(impl_->mesh.tets(t, k)) - x.row(impl_->mesh.tets(t, 0))).transpose();
+        };
+        six += edge(1).dot(edge(2).cross(edge(3)));
+    }
+    return six / 6;
+}
 double Face::kinetic_energy_j() const {
     double sum = 0;
     for (int i = 0; i < impl_->nodes(); ++i)

@@ -96,6 +96,7 @@ class Face {
     Points skin_nodes() const;
     Points rest_skin_nodes() const;
     double kinetic_energy_j() const;
+    double tissue_volume_m3() const;  ///< signed, of all tets
 
   private:
     struct Impl;

@@ -16,6 +16,7 @@ Jaw::Jaw(const rig::Head& head, const rig::JawDescription& d) : size_(head.size)
     forward_ = head.mm(1.0) * d.forward_mm;
     open_rad_ = d.open_deg * 3.14159265358979323846 / 180.0;
     side_m_ = head.mm(d.side_mm);
+    chin_ahead_m_ = std::max(head.mm(30), head.landmark("pg").z() - hinge_.z());
     stomion_ = head.landmark("sto");
     corner_l_ = head.landmark("ch_l");
     corner_r_ = head.landmark("ch_r");
@@ -27,8 +28,7 @@ Jaw::Jaw(const rig::Head& head, const rig::JawDescription& d) : size_(head.size)
 Rigid Jaw::motion(double open, double forward, double side) const {
     // Condyles slide forward and down as the jaw opens; a sideways jaw also turns about the working condyle.
     Rigid motion = Rigid::Identity();
-    const double yaw =
-        side * side_m_ / (size_ * 0.1);  // the chin is about 100 mm ahead of the condyles
+    const double yaw = side * side_m_ / chin_ahead_m_;
     motion.translate(
         Vec3(hinge_ + open * slide_ + forward * forward_ + Vec3(0.15 * side * side_m_, 0, 0)));
     motion.rotate(Eigen::AngleAxisd(0.85 * yaw, Vec3::UnitY()));

@@ -35,6 +35,7 @@ class Jaw {
     double size_;
     Vec3 hinge_, slide_, forward_;
     double open_rad_, side_m_;
+    double chin_ahead_m_;  // of the condyles
     Vec3 stomion_, corner_l_, corner_r_;
     std::vector<Vec3> border_;  // the lower edge of the mandible, both sides
 };

@@ -1,0 +1,192 @@
+// Each muscle pulls the skin where anatomy says it does.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sim/adult_face.h"
+
+namespace risorius::sim {
+namespace {
+
+/// One face for all these tests; every pose is found from rest.
+class Muscles : public testing::Test {
+  protected:
+    static Face& face() {
+        static Face one = adult_face();
+        return one;
+    }
+    static Points moved(const track::Drive& drive) {
+        return moved_mm(face(), settled(face(), drive));
+    }
+    static Points moved(const std::string& muscle, std::optional<Side> side = std::nullopt) {
+        return moved(with_muscle(muscle, 1.0, side));
+    }
+    /// The skin vertex that moves most.
+    static long furthest(const Points& u) {
+        long best = 0;
+        for (long v = 0; v < u.rows(); ++v)
+            if (face().head().carrier[v] == rig::Carrier::kSkin &&
+                u.row(v).norm() > u.row(best).norm())
+                best = v;
+        return best;
+    }
+    /// RMS displacement of the skin of one side, further than 12 mm from the midline, mm.
+    static double of_side(const Points& u, Side side) {
+        double squares = 0;
+        int count = 0;
+        for (long v = 0; v < u.rows(); ++v) {
+            const double x = face().head().vertices(v, 0) * (side == Side::kLeft ? 1 : -1);
+            if (face().head().carrier[v] != rig::Carrier::kSkin || x < face().head().mm(12))
+                continue;
+            squares += u.row(v).squaredNorm();
+            ++count;
+        }
+        return std::sqrt(squares / count);
+    }
+    static std::vector<rig::Muscle> mimetic() {
+        std::vector<rig::Muscle> out;
+        for (const rig::Muscle& muscle : rig::adult().rig.muscles.muscles)
+            if (muscle.group == "mimetic") out.push_back(muscle);
+        return out;
+    }
+};
+
+TEST_F(Muscles, EachOfTheTwentyEightMovesTheSkin) {
+    ASSERT_EQ(mimetic().size(), 28u);
+    for (const rig::Muscle& muscle : mimetic()) {
+        const Points u = moved(muscle.id);
+        EXPECT_TRUE(u.allFinite()) << muscle.id;
+        const double most = u.row(furthest(u)).norm();
+        EXPECT_GT(most, 0.5) << muscle.id;
+        EXPECT_LT(most, 25) << muscle.id;
+        EXPECT_LT(face().mean_stretch(muscle.id), 0.97) << muscle.id << " does not shorten";
+    }
+}
+
+TEST_F(Muscles, ALeftMuscleMovesTheLeftSide) {
+    const std::set<std::string> ending_in_the_midline{"procerus", "nasalis_transverse",
+                                                      "depressor_septi_nasi", "mentalis",
+                                                      "depressor_labii_inferioris"};
+    for (const rig::Muscle& muscle : mimetic()) {
+        if (!muscle.paired) continue;
+        const Points u = moved(muscle.id, Side::kLeft);
+        const double left = of_side(u, Side::kLeft), right = of_side(u, Side::kRight);
+        // Muscles that end in the skin of the midline draw it along with its other side.
+        const bool midline = ending_in_the_midline.count(muscle.id) > 0;
+        EXPECT_GT(left, (midline ? 1.4 : 5) * right)
+            << muscle.id << " left " << left << " right " << right;
+    }
+}
+
+TEST_F(Muscles, LeftAndRightAreMirrorImages) {
+    for (const char* muscle :
+         {"zygomaticus_major", "frontalis_lateral", "depressor_anguli_oris", "platysma"}) {
+        const Points left = moved(muscle, Side::kLeft), right = moved(muscle, Side::kRight);
+        for (const char* id : {"ch", "bp", "mc", "mar", "nl2"}) {
+            const Vec3 l = at(left, std::string(id) + "_l"), r = at(right, std::string(id) + "_r");
+            EXPECT_LT((Vec3(-l.x(), l.y(), l.z()) - r).norm(), 0.3 + 0.1 * l.norm())
+                << muscle << " at " << id;
+        }
+    }
+}
+
+TEST_F(Muscles, MoreActivationMovesMore) {
+    for (const char* muscle : {"zygomaticus_major", "frontalis_medial", "depressor_anguli_oris"}) {
+        double before = 0;
+        for (double a : {0.25, 0.5, 0.75, 1.0}) {
+            const Points u = moved(with_muscle(muscle, a));
+            const double most = u.row(furthest(u)).norm();
+            EXPECT_GT(most, before) << muscle << " at " << a;
+            before = most;
+        }
+    }
+}
+
+TEST_F(Muscles, ZygomaticusMajorDrawsTheCornerUpAndOutwards) {
+    const Vec3 corner = at(moved("zygomaticus_major"), "ch_l");
+    EXPECT_GT(corner.y(), 3);
+    EXPECT_GT(corner.x(), 2);
+    EXPECT_LT(corner.z(), 0) << "the corner goes back over the teeth";
+}
+
+TEST_F(Muscles, FrontalisRaisesTheBrow) {
+    const Points medial = moved("frontalis_medial"), lateral = moved("frontalis_lateral");
+    EXPECT_GT(at(medial, "bm_l").y(), 3);
+    EXPECT_GT(at(medial, "bm_l").y(), 2 * at(medial, "bp_l").y());
+    EXPECT_GT(at(lateral, "bp_l").y(), 3);
+    EXPECT_GT(at(lateral, "bp_l").y(), 2 * at(lateral, "bm_l").y());
+}
+
+TEST_F(Muscles, CorrugatorDrawsTheBrowsTogetherAndDown) {
+    const Points u = moved("corrugator_supercilii");
+    for (const char* id : {"bm_l", "bp_l"}) {
+        EXPECT_LT(at(u, id).x(), -1) << id;
+        EXPECT_LT(at(u, id).y(), -1) << id;
+    }
+}
+
+TEST_F(Muscles, DepressorAnguliOrisDrawsTheCornerDown) {
+    EXPECT_LT(at(moved("depressor_anguli_oris"), "ch_l").y(), -3);
+}
+
+TEST_F(Muscles, DepressorLabiiInferiorisDrawsTheLowerLipDown) {
+    const Points u = moved("depressor_labii_inferioris");
+    EXPECT_LT(at(u, "llc_l").y(), -3);
+    EXPECT_LT(at(u, "llc_l").y(), at(u, "ulc_l").y() - 2);
+}
+
+TEST_F(Muscles, LevatorLabiiRaisesTheUpperLip) {
+    const Points u = moved("levator_labii_superioris");
+    EXPECT_GT(at(u, "ulc_l").y(), 3);
+    EXPECT_GT(at(u, "ls").y(), 2);
+    EXPECT_LT(at(u, "stoi").y(), 0.5 * at(u, "stos").y()) << "the lips do not part";
+}
+
+TEST_F(Muscles, MentalisRaisesTheChinPadAndTheLowerLip) {
+    const Points u = moved("mentalis");
+    EXPECT_GT(at(u, "pg").y(), 1);
+    EXPECT_GT(at(u, "li").y(), 1);
+    EXPECT_GT(at(u, "pg").z(), 0);
+}
+
+TEST_F(Muscles, OrbicularisOrisNarrowsTheMouthAndPushesItForward) {
+    for (const char* muscle :
+         {"orbicularis_oris_upper_peripheral", "orbicularis_oris_upper_marginal",
+          "orbicularis_oris_lower_peripheral", "orbicularis_oris_lower_marginal"}) {
+        const Points u = moved(muscle);
+        EXPECT_LT(at(u, "ch_l").x(), -1) << muscle;
+        EXPECT_GT(at(u, "ch_r").x(), 1) << muscle;
+        EXPECT_GT(at(u, "ch_l").z(), 1) << muscle;
+    }
+}
+
+TEST_F(Muscles, RisoriusWidensTheMouth) {
+    const Points u = moved("risorius");
+    EXPECT_GT(at(u, "ch_l").x(), 2);
+    EXPECT_LT(std::abs(at(u, "ch_l").y()), 4);
+}
+
+TEST_F(Muscles, OrbicularisOculiRaisesTheCheek) {
+    EXPECT_GT(at(moved("orbicularis_oculi_orbital"), "nl1_l").y(), 1);
+}
+
+TEST_F(Muscles, ASmileKeepsTheVolumeOfTheTissue) {
+    face().start(always(neutral()));
+    const double rest = face().tissue_volume_m3();
+    EXPECT_GT(rest, 1e-4);
+    EXPECT_LT(rest, 1e-3);
+    settled(face(), with_unit("AU12"));
+    EXPECT_NEAR(face().tissue_volume_m3() / rest, 1.0, 0.03);
+}
+
+TEST_F(Muscles, AStrongerMuscleMovesMore) {
+    Face other = adult_face();
+    const double before =
+        at(moved_mm(other, settled(other, with_muscle("risorius", 0.5))), "ch_l").norm();
+    other.scale_muscle("risorius", 2.0);
+    EXPECT_GT(at(moved_mm(other, settled(other, with_muscle("risorius", 0.5))), "ch_l").norm(),
+              1.2 * before);
+}
+
+}  // namespace
+}  // namespace risorius::sim

@@ -1,0 +1,262 @@
+// The simulated tissue is a sound mesh under the face, at the size asked for, and its motion reaches every vertex.
+#include "sim/shell.h"
+
+#include <gtest/gtest.h>
+
+#include "geom/surface_topology.h"
+#include "sim/adult_face.h"
+#include "sim/attachments.h"
+#include "sim/contact_search.h"
+#include "sim/jaw.h"
+#include "sim/lids.h"
+#include "sim/muscle_placement.h"
+#include "sim/skin_binding.h"
+#include "sim/tissue_mesh.h"
+
+namespace risorius::sim {
+namespace {
+
+struct Tissue {
+    rig::RigDescription rig;
+    rig::Head head;
+    std::array<EyeLids, 2> lids;
+    Jaw jaw;
+    Shell shell;
+    TissueMesh mesh;
+    Tissue(const rig::TestHead& test, int vertices)
+        : rig(test.rig),
+          head(rig::place_head(rig, test.mesh, "test")),
+          lids{EyeLids(head, 0, 0.96), EyeLids(head, 1, 0.96)},
+          jaw(head, rig.jaw),
+          shell(build_shell(head, jaw, lids, {vertices})),
+          mesh(build_tissue_mesh(head, rig, shell, lids)) {}
+};
+const Tissue& adult() {
+    static const Tissue one(rig::adult(), 800);
+    return one;
+}
+
+double smallest_volume(const TissueMesh& mesh) {
+    double least = 1;
+    for (long t = 0; t < mesh.tets.rows(); ++t) {
+        const auto edge = [&](int k) -> Vec3 {
+            return (mesh.nodes.row(mesh.tets(t, k)) - mesh.nodes.row(mesh.tets(t, 0))).transpose();
+        };
+        least = std::min(least, edge(1).dot(edge(2).cross(edge(3))) / 6);
+    }
+    return least;
+}
+
+TEST(Shell, HasAboutAsManyVerticesAsAskedFor) {
+    EXPECT_NEAR(static_cast<double>(adult().shell.vertex.size()), 800, 40);
+    const Shell fine = build_shell(adult().head, adult().jaw, adult().lids, {1700});
+    EXPECT_NEAR(static_cast<double>(fine.vertex.size()), 1700, 85);
+}
+
+TEST(Shell, IsOneManifoldSheetWithHolesForMouthAndEyes) {
+    const Shell& shell = adult().shell;
+    const geom::SurfaceEdges edges = geom::surface_edges(shell.triangles);
+    for (int e = 0; e < edges.count(); ++e) ASSERT_LE(edges.triangle_count(e), 2);
+    EXPECT_EQ(geom::surface_pieces(shell.triangles, static_cast<int>(shell.vertex.size())).count(),
+              1);
+    // Outline, two eyes, mouth; nostrils may open too.
+    EXPECT_GE(geom::boundary_loops(shell.triangles, edges).size(), 4u);
+}
+
+TEST(Shell, FacesOutwards) {
+    // A coarse triangle at a fold may lean over, but no more than a few do.
+    const Shell& shell = adult().shell;
+    int leaning = 0;
+    for (long f = 0; f < shell.triangles.rows(); ++f) {
+        const auto p = [&](int k) -> Vec3 {
+            return adult().head.vertices.row(shell.vertex[shell.triangles(f, k)]).transpose();
+        };
+        const Vec3 n = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
+        Vec3 d = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            d += shell.direction.row(shell.vertex[shell.triangles(f, k)]).transpose();
+        leaning += n.dot(d.normalized()) < 0;
+        ASSERT_GT(n.dot(d.normalized()), -0.5) << f;
+    }
+    EXPECT_LE(leaning, shell.triangles.rows() / 200);
+    RecordProperty("leaning", leaning);
+}
+
+TEST(Shell, CoversTheMovingFaceAndHoldsOnlyItsOutline) {
+    const Shell& shell = adult().shell;
+    for (const char* id : {"ch_l", "bp_r", "mc_l", "pg", "prn", "g", "ls", "li"}) {
+        const int v = adult().head.welded[rig::adult().vertex(id)];
+        ASSERT_GE(shell.collapsed_to[v], 0) << id;
+        EXPECT_FALSE(shell.fixed[shell.collapsed_to[v]]) << id;
+    }
+    const int held = static_cast<int>(std::count(shell.fixed.begin(), shell.fixed.end(), 1));
+    EXPECT_GT(held, 20);
+    EXPECT_LT(held, 200);
+}
+
+TEST(Shell, IsFinestAtLipsAndLids) {
+    const Shell& shell = adult().shell;
+    const auto spacing = [&](const char* id) {
+        return shell.spacing_m[adult().head.welded[rig::adult().vertex(id)]];
+    };
+    EXPECT_LT(spacing("ls"), 0.7 * spacing("mc_l"));
+    EXPECT_LT(spacing("ps_l"), 0.7 * spacing("mef"));
+}
+
+TEST(Tissue, EveryTetStandsUpright) {
+    EXPECT_GT(smallest_volume(adult().mesh), 0);
+    EXPECT_EQ(adult().mesh.nodes.rows(), 3 * static_cast<long>(adult().shell.vertex.size()));
+    EXPECT_LT(adult().mesh.dropped_tets, adult().mesh.tets.rows() / 50);
+}
+
+TEST(Tissue, IsAsThickAsTheTablesSay) {
+    const auto thickness = [&](const char* id) {
+        const int v = adult().head.welded[rig::adult().vertex(id)];
+        return 1e3 * adult().mesh.thickness_m[adult().shell.collapsed_to[v]];
+    };
+    double sum = 0;
+    for (double t : adult().mesh.thickness_m) {
+        EXPECT_GT(t, 0.3e-3);
+        EXPECT_LT(t, 30e-3);
+        sum += t;
+    }
+    EXPECT_NEAR(1e3 * sum / static_cast<double>(adult().mesh.thickness_m.size()), 8.9, 2.5);
+    EXPECT_NEAR(thickness("g"), 5.5, 2);
+    EXPECT_NEAR(thickness("mc_l"), 18, 5);
+    EXPECT_LT(thickness("ps_l"), 5) << "lids are thin";
+}
+
+TEST(Tissue, LayersLieAboveEachOther) {
+    const TissueMesh& mesh = adult().mesh;
+    for (std::size_t v = 0; v < mesh.thickness_m.size(); ++v) {
+        const auto height = [&](Layer layer) {
+            return mesh.nodes.row(node_of(static_cast<int>(v), layer)).dot(mesh.direction[v]);
+        };
+        ASSERT_GT(height(kSkin), height(kMiddle)) << v;
+        ASSERT_GT(height(kMiddle), height(kDeep)) << v;
+        EXPECT_GE(mesh.area_m2[v], 0);
+    }
+}
+
+TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
+    const std::vector<Attachment> held =
+        place_attachments(adult().head, adult().rig, adult().jaw, adult().shell, adult().mesh);
+    int free = 0;
+    for (char fixed : adult().shell.fixed) free += !fixed;
+    EXPECT_EQ(static_cast<int>(held.size()), free);
+    const auto sliding = [&](const char* id) {
+        const int v = adult().shell.collapsed_to[adult().head.welded[rig::adult().vertex(id)]];
+        for (const Attachment& a : held)
+            if (a.shell_vertex == v) return a.tangential_n_per_m / adult().mesh.area_m2[v];
+        return -1.0;
+    };
+    EXPECT_GT(sliding("n"), 20 * sliding("ls"));
+    EXPECT_GT(sliding("rhi"), 100 * sliding("mc_l"));
+    for (const Attachment& a : held) {
+        EXPECT_GE(a.normal_n_per_m, 0);
+        EXPECT_GE(a.jaw_weight, 0);
+        EXPECT_LE(a.jaw_weight, 1 + 1e-12);
+    }
+}
+
+TEST(Tissue, RestIsFreeOfContactForces) {
+    const ContactSearch search(adult().head, adult().jaw, adult().shell, adult().mesh, adult().lids,
+                               5e6);
+    const auto pairs = search.find(adult().mesh.nodes, Rigid::Identity());
+    EXPECT_LT(ContactSearch::deepest(pairs, adult().mesh.nodes), 1e-9);
+    tissue::Contacts contacts;
+    contacts.set(pairs);
+    Points gradient = Points::Zero(adult().mesh.nodes.rows(), 3);
+    contacts.add_energy(adult().mesh.nodes, gradient);
+    EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(MusclePlacement, EveryMuscleHasFibresOnBothSides) {
+    const MusclePlacement placed =
+        place_muscles(adult().head, adult().rig, adult().shell, adult().mesh);
+    ASSERT_EQ(placed.fibres.size(), placed.paths.size());
+    const track::ChannelTable channels = adult().rig.channels();
+    std::map<int, int> fibres;
+    std::map<int, double> force;
+    for (const muscle::Fibre& fibre : placed.fibres) {
+        ++fibres[fibre.column];
+        force[fibre.column] += fibre.f0_n;
+    }
+    for (const rig::Muscle& muscle : adult().rig.muscles.muscles) {
+        if (muscle.group != "mimetic") continue;
+        const int left = channels.column(muscle.id, Side::kLeft),
+                  right = channels.column(muscle.id, Side::kRight);
+        EXPECT_GT(fibres[left], 0) << muscle.id;
+        EXPECT_EQ(fibres[left], fibres[right]) << muscle.id;
+        EXPECT_NEAR(force[left], force[right], 1e-9) << muscle.id;
+    }
+}
+
+TEST(MusclePlacement, ForceIsThatOfTheBandsTimesTheirStrength) {
+    const MusclePlacement placed =
+        place_muscles(adult().head, adult().rig, adult().shell, adult().mesh);
+    const track::ChannelTable channels = adult().rig.channels();
+    for (const char* id : {"zygomaticus_major", "risorius", "mentalis", "frontalis_medial"}) {
+        double placed_n = 0, wanted_n = 0;
+        int bands = 0;
+        for (const muscle::Fibre& fibre : placed.fibres)
+            if (fibre.column == channels.column(id, Side::kLeft)) placed_n += fibre.f0_n;
+        for (const rig::MuscleBand& band : adult().rig.atlas.bands)
+            if (band.muscle == id) wanted_n += band.force_n * band.strength, ++bands;
+        wanted_n *= adult().rig.tissue.force_scale / bands;
+        EXPECT_NEAR(placed_n / wanted_n, 1.0, 0.02) << id;
+    }
+}
+
+TEST(SkinBinding, CarriesAMovedShellToItsVertices) {
+    const SkinBinding binding(adult().head, adult().jaw, adult().shell);
+    const Vec3 shift(1e-3, -2e-3, 3e-3);
+    Points displacement(static_cast<long>(adult().shell.vertex.size()), 3);
+    displacement.rowwise() = shift.transpose();
+    Points moved = adult().head.vertices;
+    binding.apply(displacement, Rigid::Identity(), moved);
+    const Points u = moved - adult().head.vertices;
+    for (long v = 0; v < u.rows(); ++v) {
+        // No vertex moves further than the shell, none against it.
+        const double share = u.row(v).dot(shift) / shift.squaredNorm();
+        ASSERT_LE(share, 1 + 1e-9) << v;
+        ASSERT_GE(share, -1e-9) << v;
+        ASSERT_LT((u.row(v).transpose() - share * shift).norm(), 1e-12) << v;
+    }
+    for (const char* id : {"ch_l", "mc_l", "pg", "bp_l", "prn"})
+        EXPECT_LT((at(u, id) - shift).norm(), 1e-9) << id;
+    EXPECT_EQ(at(u, "op").norm(), 0.0) << "the back of the head moves";
+    EXPECT_EQ(at(u, "t_l").norm(), 0.0) << "the ear moves";
+}
+
+TEST(SkinBinding, CarriesTheLiningOfTheMouthBetweenSkullAndJaw) {
+    const SkinBinding binding(adult().head, adult().jaw, adult().shell);
+    const Rigid mandible = adult().jaw.motion(0.5, 0, 0);
+    Points moved = adult().head.vertices;
+    binding.apply(Points::Zero(static_cast<long>(adult().shell.vertex.size()), 3), mandible, moved);
+    double furthest = 0;
+    for (long v = 0; v < moved.rows(); ++v) {
+        const Vec3 rest = adult().head.vertices.row(v).transpose();
+        const double way = (mandible * rest - rest).norm();
+        const double went = (moved.row(v).transpose() - rest).norm();
+        furthest = std::max(furthest, went);
+        ASSERT_LE(went, way + 3e-3) << v;
+    }
+    EXPECT_GT(furthest, 3e-3);
+}
+
+TEST(MeasuredHeads, MakeSoundTissueToo) {
+    const auto ict = rig::ict_head(), makehuman = rig::makehuman_head();
+    if (!ict && !makehuman) GTEST_SKIP() << "the measured heads are not in the shared folder";
+    for (const auto& test : {ict, makehuman}) {
+        if (!test) continue;
+        const Tissue tissue(*test, 800);
+        EXPECT_NEAR(static_cast<double>(tissue.shell.vertex.size()), 800, 40)
+            << test->rig.mesh_file.filename();
+        EXPECT_GT(smallest_volume(tissue.mesh), 0);
+        EXPECT_LT(tissue.mesh.dropped_tets, tissue.mesh.tets.rows() / 50);
+    }
+}
+
+}  // namespace
+}  // namespace risorius::sim
