@@ -21,6 +21,13 @@ std::string describe(const Json& value) {
     return text;
 }
 
+std::string describe_character(char c) {
+    if (c == '\n' || c == '\r') return "a line break";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) return "'" + std::string(1, c) + "'";
+    return "a character";
+}
+
 std::string describe_range(Range range) {
     const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
     if (!low && !high) return "a finite number";
@@ -119,7 +126,7 @@ JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
         const std::size_t line_start = at == 0 ? std::string::npos : content.rfind('\n', at - 1);
         const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
         const std::string found =
-            at < content.size() ? "'" + std::string(1, content[at]) + "' that does not belong there"
+            at < content.size() ? describe_character(content[at]) + " that does not belong there"
                                 : "the end of the file";
         throw Error(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "valid JSON", found);

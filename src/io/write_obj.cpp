@@ -1,3 +1,4 @@
+// Wavefront OBJ out: groups, polygons of any size and texture coordinates, in the order of the mesh.
 #include <array>
 #include <fstream>
 #include <map>

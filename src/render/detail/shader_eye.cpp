@@ -1,3 +1,4 @@
+// GLSL of the eye: sclera with veins, limbus, refracted iris and pupil, wet highlight, shade of the lids.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,3 +1,4 @@
+// GLSL of the lashes: single hairs cut out of the lash ribbons.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,3 +1,4 @@
+// GLSL shared by all materials: lights, shadow, tone and noise.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,3 +1,4 @@
+// GLSL of teeth, gums, tongue and mouth wall, lit through the lips.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,3 +1,4 @@
+// GLSL of the skin: soft scattering, two specular lobes, pores, painted albedo.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {
