@@ -166,7 +166,7 @@ TEST(Script, SamplesAreReadAndTheBrokenOneSaysWhatItsReadmeQuotes) {
     const std::string readme(std::istreambuf_iterator<char>(stream), {});
     const std::string message = failure(kRoot / "samples/broken/script.json");
     ASSERT_EQ(message.substr(0, kRoot.string().size() + 1), kRoot.string() + "/");
-    EXPECT_NE(readme.find("\n    " + message.substr(kRoot.string().size() + 1) + "\n"),
+    EXPECT_NE(readme.find("\n    risorius: " + message.substr(kRoot.string().size() + 1) + "\n"),
               std::string::npos)
         << message;
 }
