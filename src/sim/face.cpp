@@ -464,10 +464,10 @@ struct Face::Impl {
         FacePose out;
         const Rigid moved = mandible(drive);
         out.jaw_open = drive.at(track::Kinematic::kJawOpen);
-        const std::array<Mat3, 2> gaze{gaze_rotation(drive.at(track::Kinematic::kGazeYawLeft),
-                                                     drive.at(track::Kinematic::kGazePitchLeft)),
-                                       gaze_rotation(drive.at(track::Kinematic::kGazeYawRight),
-                                                     drive.at(track::Kinematic::kGazePitchRight))};
+        const std::array<Mat3, 2> gaze{gaze_rotation(gaze_of(track::Kinematic::kGazeYawLeft),
+                                                     gaze_of(track::Kinematic::kGazePitchLeft)),
+                                       gaze_rotation(gaze_of(track::Kinematic::kGazeYawRight),
+                                                     gaze_of(track::Kinematic::kGazePitchRight))};
         const std::array<LidPose, 2> lid{lid_pose(0, activation, drive),
                                          lid_pose(1, activation, drive)};
         out.vertices = head.vertices;
