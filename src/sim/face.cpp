@@ -464,6 +464,9 @@ struct Face::Impl {
         FacePose out;
         const Rigid moved = mandible(drive);
         out.jaw_open = drive.at(track::Kinematic::kJawOpen);
+        const auto gaze_of = [&](track::Kinematic channel) {
+            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
+        };
         const std::array<Mat3, 2> gaze{gaze_rotation(gaze_of(track::Kinematic::kGazeYawLeft),
                                                      gaze_of(track::Kinematic::kGazePitchLeft)),
                                        gaze_rotation(gaze_of(track::Kinematic::kGazeYawRight),
