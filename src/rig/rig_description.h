@@ -33,7 +33,7 @@ struct JawDescription {
     double open_deg = 25.3;    ///< rotation at jaw_open = 1
     Vec3 open_slide_mm{0, -4.8, 3.4};  ///< at jaw_open = 1
     Vec3 forward_mm{0, -2.7, 8.6};     ///< at jaw_forward = 1
-    double side_mm = 7.0;              ///< at jaw_side = 1, to the subject's left
+    double side_mm = 8.0;              ///< at jaw_side = 1, to the subject's left
 };
 
 struct EyesDescription {

@@ -10,6 +10,8 @@ namespace risorius::sim {
 namespace {
 
 constexpr int kCandidates = 40;
+constexpr int kLipNeighbours = 3;
+constexpr double kFarEnough_m = 3e-3;
 constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
 
 std::vector<int> nearest(const Vec3& p, const auto& points) {
@@ -90,34 +92,50 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
     std::vector<tissue::Contacts::Contact> out;
     const Rigid to_mandible = mandible.inverse();
 
-    // Bone and teeth: the plane at the nearest bone point, where this node lies below it
+    // Bone and teeth: the plane blended from the bone points around, fading out beyond the bone's edge, where its plane
+    // means nothing (a chin that has dropped is not below the upper teeth)
     const auto against_bone = [&](const DeepNode& node, const std::vector<int>& candidates,
                                   const std::vector<BonePoint>& bone, const Rigid* carried) {
+        if (candidates.empty()) return;
         Vec3 p = x.row(node.node).transpose();
         if (carried) p = to_mandible * p;
-        int best = -1;
-        double best_squared = 1e300;
+        const Vec3 rest = rest_.row(node.node).transpose();
+        double nearest_squared = 1e300;
+        const BonePoint* nearest_point = nullptr;
         for (int c : candidates) {
             const double squared = (bone[c].point - p).squaredNorm();
-            if (squared < best_squared) {
-                best_squared = squared;
-                best = c;
+            if (squared < nearest_squared) {
+                nearest_squared = squared;
+                nearest_point = &bone[c];
             }
         }
-        if (best < 0) return;
-        const BonePoint& at = bone[best];
-        const double gap = (p - at.point).dot(at.normal);
-        const double rest_gap =
-            std::min(0.0, (Vec3(rest_.row(node.node).transpose()) - at.point).dot(at.normal));
-        if (gap - rest_gap > 3e-3) return;  // too far to matter within one step
-        // Beyond the bone's edge its plane means nothing: a chin that has dropped is not below the upper teeth.
-        if ((p - at.point - gap * at.normal).norm() > at.reach) return;
+        const double radius = std::sqrt(nearest_squared) + 1.5 * nearest_point->reach;
+        Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+        double weights = 0;
+        for (int c : candidates) {
+            const double share = 1.0 - (bone[c].point - p).squaredNorm() / (radius * radius);
+            if (share <= 0) continue;
+            const double w = share * share * share;
+            point += w * bone[c].point;
+            normal += w * bone[c].normal;
+            weights += w;
+        }
+        point /= weights;
+        normal.normalize();
+        const double gap = (p - point).dot(normal);
+        const double rest_gap = std::min(0.0, (rest - point).dot(normal));
+        if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
+        const double aside =
+            (p - nearest_point->point - (p - nearest_point->point).dot(normal) * normal).norm();
+        const double inside =
+            1.0 - smoothstep(0.8 * nearest_point->reach, 1.3 * nearest_point->reach, aside);
+        if (inside <= 0) return;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
-        contact.point = carried ? Vec3(*carried * at.point) : at.point;
-        contact.normal = carried ? Vec3(carried->linear() * at.normal) : at.normal;
+        contact.point = carried ? Vec3(*carried * point) : point;
+        contact.normal = carried ? Vec3(carried->linear() * normal) : normal;
         contact.rest_gap_m = rest_gap;
-        contact.stiffness_n_per_m = node.stiffness;
+        contact.stiffness_n_per_m = inside * node.stiffness;
         out.push_back(contact);
     };
     for (const DeepNode& node : deep_) {
@@ -131,30 +149,42 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
     const Vec3 up = half * Vec3::UnitY();
     const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
                                  double sign) {
+        if (other.size() <= kLipNeighbours) return;
         for (const LipNode& node : lip) {
             const Vec3 p = x.row(node.node).transpose();
-            const LipNode* best = nullptr;
-            double best_squared = lip_reach_m_ * lip_reach_m_;
-            for (const LipNode& o : other) {
-                const double squared = (Vec3(x.row(o.node).transpose()) - p).squaredNorm();
-                if (squared < best_squared) {
-                    best_squared = squared;
-                    best = &o;
-                }
+            // The nearest few, weighted so that the weight of one that is about to be replaced is zero
+            std::array<std::pair<double, int>, kLipNeighbours + 1> nearest_few;
+            nearest_few.fill({1e300, -1});
+            for (std::size_t i = 0; i < other.size(); ++i) {
+                const double squared = (Vec3(x.row(other[i].node).transpose()) - p).squaredNorm();
+                if (squared >= nearest_few.back().first) continue;
+                nearest_few.back() = {squared, static_cast<int>(i)};
+                for (std::size_t k = nearest_few.size() - 1;
+                     k > 0 && nearest_few[k] < nearest_few[k - 1]; --k)
+                    std::swap(nearest_few[k], nearest_few[k - 1]);
             }
-            if (!best) continue;
-            const double rest_height =
-                sign *
-                (rest_.row(node.node) - rest_.row(best->node)).dot(Vec3::UnitY().transpose());
-            const double threshold = rest_height - lip_gap_m_;
+            const double inside =
+                1.0 - smoothstep(0.7 * lip_reach_m_, lip_reach_m_, std::sqrt(nearest_few[0].first));
+            if (inside <= 0) continue;
             tissue::Contacts::Contact contact;
             contact.node = node.node;
-            contact.others[0] = best->node;
-            contact.weights[0] = 1.0;
-            contact.count = 1;
             contact.normal = sign * up;
-            contact.rest_gap_m = threshold;
-            contact.stiffness_n_per_m = kLipStiffness * std::min(node.stiffness, best->stiffness);
+            double weights = 0, height = 0, stiffness = node.stiffness;
+            for (std::size_t k = 0; k < kLipNeighbours; ++k) {
+                const LipNode& o = other[nearest_few[k].second];
+                const double share = 1.0 - nearest_few[k].first / nearest_few[kLipNeighbours].first;
+                const double w = std::max(share * share, 1e-12);
+                contact.others[k] = o.node;
+                contact.weights[k] = w;
+                weights += w;
+                height += w * sign *
+                          (rest_.row(node.node) - rest_.row(o.node)).dot(Vec3::UnitY().transpose());
+                stiffness = std::min(stiffness, o.stiffness);
+            }
+            for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
+            contact.count = kLipNeighbours;
+            contact.rest_gap_m = height / weights - lip_gap_m_;
+            contact.stiffness_n_per_m = inside * kLipStiffness * stiffness;
             out.push_back(contact);
         }
     };
@@ -165,7 +195,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
     for (const LidNode& node : lid_) {
         const Vec3 r = Vec3(x.row(node.node).transpose()) - eye_centre_[node.side];
         const double distance = r.norm();
-        if (distance - eye_radius_[node.side] > 3e-3) continue;
+        if (distance - eye_radius_[node.side] > kFarEnough_m) continue;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
         contact.normal = r / distance;

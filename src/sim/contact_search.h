@@ -1,7 +1,8 @@
 // Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue against bone and teeth (skull and
 // mandible apart), upper lip against lower, lids against the eyeball.
 //
-// The penetration every pair has at rest is subtracted, so that rest is free of force.
+// The penetration every pair has at rest is subtracted, so that rest is free of force. Planes are blended from the points
+// around, so that they move smoothly as tissue slides over them: taking the nearest alone makes held poses tremble.
 #pragma once
 
 #include <array>

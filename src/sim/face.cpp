@@ -62,9 +62,9 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 6, 0.0};
-    if (name == "video") return {"video", 800, 80, 0.005e-3};
-    if (name == "fine") return {"fine", 1700, 120, 0.005e-3};
+    if (name == "preview") return {"preview", 800, 6, 6, 0.0};
+    if (name == "video") return {"video", 800, 80, 6, 0.005e-3};
+    if (name == "fine") return {"fine", 1700, 120, 6, 0.005e-3};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
 }
 
@@ -229,12 +229,15 @@ struct Face::Impl {
         fibres.emplace(muscles.points, muscles.fibres, mesh.nodes, hill);
         search.emplace(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m);
 
-        // Air presses where the deep tissue is free: cheeks and lips
+        // Air presses where the deep tissue is free: the cheeks
         for (const Attachment& a : attachments) {
             const double log_stiffness =
                 std::log10(a.normal_n_per_m / mesh.area_m2[a.shell_vertex]);
-            const double open = 1.0 - smoothstep(3.5, 4.7, log_stiffness);
             const Vec3 p = mesh.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
+            // Lips that hold the air in are not blown open by it.
+            const double sealed =
+                smoothstep(head.mm(8), head.mm(20), distance_to_polyline(p, lips));
+            const double open = sealed * (1.0 - smoothstep(3.5, 4.7, log_stiffness));
             if (open > 0 && lid_share(p) == 0 && p.y() < head.landmark("sn").y())
                 buccal.push_back(
                     {node_of(a.shell_vertex, kDeep),
@@ -435,6 +438,7 @@ struct Face::Impl {
         const Points aim = now.x + kStep_s * velocity;
         const StepFigures figures = implicit_step(*metric, kStep_s, now.x, aim, activation,
                                                   {.iterations = quality.iterations,
+                                                   .least_iterations = quality.least_iterations,
                                                    .memory = kMemory,
                                                    .step_cap_m = kStepCap_m,
                                                    .tolerance_rms_m = quality.tolerance_rms_m},

@@ -146,7 +146,8 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCh
         report.energy_j = e;
         report.last_step_rms_m =
             t * std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
-        if (report.last_step_rms_m < options.tolerance_rms_m) {
+        if (report.last_step_rms_m < options.tolerance_rms_m &&
+            report.iterations >= options.least_iterations) {
             report.converged = true;
             return report;
         }

@@ -19,6 +19,7 @@ using EnergyAndGradient = std::function<double(const Points& x, Points& gradient
 
 struct QuasiNewtonOptions {
     int iterations = 6;        ///< at most
+    int least_iterations = 0;  ///< before the tolerance may stop it
     int memory = 6;            ///< pairs kept
     double step_cap_m = 6e-3;  ///< longest move of one node in one iteration
     double tolerance_rms_m =
