@@ -3,10 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
-#include <unordered_map>
 
+#include "geom/weld.h"
 #include "rig/landmark_warp.h"
 
 namespace risorius::rig {
@@ -36,33 +35,15 @@ std::vector<std::string> roles_of_groups(const RigDescription& rig, const geom::
     return out;
 }
 
-// Vertices on an open edge that share a position are one vertex of the surface: seams of regions and of texture charts.
-// Only open edges are joined, so lips that touch stay apart.
+// Seams of regions and of texture charts are no edges of the skin. Lips that touch stay apart (see geom/weld.h).
 std::vector<int> weld_seams(const Points& vertices, const Triangles& surface) {
-    std::unordered_map<long long, int> edge_use;
-    const auto key = [](int a, int b) {
-        return (static_cast<long long>(std::min(a, b)) << 32) |
-               static_cast<unsigned>(std::max(a, b));
-    };
-    for (long f = 0; f < surface.rows(); ++f)
-        for (int k = 0; k < 3; ++k) ++edge_use[key(surface(f, k), surface(f, (k + 1) % 3))];
-    std::vector<char> open(static_cast<std::size_t>(vertices.rows()), 0);
-    for (long f = 0; f < surface.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = surface(f, k), b = surface(f, (k + 1) % 3);
-            if (edge_use[key(a, b)] == 1) open[a] = open[b] = 1;
-        }
-    std::vector<int> welded(static_cast<std::size_t>(vertices.rows()));
-    std::iota(welded.begin(), welded.end(), 0);
-    constexpr double kSame = 1e-6;  // m
-    std::map<std::array<long long, 3>, int> first;
-    for (long v = 0; v < vertices.rows(); ++v) {
-        if (!open[v]) continue;
-        std::array<long long, 3> cell;
-        for (int k = 0; k < 3; ++k) cell[k] = std::llround(vertices(v, k) / kSame);
-        welded[v] = first.emplace(cell, static_cast<int>(v)).first->second;
+    const geom::WeldedSurface welded = geom::weld(vertices, surface);
+    std::vector<int> out(static_cast<std::size_t>(vertices.rows()));
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        const int joined = welded.welded_of_vertex[v];
+        out[v] = joined < 0 ? static_cast<int>(v) : welded.first_vertex[joined];
     }
-    return welded;
+    return out;
 }
 
 Triangles apply_weld(Triangles triangles, const std::vector<int>& welded) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "media/temporary_folder.h"
+#include "media/pictures.h"
 
 namespace risorius::media {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "media/image_file.h"
-#include "media/temporary_folder.h"
+#include "media/pictures.h"
 #include "media/video_reader.h"
 
 namespace risorius::media {

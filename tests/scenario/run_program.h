@@ -12,38 +12,13 @@
 #include <set>
 #include <string>
 
+#include "temporary_folder.h"
+
 namespace risorius::scenario {
 
-/// A folder of its own for one test.
-class Folder {
-  public:
-    Folder() {
-        static int count = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("risorius-scenario-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
+using Folder = TemporaryFolder;
 
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-    std::set<std::string> listing() const {
-        std::set<std::string> names;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
-            names.insert(entry.path().lexically_relative(path_).string());
-        return names;
-    }
-
-  private:
-    std::filesystem::path path_;
-};
-
-inline std::string text_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
+inline std::string text_of(const std::filesystem::path& file) { return bytes_of(file); }
 
 struct Outcome {
     int code = -1;
