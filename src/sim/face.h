@@ -1,8 +1,6 @@
 // The simulated face: soft tissue, skin, muscles, jaw, lids and eyes of one rig, stepped in time by implicit Euler.
 //
-// Each step minimises over the node positions x
-//   E = |x - x_n - h v_n|^2_M / (2 h^2) + beta/(2 h) |x - x_n|^2_Ks + tissue + skin + attachments + fibres + contact + air
-// by L-BFGS with one prefactored matrix. The state is a function of the drives alone: same drives, same bytes.
+// The state is a function of the drives alone: same drives, same bytes. Its equations are in face_tissue.h.
 #pragma once
 
 #include <array>
@@ -15,6 +13,7 @@
 #include "geom/polygon_mesh.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
+#include "sim/face_tissue.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -37,14 +36,6 @@ Quality quality_named(const std::string& name);
 
 /// The drive at any time, s.
 using DriveAt = std::function<track::Drive(double t_s)>;
-
-struct StepFigures {
-    int iterations = 0;
-    int evaluations = 0;
-    double last_step_rms_m = 0;
-    double contact_depth_m = 0;  ///< deepest penetration left
-    bool converged = false;
-};
 
 /// Where everything is, in the head frame; the head's own turn is already applied to the vertices.
 struct FacePose {

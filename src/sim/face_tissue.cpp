@@ -1,0 +1,236 @@
+#include "sim/face_tissue.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/muscle_placement.h"
+#include "sim/polyline.h"
+#include "solve/metric_builder.h"
+
+namespace risorius::sim {
+
+namespace {
+
+constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
+
+}  // namespace
+
+FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+                       const std::array<EyeLids, 2>& lids, const Shell& shell,
+                       const TissueMesh& mesh)
+    : head_(head),
+      rig_(rig),
+      lids_(lids),
+      shell_(shell),
+      mesh_(mesh),
+      lips_(lip_line(head)),
+      attachments_(place_attachments(head, rig, jaw, shell, mesh)),
+      search_(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m) {
+    fixed_.assign(static_cast<std::size_t>(nodes()), 0);
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v)
+        if (shell_.fixed[v])
+            for (Layer layer : {kDeep, kMiddle, kSkin})
+                fixed_[node_of(static_cast<int>(v), layer)] = 1;
+
+    build_tissue();
+    build_skin();
+    build_tethers();
+    muscle::HillShape hill;
+    hill.passive_strain = rig_.tissue.fibre_passive_strain;
+    const MusclePlacement muscles = place_muscles(head_, rig_, shell_, mesh_);
+    fibres_.emplace(muscles.points, muscles.fibres, mesh_.nodes, hill);
+    find_cheeks();
+    mass_ = tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes());
+    solve::MetricBuilder laplacian(nodes());
+    tets_->add_laplacian(laplacian, 1.0);
+    damping_ = laplacian.build({}).selfadjointView<Eigen::Lower>();
+}
+
+// Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
+double FaceTissue::lid_share(const Vec3& p) const {
+    double share = 0;
+    for (const EyeLids& lid : lids_)
+        share = std::max(share, 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head_.mm(5.5),
+                                                 (p - lid.centre()).norm()));
+    return share;
+}
+
+// Share of lip softness at a skin point: 1 at the line between the lips_, 0 a lip's height away.
+double FaceTissue::lip_share(const Vec3& p) const {
+    return 1.0 - smoothstep(head_.mm(6), head_.mm(14), distance_to_polyline(p, lips_));
+}
+
+void FaceTissue::build_tissue() {
+    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner
+    Eigen::VectorXd mu(mesh_.tets.rows()), bulk(mesh_.tets.rows());
+    const std::array<Vec3, 2> modiolus{Vec3(head_.landmark("nl3_l")),
+                                       Vec3(head_.landmark("nl3_r"))};
+    for (long t = 0; t < mesh_.tets.rows(); ++t) {
+        Vec3 centre = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) centre += 0.25 * mesh_.nodes.row(mesh_.tets(t, k)).transpose();
+        double ratio = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
+                       std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+        for (const Vec3& knot : modiolus)
+            if ((centre - knot).norm() < head_.mm(9)) ratio *= rig_.tissue.modiolus_shear_ratio;
+        mu[t] = ratio * (mesh_.tet_layer[t] == kMiddle ? rig_.tissue.deep_shear_pa
+                                                       : rig_.tissue.superficial_shear_pa);
+        bulk[t] = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) * rig_.tissue.bulk_pa;
+    }
+    tets_.emplace(mesh_.tets, mesh_.nodes, mu, bulk);
+}
+
+void FaceTissue::build_skin() {
+    Triangles sheet = shell_.triangles;
+    Eigen::VectorXd membrane(sheet.rows()), bending(sheet.rows());
+    for (long f = 0; f < sheet.rows(); ++f) {
+        Vec3 centre = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
+            sheet(f, k) = node_of(shell_.triangles(f, k), kSkin);
+        }
+        const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_share(centre)) *
+                             std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+        membrane[f] = ratio * rig_.skin.membrane_n_per_m;
+        bending[f] = ratio * rig_.skin.bending_n_m;
+    }
+    skin_.emplace(sheet, mesh_.nodes, membrane, bending);
+}
+
+void FaceTissue::build_tethers() {
+    // Attachments to bone, and lids_ to their tarsal plates
+    std::vector<tissue::Tethers::Tether> held;
+    for (const Attachment& a : attachments_) {
+        const int node = node_of(a.shell_vertex, kDeep);
+        held.push_back({node, mesh_.nodes.row(node).transpose(), mesh_.direction[a.shell_vertex],
+                        a.normal_n_per_m, a.tangential_n_per_m});
+    }
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
+        if (shell_.fixed[v]) continue;
+        const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
+        for (int side = 0; side < 2; ++side) {
+            if ((p - lids_[side].centre()).norm() > lids_[side].zone_m() + head_.mm(3)) continue;
+            const LidMember member =
+                lids_[side].classify(p, head_.mm(2.0), head_.mm(4.0), head_.mm(2.8));
+            if (member.weight < 1e-3) continue;
+            for (Layer layer : {kDeep, kMiddle, kSkin}) {
+                const int node = node_of(static_cast<int>(v), layer);
+                const double k = member.weight * kLidTether_pa_per_m * mesh_.area_m2[v];
+                held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
+                lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
+            }
+        }
+    }
+    tethers_.emplace(held);
+}
+
+void FaceTissue::find_cheeks() {
+    // Air presses where the deep tissue is free: the cheeks
+    for (const Attachment& a : attachments_) {
+        const double log_stiffness = std::log10(a.normal_n_per_m / mesh_.area_m2[a.shell_vertex]);
+        const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
+        // Lips that hold the air_ in are not blown open by it.
+        const double sealed = smoothstep(head_.mm(8), head_.mm(20), distance_to_polyline(p, lips_));
+        const double open = sealed * (1.0 - smoothstep(3.5, 4.7, log_stiffness));
+        if (open > 0 && lid_share(p) == 0 && p.y() < head_.landmark("sn").y())
+            cheeks_.push_back(
+                {node_of(a.shell_vertex, kDeep),
+                 open * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+    }
+}
+
+const solve::SparseCholesky& FaceTissue::metric(double h) {
+    for (const Metric& known : metrics_)
+        if (known.h == h) return known.factor;
+    solve::MetricBuilder builder(nodes());
+    tets_->add_metric(builder);
+    tets_->add_laplacian(builder, rig_.tissue.damping_s / h);
+    skin_->add_metric(builder);
+    tethers_->add_metric(builder);
+    fibres_->add_metric(builder);
+    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
+        builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);
+    for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
+    metrics_.push_back({h, solve::SparseCholesky(builder.build(fixed_))});
+    return metrics_.back().factor;
+}
+
+void FaceTissue::prescribe(const Prescribed& prescribed) {
+    const Rigid& moved = prescribed.mandible;
+    mandible_ = moved;
+    std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    for (std::size_t i = 0; i < attachments_.size(); ++i) {
+        const Attachment& a = attachments_[i];
+        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
+        held[i].target = rest + a.jaw_weight * (moved * rest - rest);
+        held[i].normal = ((1 - a.jaw_weight) * mesh_.direction[a.shell_vertex] +
+                          a.jaw_weight * (moved.linear() * mesh_.direction[a.shell_vertex]))
+                             .normalized();
+    }
+    for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
+        const LidTether& t = lid_tethers_[i];
+        held[attachments_.size() + i].target =
+            t.rest +
+            lids_[t.side].ride(t.rest, t.member.upper, t.member.place, prescribed.lid[t.side]);
+    }
+    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
+    fibres_->set_body_positions(bodies);
+    const double pressure = prescribed.mouth_pressure_pa;
+    std::vector<tissue::DeadLoads::Load> loads;
+    if (pressure != 0)
+        for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
+    air_.set(loads);
+}
+
+void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
+    if (from.isApprox(to, 0.0)) return;
+    for (const Attachment& at : attachments_)
+        for (Layer layer : {kDeep, kMiddle, kSkin}) {
+            const int node = node_of(at.shell_vertex, layer);
+            const Vec3 rest = mesh_.nodes.row(node).transpose();
+            x.row(node) += at.jaw_weight * (to * rest - from * rest).transpose();
+        }
+}
+
+void FaceTissue::find_contacts(const Points& x) { contacts_.set(search_.find(x, mandible_)); }
+
+double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
+                             Points& gradient) const {
+    double energy = tets_->add_energy(x, gradient);
+    energy += skin_->add_energy(x, gradient);
+    energy += tethers_->add_energy(x, gradient);
+    energy += fibres_->add_energy(x, activation, gradient);
+    energy += contacts_.add_energy(x, gradient);
+    energy += air_.add_energy(x, gradient);
+    return energy;
+}
+
+StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
+                                      const Eigen::VectorXd& activation,
+                                      const solve::QuasiNewtonOptions& options, Points& x) {
+    const double inertia = 1.0 / (h * h), viscous = rig_.tissue.damping_s / h;
+    const auto energy = [&](const Points& at, Points& gradient) {
+        work_ = at - start;
+        damped_.noalias() = damping_ * work_;
+        gradient = viscous * damped_;
+        double value = 0.5 * viscous * work_.cwiseProduct(damped_).sum();
+        work_ = at - aim;
+        for (int i = 0; i < nodes(); ++i) {
+            value += 0.5 * inertia * mass_[i] * work_.row(i).squaredNorm();
+            gradient.row(i) += inertia * mass_[i] * work_.row(i);
+        }
+        value += potential(at, activation, gradient);
+        for (int i = 0; i < nodes(); ++i)
+            if (fixed_[i]) gradient.row(i).setZero();
+        return value;
+    };
+    const solve::StepReport report = newton_.minimise(energy, metric(h), x, options);
+    StepFigures figures;
+    figures.iterations = report.iterations;
+    figures.evaluations = report.evaluations;
+    figures.last_step_rms_m = report.last_step_rms_m;
+    figures.converged = report.converged;
+    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    return figures;
+}
+
+}  // namespace risorius::sim

@@ -1,0 +1,121 @@
+// What deforms in a face as one system of equations: tissue, skin, attachments, fibres, contact and air over the nodes.
+//
+// A step of length h minimises over the node positions x
+//   E = |x - a|^2_M / (2 h^2) + beta/(2 h) |x - x_n|^2_Ks + tissue + skin + attachments + fibres + contact + air,
+//   a = x_n + h v_n
+// (implicit Euler) by L-BFGS with one prefactored matrix per h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/types.h"
+#include "muscle/fibre_set.h"
+#include "rig/head.h"
+#include "rig/rig_description.h"
+#include "sim/attachments.h"
+#include "sim/contact_search.h"
+#include "sim/jaw.h"
+#include "sim/lids.h"
+#include "sim/shell.h"
+#include "sim/tissue_mesh.h"
+#include "solve/quasi_newton.h"
+#include "solve/sparse_cholesky.h"
+#include "tissue/contacts.h"
+#include "tissue/dead_loads.h"
+#include "tissue/skin_sheet.h"
+#include "tissue/tet_solid.h"
+#include "tissue/tethers.h"
+
+namespace risorius::sim {
+
+struct StepFigures {
+    int iterations = 0;
+    int evaluations = 0;
+    double last_step_rms_m = 0;
+    double contact_depth_m = 0;  ///< deepest penetration left
+    bool converged = false;
+};
+
+/// What moves by itself and takes the tissue along.
+struct Prescribed {
+    Rigid mandible = Rigid::Identity();
+    std::array<LidPose, 2> lid;
+    double mouth_pressure_pa = 0;
+};
+
+class FaceTissue {
+  public:
+    /// Keeps references: all arguments must outlive it.
+    FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+               const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
+
+    /// Factors the matrix for steps of length h now rather than in the first of them.
+    void prepare(double h) { metric(h); }
+
+    void prescribe(const Prescribed& prescribed);
+
+    /// Moves nodes with their bone, as far as they follow the mandible.
+    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
+
+    /// Finds the contact pairs at x; they hold until the next call.
+    void find_contacts(const Points& x);
+
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x);
+
+    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }
+    const tissue::TetSolid& tets() const { return *tets_; }
+    const muscle::FibreSet& fibres() const { return *fibres_; }
+    muscle::FibreSet& fibres() { return *fibres_; }
+    const Eigen::VectorXd& mass() const { return mass_; }  ///< per node, kg
+
+  private:
+    struct LidTether {
+        int side;
+        LidMember member;
+        Vec3 rest;
+    };
+    struct Metric {
+        double h;
+        solve::SparseCholesky factor;
+    };
+    double lid_share(const Vec3& p) const;
+    double lip_share(const Vec3& p) const;
+    void build_tissue();
+    void build_skin();
+    void build_tethers();
+    void find_cheeks();
+    const solve::SparseCholesky& metric(double h);
+    double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
+
+    const rig::Head& head_;
+    const rig::RigDescription& rig_;
+    const std::array<EyeLids, 2>& lids_;
+    const Shell& shell_;
+    const TissueMesh& mesh_;
+    std::vector<Vec3> lips_;
+    std::vector<Attachment> attachments_;
+    std::vector<char> fixed_;
+    std::optional<tissue::TetSolid> tets_;
+    std::optional<tissue::SkinSheet> skin_;
+    std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    std::optional<muscle::FibreSet> fibres_;
+    ContactSearch search_;
+    tissue::Contacts contacts_;
+    tissue::DeadLoads air_;
+    Rigid mandible_ = Rigid::Identity();
+    std::vector<LidTether> lid_tethers_;
+    std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
+    Eigen::VectorXd mass_;
+    Eigen::SparseMatrix<double> damping_;  // Ks, full symmetric, N/m
+    std::vector<Metric> metrics_;          // one per step length used
+    solve::QuasiNewton newton_;
+    Points work_, damped_;
+};
+
+}  // namespace risorius::sim
