@@ -16,7 +16,7 @@ class TemporaryFolder {
     TemporaryFolder() {
         static int count = 0;
         path_ = std::filesystem::temp_directory_path() /
-                ("risorius test " + std::to_string(::getpid()) + "-" + std::to_string(count++));
+                ("risorius-test-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
         std::filesystem::create_directories(path_);
     }
     ~TemporaryFolder() { std::filesystem::remove_all(path_); }
