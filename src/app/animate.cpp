@@ -1,6 +1,7 @@
 #include "app/animate.h"
 
 #include <algorithm>
+#include <fstream>
 #include <optional>
 
 #include "app/frame_table.h"
@@ -55,6 +56,24 @@ fs::path beside(const fs::path& out, const char* ending) {
     return base;
 }
 
+// A script named like the record would be lost under it.
+void check_beside(const fs::path& out) {
+    const fs::path record = beside(out, ".json"), table = beside(out, ".frames.tsv");
+    if (fs::exists(record)) {
+        const Json found = Json::parse(std::ifstream(record), nullptr, false);
+        if (!found.is_object() || found.value("format", "") != "risorius-run")
+            throw Error(record.string(), "no file, or the record of an earlier run",
+                        "another file of that name");
+    }
+    if (fs::exists(table)) {
+        std::string first;
+        std::getline(std::ifstream(table), first);
+        if (!first.starts_with("frame\ttime_s"))
+            throw Error(table.string(), "no file, or the table of an earlier run",
+                        "another file of that name");
+    }
+}
+
 // The jaw follows its channels, whatever the muscles that would move it do.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
                                         const rig::MuscleTable& muscles) {
@@ -75,6 +94,8 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFil
     record.script = {options.script, media::sha256_of_file(options.script)};
     record.rig = {files.file, media::sha256_of_file(files.file)};
     record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
+    for (const fs::path& table : files.rig.table_files)
+        record.tables.push_back({table, media::sha256_of_file(table)});
     record.out = options.out;
     record.seed = shot.script.seed;
     record.fps = shot.script.fps;
@@ -99,6 +120,7 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
 
     // Read what was asked for
     const Shot shot = plan_shot(options);
+    check_beside(options.out);
     const sim::Quality quality = sim::quality_named(options.quality);
     const RigFiles files = read_rig_files(shot.script.rig_file);
     const track::ChannelTable channels = files.rig.channels();

@@ -39,6 +39,8 @@ Json RunRecord::json() const {
     json["script"] = file(script);
     json["rig"] = file(rig);
     json["mesh"] = file(mesh);
+    json["tables"] = Json::array();
+    for (const File& table : tables) json["tables"].push_back(file(table));
     json["seed"] = seed;
     json["fps"] = fps;
     json["frames"] = frames;

@@ -54,6 +54,10 @@ bool is_frame_name(const std::string& name) {
 void check_folder(const fs::path& target) {
     const fs::path folder = target.parent_path();
     std::error_code failure;
+    const fs::path name = folder.lexically_normal().filename();
+    if (name.empty() || name == "." || name == "..")
+        throw Error(target.string(), "a folder with a name of its own, such as frames/",
+                    "\"" + target.string() + "\"");
     if (!fs::exists(folder, failure)) return;
     if (!fs::is_directory(folder, failure)) throw Error(target.string(), "a folder", "a file");
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))

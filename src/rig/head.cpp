@@ -282,6 +282,14 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
                         format_number(std::round(head.size * 100) / 100) +
                         " times the average adult");
     }
+    for (const auto& [id, p] : in_mesh) {
+        const auto partner = in_mesh.find(mirrored_landmark(id));
+        if (!id.ends_with("_l") || partner == in_mesh.end()) continue;
+        if (head.frame.to_head(p).x() <= head.frame.to_head(partner->second).x())
+            throw Error(place + ":/landmarks/" + id,
+                        "a point on the subject's left of \"" + partner->first + "\"",
+                        "one on its right");
+    }
     head.vertices = head.frame.to_head(mesh.positions);
 
     // Surfaces that follow the tissue

@@ -153,6 +153,10 @@ RigDescription read_rig(const std::filesystem::path& file) {
     json.at("format").one_of({"risorius-rig"});
     json.at("version").integer(1, 1);
     RigDescription rig;
+    const auto table = [&](const JsonCursor& named) {
+        if (named.is_string()) rig.table_files.push_back(named.path());
+        return follow_table(named);
+    };
     rig.name = json.at("name").string();
 
     const JsonCursor mesh = json.at("mesh");
@@ -167,15 +171,16 @@ RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor landmarks = json.at("landmarks");
     rig.landmarks =
         landmarks.is_string() ? read_landmarks(landmarks.path()) : read_landmark_table(landmarks);
+    if (landmarks.is_string()) rig.table_files.push_back(landmarks.path());
 
-    const JsonCursor anatomy = follow_table(json.at("anatomy"));
+    const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
                         "strength", "jaw", "eyes"});
-    rig.atlas.landmarks = read_atlas_landmarks(follow_table(anatomy.at("landmarks")));
-    rig.atlas.thickness = read_thickness(follow_table(anatomy.at("thickness")));
-    rig.atlas.attachments = read_attachments(follow_table(anatomy.at("attachments")));
-    rig.atlas.bands = read_muscle_bands(follow_table(anatomy.at("muscle_bands")));
-    rig.muscles = read_muscle_table(follow_table(anatomy.at("muscles")));
+    rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
+    rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
+    rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
+    rig.atlas.bands = read_muscle_bands(table(anatomy.at("muscle_bands")));
+    rig.muscles = read_muscle_table(table(anatomy.at("muscles")));
     if (const auto strength = anatomy.find("strength"))
         for (const std::string& muscle : strength->keys()) {
             bool known = false;
@@ -203,8 +208,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
     read_fields(json, "tissue", rig.tissue);
     read_fields(json, "skin", rig.skin);
     read_fields(json, "look", rig.look);
-    rig.facs = track::read_facs(follow_table(json.at("facs")), rig.channels());
-    rig.expressions = track::read_expressions(follow_table(json.at("expressions")), rig.facs);
+    rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
     return rig;
 }
 

@@ -98,6 +98,7 @@ struct RigDescription {
     track::FacsTable facs;
     track::Expressions expressions;
     LookDescription look;
+    std::vector<std::filesystem::path> table_files;  ///< read because the rig file names them
 
     track::ChannelTable channels() const { return muscles.channels(); }
 };

@@ -331,6 +331,13 @@ TEST(VideoTarget, OfAnotherEndingListsTheOnesThereAre) {
     EXPECT_EQ(message_of("frames/", options()), "no error");
 }
 
+TEST(VideoTarget, FolderWithoutANameIsRefused) {
+    EXPECT_EQ(message_of("./", options()),
+              "./: expected a folder with a name of its own, such as frames/, found \"./\"");
+    EXPECT_EQ(message_of("a/../", options()),
+              "a/../: expected a folder with a name of its own, such as frames/, found \"a/../\"");
+}
+
 TEST(VideoTarget, OfOddSizeIsRefusedForMp4Only) {
     const VideoOptions odd{.width_px = 641, .height_px = 480};
     EXPECT_EQ(

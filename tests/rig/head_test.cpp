@@ -157,6 +157,19 @@ TEST(MissingLandmarks, AreFoundWithinMillimetresOnTheAdult) {
     RecordProperty("mean_mm", std::to_string(1e3 * mean));
 }
 
+TEST(Head, RefusesAPairWhoseSidesAreSwapped) {
+    RigDescription rig = adult().rig;
+    std::swap(rig.landmarks["ch_l"], rig.landmarks["ch_r"]);
+    try {
+        place_head(rig, adult().mesh, "swapped");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "swapped:/landmarks/ch_l: expected a point on the subject's left of \"ch_r\", "
+                     "found one on its right");
+    }
+}
+
 TEST(MissingLandmarks, LieOnTheSkin) {
     RigDescription rig = adult().rig;
     for (const char* id : {"mc_l", "zy_r", "gn"}) rig.landmarks.erase(id);

@@ -90,6 +90,14 @@ TEST(Render, LeavesAVideoARecordAndATable) {
     EXPECT_EQ(json["script"]["sha256"], media::sha256_of_file(options.script));
     EXPECT_EQ(json["rig"]["sha256"], media::sha256_of_file(kRoot / "rigs/adult/rig.json"));
     EXPECT_EQ(json["mesh"]["sha256"], media::sha256_of_file(kRoot / "models/adult/head.obj"));
+    ASSERT_EQ(json["tables"].size(), 7u);  // what the adult rig names
+    std::set<std::string> tables;
+    for (const Json& table : json["tables"]) {
+        const fs::path file = table["file"].get<std::string>();
+        tables.insert(file.filename().string());
+        EXPECT_EQ(table["sha256"], media::sha256_of_file(file));
+    }
+    EXPECT_TRUE(tables.count("facs.json") && tables.count("expressions.json"));
     EXPECT_EQ(json["frames"], 6);
     EXPECT_EQ(json["fps"], 30);
     EXPECT_EQ(json["solver"]["steps"], 10);  // to t = 5 / 30 s, in steps of 1 / 60 s
@@ -116,6 +124,25 @@ TEST(Render, LeavesAVideoARecordAndATable) {
     EXPECT_NEAR(table.at(0, "prn.u_px"), 64, 3);
     EXPECT_GT(table.at(0, "prn.v_px"), table.at(0, "en_l.v_px") + 5);
     EXPECT_GT(table.at(0, "ch_l.u_px"), table.at(0, "ch_r.u_px"));  // seen from the front
+}
+
+TEST(Render, DoesNotWriteItsRecordOverAScriptOfThatName) {
+    const Folder folder;
+    const fs::path script = short_hello(folder, 0.1, 30);
+    const std::string before = text_of(script);
+    app::AnimateOptions options;
+    options.script = script;
+    options.out = folder / "hello/";
+    try {
+        app::animate(options);
+        FAIL() << "the script was written over";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()), script.string() +
+                                                 ": expected no file, or the record of an earlier "
+                                                 "run, found another file of that name");
+    }
+    EXPECT_EQ(text_of(script), before);
+    EXPECT_EQ(folder.listing(), (std::set<std::string>{"hello.json"}));
 }
 
 TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
