@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "muscle/activation.h"
 #include "sim/face_tissue.h"
@@ -22,7 +21,7 @@ namespace {
 constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equilibrium
 constexpr int kMemory = 8;
 constexpr double kStepCap_m = 6e-3;
-constexpr int kContactRefresh = 6;  // iterations between searches while settling
+constexpr int kContactRefresh = 20;  // iterations between searches while settling
 
 Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
