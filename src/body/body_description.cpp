@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tissue/grid_shape.h"
-#include "tissue/moduli.h"
 
 namespace risorius::body {
 namespace {
@@ -100,6 +100,12 @@ bool has_moduli(const JsonCursor& material) {
            material.has("density_kg_per_m3");
 }
 
+/// The elastic part is that of Lame's mu alone and K (J - 1)^2 / 2 adds to lambda, so that E = mu (3 K + 2 mu) / (K + mu).
+double shear_of_young(double young_pa, double bulk_pa) {
+    const double b = 3 * bulk_pa - young_pa;
+    return (std::sqrt(b * b + 8 * young_pa * bulk_pa) - b) / 4;
+}
+
 ModuliDescription read_moduli(const JsonCursor& json) {
     json.allow_keys({"shear_pa", "young_pa", "bulk_pa", "density_kg_per_m3", "viscosity_pa_s",
                      "drag_ns_per_m"});
@@ -110,7 +116,7 @@ ModuliDescription read_moduli(const JsonCursor& json) {
     if (json.has("shear_pa"))
         moduli.shear_pa = positive(json.at("shear_pa"));
     else
-        moduli.young_pa = positive(json.at("young_pa"));
+        moduli.shear_pa = shear_of_young(positive(json.at("young_pa")), moduli.bulk_pa);
     moduli.density_kg_per_m3 = positive(json.at("density_kg_per_m3"));
     moduli.viscosity_pa_s = not_negative(json, "viscosity_pa_s", 0);
     moduli.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
@@ -124,6 +130,45 @@ void change_material(tissue::SolidMaterial& material, const MaterialChange& chan
     if (change.quantity == "incompressibility") apply(material.incompressibility_n_per_m5);
     if (change.quantity == "mass") apply(material.mass_kg);
     if (change.quantity == "drag") apply(material.drag_ns_per_m);
+}
+
+Rigid placed(const RestDescription& rest) {
+    Rigid place = Rigid::Identity();
+    place.rotate(Eigen::AngleAxisd(rest.turn_deg * std::numbers::pi / 180, rest.turn_axis));
+    place.translation() = rest.at_m;
+    return place;
+}
+
+Points rest_points(const RestDescription& rest, const tissue::GridShape& grid) {
+    const Rigid place = placed(rest);
+    if (rest.form == RestDescription::Form::kBlock)
+        return tissue::block_rest(grid, rest.block_m, place);
+    if (rest.form == RestDescription::Form::kCylinder)
+        return tissue::cylinder_rest(grid, rest.radius_m, rest.length_m, place);
+    Points points = rest.points_m;
+    for (long i = 0; i < points.rows(); ++i)
+        points.row(i) = (place * Vec3(points.row(i).transpose())).transpose();
+    return points;
+}
+
+/// lambda_ij = mu V0 / (Li^2 Lj^2), and so omega of the viscosity; psi = K / (2 V0), which differences spread over cells.
+tissue::SolidMaterial material_of_block(const ModuliDescription& moduli, const Vec3& edges_m,
+                                        const tissue::GridShape& grid,
+                                        Discretisation discretisation) {
+    const double volume = edges_m.prod();
+    tissue::SolidMaterial material;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const double edges = edges_m[i] * edges_m[j];
+            material.elastic_n_per_m3(i, j) = moduli.shear_pa * volume / (edges * edges);
+            material.damping_ns_per_m3(i, j) = moduli.viscosity_pa_s * volume / (edges * edges);
+        }
+    material.incompressibility_n_per_m5 = moduli.bulk_pa / (2 * volume);
+    if (discretisation == Discretisation::kDifferences)
+        material.incompressibility_n_per_m5 *= grid.spacing(0) * grid.spacing(1) * grid.spacing(2);
+    material.mass_kg = moduli.density_kg_per_m3 * volume;
+    material.drag_ns_per_m = moduli.drag_ns_per_m;
+    return material;
 }
 
 }  // namespace
@@ -143,6 +188,8 @@ BodyDescription read_body(const JsonCursor& json) {
 
     const JsonCursor material = json.at("material");
     if (has_moduli(material)) {
+        if (body.rest.form != RestDescription::Form::kBlock)
+            material.fail("lambda, omega and psi where the rest shape is not a block", "moduli");
         body.moduli = read_moduli(material);
     } else {
         body.material = read_solid_material(material);
@@ -151,8 +198,8 @@ BodyDescription read_body(const JsonCursor& json) {
                 parameters->one_of({"resolution-independent", "per-node"}) == "per-node";
             if (raw && body.discretisation == Discretisation::kCells)
                 parameters->fail("\"resolution-independent\", which is all that cells know");
-            body.parameters = raw ? tissue::Parameters::kPerNode
-                                  : tissue::Parameters::kResolutionIndependent;
+            body.parameters =
+                raw ? tissue::Parameters::kPerNode : tissue::Parameters::kResolutionIndependent;
         }
     }
     if (const auto regions = json.find("regions"))
@@ -160,8 +207,7 @@ BodyDescription read_body(const JsonCursor& json) {
     if (const auto fixed = json.find("fixed"))
         for (const JsonCursor& selection : fixed->items())
             body.fixed.push_back(read_node_selection(selection, 3));
-    if (const auto gravity = json.find("gravity_m_per_s2"))
-        body.gravity_m_per_s2 = gravity->vec3();
+    if (const auto gravity = json.find("gravity_m_per_s2")) body.gravity_m_per_s2 = gravity->vec3();
 
     // What only the whole shows: a folded rest shape, a plane the grid does not have.
     tissue::check(grid_solid(body), body.place);
@@ -169,3 +215,40 @@ BodyDescription read_body(const JsonCursor& json) {
     return body;
 }
 
+tissue::GridSolid grid_solid(const BodyDescription& description) {
+    const tissue::GridShape& grid = description.grid;
+    tissue::GridSolid solid;
+    solid.grid = grid;
+    solid.parameters = description.parameters;
+    const RestDescription& rest = description.rest;
+    if (rest.form == RestDescription::Form::kPoints && rest.points_m.rows() != grid.size())
+        throw Error(description.place + "/rest/points_m",
+                    std::to_string(grid.size()) + " points, one per node of the grid",
+                    std::to_string(rest.points_m.rows()));
+    solid.rest = rest_points(rest, grid);
+
+    const tissue::SolidMaterial whole =
+        description.moduli
+            ? material_of_block(*description.moduli, rest.block_m, grid, description.discretisation)
+            : description.material;
+    if (description.regions.empty()) {
+        solid.material = {whole};
+        return solid;
+    }
+    solid.material.assign(static_cast<std::size_t>(grid.size()), whole);
+    for_each_change(
+        description.regions, grid, [&](int node, const MaterialChange& change, double share) {
+            change_material(solid.material[static_cast<std::size_t>(node)], change, share);
+        });
+    return solid;
+}
+
+std::vector<char> fixed_flags(const BodyDescription& description) {
+    std::vector<char> flags(static_cast<std::size_t>(description.grid.size()), 0);
+    for (const NodeSelection& selection : description.fixed)
+        for (const int node : select(selection, description.grid))
+            flags[static_cast<std::size_t>(node)] = 1;
+    return flags;
+}
+
+}  // namespace risorius::body

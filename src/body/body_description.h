@@ -31,22 +31,22 @@ enum class Discretisation {
 /// The undeformed shape; exactly one of the forms.
 struct RestDescription {
     enum class Form {
-        kBlock,     ///< "block_m": edges along x, y, z, which are a1, a2, a3
+        kBlock,  ///< "block_m": edges along x, y, z, which are a1, a2, a3
         kCylinder,  ///< "cylinder": solid, its axis is a1 and x; a square of a2 and a3 pressed into the disc
-        kPoints     ///< "points_m": every node, [m, n, o] in row (m N + n) O + o; holds for one grid only
+        kPoints  ///< "points_m": every node, [m, n, o] in row (m N + n) O + o; holds for one grid only
     };
     Form form = Form::kBlock;
     Vec3 block_m{1, 1, 1};
     double radius_m = 1, length_m = 1;
     Points points_m;
-    Vec3 at_m{0, 0, 0};                        ///< added to every node
-    Vec3 turn_axis{0, 0, 1};                   ///< about the rest shape's own origin, before at_m
+    Vec3 at_m{0, 0, 0};       ///< added to every node
+    Vec3 turn_axis{0, 0, 1};  ///< about the rest shape's own origin, before at_m
     double turn_deg = 0;
 };
 
 /// A material by the moduli of engineering, isotropic; turned into lambda, omega and psi for the block it fills.
 struct ModuliDescription {
-    double shear_pa = 0;              ///< mu; or "young_pa", which is 2 mu       (0, inf)
+    double shear_pa = 0;              ///< mu; or "young_pa", from which mu follows  (0, inf)
     double bulk_pa = 0;               ///< K                                     [0, inf)
     double density_kg_per_m3 = 1000;  ///< (0, inf)
     double viscosity_pa_s = 0;        ///< of shear, as mu is to strain           [0, inf)

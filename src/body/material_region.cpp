@@ -107,9 +107,9 @@ void for_each_change(
     const std::function<void(int node, const MaterialChange& change, double share)>& change) {
     for (const MaterialRegion& region : regions)
         for (const int node : select(region.nodes, grid)) {
-            const double share =
-                region.graded_axis < 0 ? 1
-                                       : share_along(region.nodes, grid, region.graded_axis, node);
+            const double share = region.graded_axis < 0
+                                     ? 1
+                                     : share_along(region.nodes, grid, region.graded_axis, node);
             for (const MaterialChange& one : region.changes) change(node, one, share);
         }
 }

@@ -35,7 +35,8 @@ struct MaterialChange {
 struct MaterialRegion {
     NodeSelection nodes;
     std::vector<MaterialChange> changes;
-    int graded_axis = -1;  ///< the change grows linearly from nothing at `from` to all of it at `to`
+    int graded_axis =
+        -1;  ///< the change grows linearly from nothing at `from` to all of it at `to`
 };
 
 std::vector<MaterialRegion> read_regions(const JsonCursor& json,

@@ -13,9 +13,10 @@ namespace risorius::body {
 
 struct SoftBody {
     tissue::GridShape grid;
-    Points rest;                 ///< MNO x 3, m
-    solve::MotionSystem system;  ///< its terms are shared with copies of this body: one thread at a time
-    double length_scale_m = 1;   ///< longest edge of the rest shape's bounding box
+    Points rest;  ///< MNO x 3, m
+    solve::MotionSystem
+        system;  ///< its terms are shared with copies of this body: one thread at a time
+    double length_scale_m = 1;  ///< longest edge of the rest shape's bounding box
 
     Triangles surface;                      ///< boundary, outward
     std::vector<std::array<int, 2>> wires;  ///< grid lines on the boundary

@@ -1,5 +1,6 @@
 #include "experiment/measurements.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <string_view>
@@ -7,7 +8,8 @@
 namespace risorius::experiment {
 
 void Measurements::add(const std::string& name, const std::string& unit, double value) {
-    for (const Measurement& known : list_) assert(known.name != name);
+    assert(std::none_of(list_.begin(), list_.end(),
+                        [&](const Measurement& known) { return known.name == name; }));
     list_.push_back({name, unit, value});
 }
 

@@ -21,8 +21,7 @@ class SharedRuns {
   public:
     /// The result of an equal run before, or else of `run`.
     template <typename Result>
-    std::shared_ptr<const Result> get(const std::string& key,
-                                      const std::function<Result()>& run) {
+    std::shared_ptr<const Result> get(const std::string& key, const std::function<Result()>& run) {
         std::any& kept = runs_[key];
         if (!kept.has_value()) kept = std::make_shared<const Result>(run());
         return std::any_cast<std::shared_ptr<const Result>>(kept);
