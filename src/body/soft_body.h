@@ -18,9 +18,9 @@ struct SoftBody {
         system;  ///< its terms are shared with copies of this body: one thread at a time
     double length_scale_m = 1;  ///< longest edge of the rest shape's bounding box
 
-    Triangles surface;                      ///< boundary, outward
-    std::vector<std::array<int, 2>> wires;  ///< grid lines on the boundary
-    std::vector<int> fixed;                 ///< rows
+    Triangles surface = {};                      ///< boundary, outward
+    std::vector<std::array<int, 2>> wires = {};  ///< pairs of neighbouring nodes
+    std::vector<int> fixed = {};                 ///< rows
 
     /// At rest, not moving, t = 0.
     solve::MotionState start() const;
