@@ -192,10 +192,10 @@ void GridCurveTerm::add_hessian(const solve::ImplicitStep& step, const Points& x
     stretch_.add_hessian(step, x, curvature, hessian);
     for_each_bend(x, [&](const Bending& bend, const Vec3& second, double s) {
         // Across the bend 1 - S/s, along it that and S |r''|^2 / s^3
-        double across = 1 - bend.rest / s;
         const double length = second.norm();
         const Vec3 direction = length > 0 ? Vec3(second / length) : Vec3::Zero();
-        double along = across + bend.rest * length * length / (s * s * s);
+        double across = 1 - bend.rest / s;
+        double along = bend.rest > 0 ? across + bend.rest * length * length / (s * s * s) : 1;
         if (curvature == solve::Curvature::kPositive) {
             across = std::max(across, 0.0);
             along = std::max(along, 0.0);
