@@ -13,7 +13,9 @@ namespace risorius::solve {
 namespace {
 
 constexpr double kSufficientDecrease = 1e-4;  ///< Armijo
-constexpr int kHalvings = 30;
+constexpr int kHalvings = 60;
+/// A line search that ends below this share of Newton's move gives way to regularised moves
+constexpr double kShortestShare = 1.0 / 64;
 /// Rounding of an energy, as a share of it: decreases below cannot be seen, the gradient must tell
 constexpr double kEnergyRounding = 1e-13;
 constexpr int kPositiveIterations = 3;  ///< after an indefinite exact curvature
@@ -23,6 +25,16 @@ bool all_finite(const Points& x) {
     double poison = 0;
     for (long i = 0; i < x.size(); ++i) poison += 0.0 * x.data()[i];
     return poison == 0;
+}
+
+/// Of gradient / mass, m/s^2
+double largest_acceleration(const MotionSystem& system, const Points& gradient) {
+    double largest = 0;
+    for (int i = 0; i < system.size(); ++i)
+        if (!system.fixed()[static_cast<std::size_t>(i)])
+            largest =
+                std::max(largest, gradient.row(i).cwiseAbs().maxCoeff() / system.mass_kg()[i]);
+    return largest;
 }
 
 double squared_in_mass(const MotionSystem& system, const Points& d) {
@@ -170,6 +182,12 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
             report.converged = true;
             return report;
         }
+        if (t < kShortestShare) {
+            // The mass weight whose move would have had about the length accepted
+            const double added = largest_acceleration(system, gradient_) / (t * move);
+            regularised(system, step, target, options, e, added, x, report);
+            return report;
+        }
 
         if (hold > 0)
             --hold;
@@ -186,86 +204,94 @@ NewtonReport Newton::settle(const MotionSystem& system, const ImplicitStep& step
                             const NewtonOptions& options, Points& x) {
     assert(!std::isfinite(step.step_s));
     NewtonReport report;
-    const Points began = x;
-    double e = evaluate(system, step, x, x, gradient_, report);
+    const double e = evaluate(system, step, x, x, gradient_, report);
     report.potential_j = e;
     if (!std::isfinite(e) || !all_finite(gradient_)) {
         report.diverged = true;
         return report;
     }
+    regularised(system, step, x, options, e, std::pow(options.first_step_s, -2), x, report);
+    return report;
+}
+
+// Levenberg's regularisation with the mass matrix: the added weight a is 1 / (pseudo-time step)^2. It shrinks while the
+// quadratic model foretells the decrease and grows where it does not, or where H + a M is not positive definite.
+void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, const Points& target,
+                         const NewtonOptions& options, double e, double added, Points& x,
+                         NewtonReport& report) {
+    const bool settling = step.rate_hz() == 0;
+    const double inertia = step.rate_hz() * step.rate_hz();
+    if (settling) began_ = x;
     double loudest = std::abs(e);
-    double inertia = std::pow(options.first_step_s, -2);
-    double least_inertia = 0;
+    double least = 0;
     Curvature curvature = options.curvature;
     int hold = 0;
 
-    while (report.iterations < options.iterations) {
+    while (report.iterations < options.iterations && std::isfinite(added)) {
         if (dot(gradient_, gradient_) == 0) {
             report.converged = true;
-            return report;
+            return;
         }
         constexpr double kLinearTolerance = 1e-3;
         ++report.iterations;
-        if (!solve(system, step, x, inertia, curvature, options.linear, kLinearTolerance,
+        if (!solve(system, step, x, inertia + added, curvature, options.linear, kLinearTolerance,
                    /*any_sign=*/false, report)) {
             if (curvature == Curvature::kExact) {
                 curvature = Curvature::kPositive;
                 hold = kPositiveIterations;
             } else {
                 ++report.halvings;
-                least_inertia = std::max(least_inertia, 2 * inertia);
-                inertia *= 16;
-                if (!std::isfinite(inertia)) return report;
+                least = std::max(least, 2 * added);
+                added *= 16;
             }
             continue;
         }
         const double slope = dot(gradient_, direction_);
         const double move = longest_row(direction_);
-        const double inertial = inertia * squared_in_mass(system, direction_);
-        const double predicted = 0.5 * (-slope + inertial);  // decrease of the quadratic model
-        const bool plain = inertial <= 1e-2 * -slope;
+        const double regular = added * squared_in_mass(system, direction_);
+        const double predicted = 0.5 * (-slope + regular);  // decrease of the quadratic model
+        const bool plain = regular <= 1e-2 * -slope;        // as good as Newton's own move
         report.last_move_m = move;
 
         trial_ = x + direction_;
-        const double trial_e = evaluate(system, step, trial_, trial_, trial_gradient_, report);
+        const double trial_e = evaluate(system, step, target, trial_, trial_gradient_, report);
         const double rounding = kEnergyRounding * loudest;
         // How well the model foretold it; where rounding hides that, the gradient must have become smaller
         double gain = (e - trial_e) / predicted;
         if (std::abs(predicted) <= 10 * rounding && std::abs(e - trial_e) <= 20 * rounding)
             gain = dot(trial_gradient_, trial_gradient_) < dot(gradient_, gradient_) ? 1 : 0;
 
-        const bool accepted = slope <= 0 && gain > kSufficientDecrease;  // NaN is refused
-        if (accepted) {
+        if (slope <= 0 && gain > kSufficientDecrease) {  // NaN is refused
             x.swap(trial_);
             gradient_.swap(trial_gradient_);
             e = trial_e;
             loudest = std::max(loudest, std::abs(e));
             report.potential_j = e;
-            trial_ = x - began;
-            if (!(longest_row(trial_) <= options.farthest_m) || !all_finite(x)) {
-                report.diverged = true;
-                return report;
+            if (settling) {
+                trial_ = x - began_;
+                if (!(longest_row(trial_) <= options.farthest_m)) {
+                    report.diverged = true;
+                    return;
+                }
             }
         } else {
             ++report.halvings;
         }
         if (plain && move <= options.tolerance_m) {
             report.converged = true;
-            return report;
+            return;
         }
         if (!(gain > 0.25)) {
-            inertia *= 4;
-            least_inertia = 0;  // of another place
+            added *= 4;
+            least = 0;  // that of another place
         } else if (gain > 0.75) {
-            inertia = std::max(inertia / 16, least_inertia);
+            added = std::max(added / 16, least);
         }
         if (hold > 0)
             --hold;
-        else if (options.curvature == Curvature::kExact || inertial <= 0.1 * -slope)
+        else if (options.curvature == Curvature::kExact || regular <= 0.1 * -slope)
             curvature = Curvature::kExact;
-        if (!std::isfinite(inertia)) return report;
     }
-    return report;
 }
 
 bool Newton::move_once(const MotionSystem& system, const ImplicitStep& step, const Points& target,

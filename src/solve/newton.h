@@ -40,7 +40,8 @@ struct NewtonReport {
 class Newton {
   public:
     /// Minimises Phi for a finite step from x, whose fixed nodes must be in place at step.end_s. `target` is y. Phi never
-    /// rises but by rounding.
+    /// rises but by rounding. Where Newton's moves are far too long (large steps of what is soft at rest) it goes on as
+    /// settle() does.
     NewtonReport minimise(const MotionSystem& system, const ImplicitStep& step,
                           const Points& target, const NewtonOptions& options, Points& x);
 
@@ -62,11 +63,15 @@ class Newton {
                double mass_weight, Curvature curvature, LinearSolver linear, double tolerance,
                bool any_sign, NewtonReport& report);
     HessianBuilder& hessian_of(const MotionSystem& system);
+    /// From x, where Phi is `e` and its gradient gradient_. `added` is the first mass weight beyond that of the step, 1/s^2.
+    void regularised(const MotionSystem& system, const ImplicitStep& step, const Points& target,
+                     const NewtonOptions& options, double e, double added, Points& x,
+                     NewtonReport& report);
 
     std::unique_ptr<HessianBuilder> hessian_;
     SymmetricFactor factor_;
     ConjugateGradients gradients_;
-    Points gradient_, trial_gradient_, trial_, direction_, scratch_;
+    Points gradient_, trial_gradient_, trial_, direction_, scratch_, began_;
 };
 
 /// Moves state to an equilibrium at its time, velocities 0. One-shot form of the quasi-static method.
