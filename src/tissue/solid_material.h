@@ -29,7 +29,7 @@ struct SolidMaterial {
     Mat3 damping_ns_per_m3 = Mat3::Zero();  ///< omega_ij               [0, inf)
     double incompressibility_n_per_m5 = 0;  ///< psi                    [0, inf)
     double mass_kg = 1;        ///< of a whole body of this; a node has 1/(MNO) of it     (0, inf)
-    double drag_ns_per_m = 0;  ///< c, of each node                                     [0, inf)
+    double drag_ns_per_m = 0;  ///< c, of each node; a force of its own, the term Drag [0, inf)
 };
 
 /// How lambda and omega are meant.
@@ -54,12 +54,19 @@ SolidMaterial isotropic_material(double elastic_n_per_m3, double damping_ns_per_
 Points block_rest(const GridShape& grid, const Vec3& size_m,
                   const Rigid& place = Rigid::Identity());
 
-/// Throws Error with the field named below `place`: fewer than 2 nodes, wrong sizes, NaN, negative values, no mass, rest
-/// volume not positive.
+/// Throws Error with the field named below `place` ("place/material/4/mass_kg"; without the number when all nodes share
+/// one material): fewer than 2 nodes, wrong sizes, NaN, negative values, a tensor that is not symmetric, no mass, a
+/// corner of a cell without positive rest volume.
 void check(const GridSolid& solid, const std::string& place);
 
 /// Eq. (10): per-node eta (or phi) of lambda (or omega): eta_ij = lambda_ij (w_i + w_j) / 2 with w_1 = 1/((M-1) N O) and
 /// so on, which is the thesis' mean of the diagonals when all lambda are equal.
 Mat3 per_node_tensor(const Mat3& tensor, const GridShape& grid);
+
+/// The material of a node, whether there is one for all or one for each.
+const SolidMaterial& material_of(const GridSolid& solid, int node);
+
+Eigen::VectorXd node_mass(const GridSolid& solid);  ///< kg; what a MotionSystem and Gravity take
+Eigen::VectorXd node_drag(const GridSolid& solid);  ///< c, N s/m; what the term Drag takes
 
 }  // namespace risorius::tissue
