@@ -1,0 +1,54 @@
+#include "experiment/registry.h"
+
+#include <algorithm>
+
+#include "experiment/experiment_kind.h"
+
+namespace risorius::experiment {
+namespace {
+
+struct NamedKind {
+    std::string_view name;
+    RunExperiment run;
+};
+
+const std::vector<NamedKind>& kind_table() {
+    static const std::vector<NamedKind> table = {};
+    return table;
+}
+
+}  // namespace
+
+const std::vector<Figure>& figures() {
+    static const std::vector<Figure> list = {};
+    return list;
+}
+
+std::vector<std::string_view> kinds() {
+    std::vector<std::string_view> names;
+    for (const NamedKind& kind : kind_table()) names.push_back(kind.name);
+    return names;
+}
+
+FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options) {
+    const JsonCursor format = experiment.at("format");
+    if (format.string() != "risorius-experiment") format.fail("\"risorius-experiment\"");
+    experiment.at("version").integer(1, 1);
+    const std::string id = experiment.at("figure").string();
+    const std::string name = experiment.at("kind").one_of(kinds());
+
+    const auto kind = std::find_if(kind_table().begin(), kind_table().end(),
+                                   [&](const NamedKind& k) { return k.name == name; });
+    Outcome outcome;
+    kind->run(experiment, options, outcome);
+
+    FigureResult& figure = outcome.figure;
+    figure.id = id;
+    figure.title = experiment.has("title") ? experiment.at("title").string() : id;
+    figure.tables.push_back(outcome.measured.table());
+    figure.checks = outcome.measured.check(experiment);
+    figure.record["experiment"] = experiment.json();
+    return std::move(outcome.figure);
+}
+
+}  // namespace risorius::experiment
