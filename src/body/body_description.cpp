@@ -1,5 +1,6 @@
 #include "body/body_description.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -241,6 +242,14 @@ tissue::GridSolid grid_solid(const BodyDescription& description) {
             change_material(solid.material[static_cast<std::size_t>(node)], change, share);
         });
     return solid;
+}
+
+std::vector<double> relative_stiffness(const BodyDescription& description) {
+    std::vector<double> stiffness;
+    if (description.regions.empty()) return stiffness;
+    for (const tissue::SolidMaterial& material : grid_solid(description).material)
+        stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), 1e-300)));
+    return stiffness;
 }
 
 std::vector<char> fixed_flags(const BodyDescription& description) {

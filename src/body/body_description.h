@@ -76,6 +76,9 @@ BodyDescription read_body(const JsonCursor& json);
 /// index the grid does not have).
 tissue::GridSolid grid_solid(const BodyDescription& description);
 
+/// Logarithm of the mean elastic parameter of each node, for colour; empty where no region changes the material.
+std::vector<double> relative_stiffness(const BodyDescription& description);
+
 /// Selected by any of `fixed`, one flag per node.
 std::vector<char> fixed_flags(const BodyDescription& description);
 

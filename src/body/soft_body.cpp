@@ -25,6 +25,7 @@ SoftBody build_body(const BodyDescription& description) {
     SoftBody body{.grid = solid.grid, .rest = solid.rest, .system = std::move(system)};
     body.length_scale_m =
         (body.rest.colwise().maxCoeff() - body.rest.colwise().minCoeff()).maxCoeff();
+    body.weight_n = mass_kg.sum() * description.gravity_m_per_s2.norm();
     body.surface = tissue::surface_triangles(body.grid);
     body.wires = tissue::grid_lines(body.grid);
     for (int i = 0; i < body.grid.size(); ++i)

@@ -18,6 +18,8 @@ struct SoftBody {
         system;  ///< its terms are shared with copies of this body: one thread at a time
     double length_scale_m = 1;  ///< longest edge of the rest shape's bounding box
 
+    double weight_n = 0;  ///< of the whole body
+
     Triangles surface = {};                      ///< boundary, outward
     std::vector<std::array<int, 2>> wires = {};  ///< pairs of neighbouring nodes
     std::vector<int> fixed = {};                 ///< rows

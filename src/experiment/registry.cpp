@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/stable_step.h"
+#include "experiment/static_resolution.h"
+#include "experiment/volume_history.h"
 
 namespace risorius::experiment {
 namespace {
@@ -13,14 +17,27 @@ struct NamedKind {
 };
 
 const std::vector<NamedKind>& kind_table() {
-    static const std::vector<NamedKind> table = {};
+    static const std::vector<NamedKind> table = {
+        {"equilibrium", run_equilibrium},
+        {"volume-history", run_volume_history},
+        {"static-resolution", run_static_resolution},
+        {"stable-step", run_stable_step},
+    };
     return table;
 }
 
 }  // namespace
 
 const std::vector<Figure>& figures() {
-    static const std::vector<Figure> list = {};
+    static const std::vector<Figure> list = {
+        {"5", "Resolution dependent and independent parameters", "equilibrium", 2},
+        {"8e", "Incompressible cube hanging", "equilibrium", 2},
+        {"8f", "Inhomogeneous anisotropic block held at both ends", "equilibrium", 10},
+        {"9a", "Change of the sum of volume elements", "volume-history", 240},
+        {"9b", "Change of volume", "volume-history", 240},
+        {"12a", "Longest stable step of explicit methods over damping", "stable-step", 120},
+        {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
+    };
     return list;
 }
 

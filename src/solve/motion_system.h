@@ -53,7 +53,9 @@ class MotionSystem {
 
   private:
     Eigen::VectorXd mass_kg_;
+    Eigen::VectorXd inverse_mass_;  ///< 1/kg
     std::vector<char> fixed_;
+    std::vector<int> fixed_nodes_;
     std::vector<std::shared_ptr<ForceTerm>> terms_;
     PrescribedMotion prescribed_;
 };

@@ -41,6 +41,8 @@ std::string cornea_shader();
 std::string teeth_shader();
 std::string mucosa_shader();  ///< gums, tongue and the wall of the mouth
 std::string lash_shader();
+std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
+std::string object_shader();
 
 std::string lighting_chunk();  ///< version, frame block, lights
 std::string noise_chunk();

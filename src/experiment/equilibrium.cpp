@@ -1,0 +1,107 @@
+#include "experiment/equilibrium.h"
+
+#include <cmath>
+#include <limits>
+
+#include "body/integrator_description.h"
+#include "experiment/body_cases.h"
+#include "experiment/progress.h"
+#include "experiment/settle.h"
+
+namespace risorius::experiment {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Case {
+    std::string name, caption;
+    body::BodyDescription body;
+    bool settles = true;
+};
+
+std::vector<Case> read_cases(const JsonCursor& experiment) {
+    std::vector<Case> cases;
+    for (const JsonCursor& json : experiment.at("cases").items()) {
+        json.allow_keys({"name", "caption", "change", "at"});
+        Case one;
+        one.name = json.at("name").string();
+        for (const Case& other : cases)
+            if (other.name == one.name)
+                json.at("name").fail("a name of its own", "\"" + one.name + "\" again");
+        one.caption = json.at("caption").string();
+        one.body = changed_body(experiment.at("body"), json.find("change"), one.name);
+        if (const auto at = json.find("at"))
+            one.settles = at->one_of({"rest", "equilibrium"}) == "equilibrium";
+        cases.push_back(std::move(one));
+    }
+    if (cases.empty()) experiment.at("cases").fail("at least one case");
+    return cases;
+}
+
+struct Result {
+    Shape shape;
+    Settled settled;
+    double volume_change_percent = 0, greatest_move_m = 0;
+    Extent extent{1, 0};
+};
+
+}  // namespace
+
+void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Outcome& outcome) {
+    allow_experiment_keys(experiment,
+                          {"body", "cases", "integrator", "duration_s", "length_along"});
+    const std::vector<Case> cases = read_cases(experiment);
+    const solve::IntegratorOptions integrator = body::read_integrator(experiment.at("integrator"));
+    const double duration_s =
+        experiment.has("duration_s") ? experiment.at("duration_s").number({0, kInfinity}) : 0;
+    int axis = -1;
+    if (const auto along = experiment.find("length_along"))
+        axis = along->one_of({"a1", "a2", "a3"})[1] - '1';
+
+    std::vector<Result> results(cases.size());
+    Progress progress(options, static_cast<double>(cases.size()));
+    parallel_for(static_cast<int>(cases.size()), options.threads, [&](int i) {
+        const Case& one = cases[static_cast<std::size_t>(i)];
+        Result& result = results[static_cast<std::size_t>(i)];
+        const body::SoftBody body = body::build_body(one.body);
+        result.settled.x = body.rest;
+        if (one.settles) result.settled = settle(body, integrator, duration_s, options);
+        const Points& x = result.settled.x;
+        result.shape = shape_of(one.body, body, x, one.name, one.caption);
+        result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
+        result.greatest_move_m = (x - body.rest).rowwise().norm().maxCoeff();
+        if (axis >= 0) result.extent = extent_along(body, x, axis);
+        progress.done(1, one.name);
+    });
+
+    Table table{
+        .name = "cases",
+        .columns = {"length_ratio", "drift_ratio", "volume_change_percent", "greatest_move_m",
+                    "force_ratio", "speed_per_s", "steps", "evaluations", "linear_solves"},
+        .rows = {}};
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Result& result = results[i];
+        const Settled& settled = result.settled;
+        outcome.figure.shapes.push_back(result.shape);
+        if (!cases[i].settles) continue;
+        const std::string& name = cases[i].name;
+        if (axis >= 0) {
+            outcome.measured.add("length_ratio/" + name, "", result.extent.length_ratio);
+            outcome.measured.add("drift_ratio/" + name, "", result.extent.drift_ratio);
+        }
+        outcome.measured.add("volume_change_percent/" + name, "%", result.volume_change_percent);
+        outcome.measured.add("greatest_move_m/" + name, "m", result.greatest_move_m);
+        outcome.measured.add("force_ratio/" + name, "", settled.force_ratio);
+        outcome.measured.add("diverged/" + name, "", settled.report.diverged ? 1 : 0);
+        table.row_names.push_back(name);
+        table.rows.push_back({result.extent.length_ratio, result.extent.drift_ratio,
+                              result.volume_change_percent, result.greatest_move_m,
+                              settled.force_ratio, settled.speed_ratio,
+                              static_cast<double>(settled.report.steps),
+                              static_cast<double>(settled.report.evaluations),
+                              static_cast<double>(settled.report.linear_solves)});
+    }
+    outcome.figure.tables.push_back(std::move(table));
+}
+
+}  // namespace risorius::experiment

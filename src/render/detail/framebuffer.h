@@ -1,0 +1,55 @@
+// What is drawn into: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/image.h"
+#include "render/detail/gl_context.h"
+#include "render/detail/resolve.h"
+
+namespace risorius::render {
+
+/// Limits of every picture drawn here.
+constexpr int kLeastSide_px = 16;
+constexpr int kMostSide_px = 8192;
+constexpr int kMostSupersampling = 4;
+
+/// Throws Error naming the field for a value outside of [least, most].
+void check_range(const char* field, int value, int least, int most);
+
+/// sRGB colour with alpha, and depth. The context must be current.
+class Framebuffer {
+  public:
+    Framebuffer(int width, int height);
+    ~Framebuffer();
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+    void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
+
+  private:
+    GLuint buffers_[2] = {0, 0};
+    GLuint framebuffer_ = 0;
+};
+
+/// A picture in tiles that the framebuffer can hold.
+class TiledPicture {
+  public:
+    TiledPicture(int width_px, int height_px, int supersampling);
+
+    std::vector<Tile> tiles() const;
+    int tile_width_samples() const { return tile_width_ * supersampling_; }
+    int tile_height_samples() const { return tile_height_ * supersampling_; }
+
+    /// Makes the tile's part of clip space fill the viewport.
+    Eigen::Matrix4d crop(const Tile& tile) const;
+    void set_viewport(const Tile& tile) const;
+    /// What was drawn, into its place in the image.
+    void read_back(const Tile& tile, const Resolve& resolve, Image& image);
+
+  private:
+    int width_, height_, supersampling_, tile_width_, tile_height_;
+    std::vector<std::uint8_t> samples_;
+};
+
+}  // namespace risorius::render

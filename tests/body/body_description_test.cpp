@@ -1,0 +1,269 @@
+// What a person reads when the description of a soft body is wrong, and what a right one says. Messages are compared whole.
+#include "body/body_description.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "body/integrator_description.h"
+#include "body/soft_body.h"
+
+namespace risorius::body {
+namespace {
+
+Json cube() {
+    return Json::parse(R"({
+        "kind": "solid", "discretisation": "differences", "grid": [4, 4, 4],
+        "rest": {"block_m": [3, 3, 3]},
+        "material": {"mass_kg": 4, "elastic_n_per_m3": 1.5, "damping_ns_per_m3": 0.1,
+                     "incompressibility_n_per_m5": 10},
+        "fixed": [{"a3": "last"}]})");
+}
+
+BodyDescription read(const Json& json) {
+    return read_body(JsonCursor::from_json(Json{{"body", json}}, "cube.json").at("body"));
+}
+
+std::string message_of(const std::function<void()>& step) {
+    try {
+        step();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+/// The message of reading the cube with one value changed.
+std::string message_with(const char* pointer, const char* value) {
+    Json json = cube();
+    json[Json::json_pointer(pointer)] = Json::parse(value);
+    return message_of([&] { read(json); });
+}
+
+TEST(BodyDescription, ACubeIsReadAsWritten) {
+    const BodyDescription body = read(cube());
+    EXPECT_EQ(body.grid.size(), 64);
+    EXPECT_EQ(body.discretisation, Discretisation::kDifferences);
+    EXPECT_EQ(body.material.mass_kg, 4);
+    EXPECT_EQ(body.material.elastic_n_per_m3, Mat3::Constant(1.5));
+    EXPECT_EQ(body.gravity_m_per_s2, Vec3(0, 0, -9.81));
+    const std::vector<char> fixed = fixed_flags(body);
+    for (int node = 0; node < 64; ++node)
+        EXPECT_EQ(fixed[static_cast<std::size_t>(node)] != 0, node % 4 == 3) << node;
+    const tissue::GridSolid solid = grid_solid(body);
+    EXPECT_EQ(solid.rest.row(63), Eigen::RowVector3d(3, 3, 3));
+    EXPECT_EQ(solid.material.size(), 1u);
+}
+
+TEST(BodyDescription, BadNumbersAreNamedWithTheirPlace) {
+    EXPECT_EQ(message_with("/material/mass_kg", "-4"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -4");
+    EXPECT_EQ(message_with("/material/mass_kg", "0"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found 0");
+    EXPECT_EQ(message_with("/material/mass_kg", "null"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found null");
+    EXPECT_EQ(message_with("/material/elastic_n_per_m3", "\"NaN\""),
+              "cube.json:/body/material/elastic_n_per_m3: expected a number or an object like "
+              "{\"11\": 1, \"12\": 0.5}, found \"NaN\"");
+    EXPECT_EQ(message_with("/material/elastic_n_per_m3", "-1.5"),
+              "cube.json:/body/material/elastic_n_per_m3: expected [0, inf), found -1.5");
+    EXPECT_EQ(message_with("/material/incompressibility_n_per_m5", "-10"),
+              "cube.json:/body/material/incompressibility_n_per_m5: expected [0, inf), found -10");
+    EXPECT_EQ(message_with("/grid/1", "1"),
+              "cube.json:/body/grid/1: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message_with("/grid", "[4, 4]"),
+              "cube.json:/body/grid: expected three numbers of nodes, one per axis, found [4,4]");
+    EXPECT_EQ(message_with("/rest/block_m/2", "0"),
+              "cube.json:/body/rest/block_m/2: expected a number in (0, inf), found 0");
+    EXPECT_EQ(message_with("/gravity_m_per_s2", "[0, \"down\", 0]"),
+              "cube.json:/body/gravity_m_per_s2/1: expected a number, found \"down\"");
+    EXPECT_EQ(message_with("/kind", "\"gas\""),
+              "cube.json:/body/kind: expected one of \"solid\", found \"gas\"");
+}
+
+TEST(BodyDescription, UnknownAndMissingKeysAreNamed) {
+    EXPECT_EQ(message_with("/material/mass_kq", "4"),
+              "cube.json:/body/material/mass_kq: expected a known key (did you mean \"mass_kg\"?), "
+              "found unknown key \"mass_kq\"");
+    Json json = cube();
+    json.erase("rest");
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body: expected the key \"rest\", found none");
+    json = cube();
+    json["rest"] = Json::object();
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/rest: expected one of \"block_m\", \"cylinder\" and \"points_m\", "
+              "found none");
+}
+
+TEST(BodyDescription, FoldedRestShapesAreRefused) {
+    Json json = cube();
+    json["grid"] = {2, 2, 2};
+    Json points = Json::array();
+    for (int i : {0, 1})
+        for (int j : {0, 1})
+            for (int k : {0, 1}) points.push_back({-i, j, k});  // mirrored: left-handed
+    json["rest"] = {{"points_m", points}};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/rest: expected a shape that is nowhere folded, with a positive "
+              "volume in each corner of every cell, found -1 m^3 in cell [0, 0, 0]");
+    points.erase(0);
+    json["rest"] = {{"points_m", points}};
+    EXPECT_EQ(
+        message_of([&] { read(json); }),
+        "cube.json:/body/rest/points_m: expected 8 points, one per node of the grid, found 7");
+}
+
+TEST(BodyDescription, NodesThatTheGridDoesNotHaveAreNamed) {
+    EXPECT_EQ(message_with("/fixed/0/a3", "4"),
+              "cube.json:/body/fixed/0/a3: expected an index in [-4, 3] of this grid, found 4");
+    EXPECT_EQ(message_with("/fixed/0/a3", "\"top\""),
+              "cube.json:/body/fixed/0/a3: expected \"first\", \"last\", an index, [index, index] "
+              "or {\"from\": 0..1, \"to\": 0..1}, found \"top\"");
+    EXPECT_EQ(message_with("/fixed/0", "{}"),
+              "cube.json:/body/fixed/0: expected nodes named by axes or corners, found none");
+    EXPECT_EQ(message_with("/fixed/0", "{\"a4\": 0}"),
+              "cube.json:/body/fixed/0/a4: expected a known key (did you mean \"a1\"?), found "
+              "unknown key \"a4\"");
+}
+
+TEST(BodyDescription, NothingNeedsToBeFixed) {
+    Json json = cube();
+    json.erase("fixed");
+    for (const char flag : fixed_flags(read(json))) EXPECT_EQ(flag, 0);
+}
+
+TEST(BodyDescription, RegionsChangeOnlyTheirNodesAndEntries) {
+    Json json = cube();
+    json["regions"] = Json::parse(R"([
+        {"nodes": {"a1": {"from": 0.3, "to": 0.7}}, "factors": {"elastic": {"22": 0.5, "23": 0.1}}},
+        {"nodes": {"a1": "first"}, "values": {"mass_kg": 8}}])");
+    const tissue::GridSolid solid = grid_solid(read(json));
+    for (int node = 0; node < 64; ++node) {
+        const tissue::SolidMaterial& material = solid.material[static_cast<std::size_t>(node)];
+        const int plane = node / 16;
+        const bool middle = plane == 1 || plane == 2;
+        EXPECT_EQ(material.elastic_n_per_m3(1, 1), middle ? 0.75 : 1.5);
+        EXPECT_EQ(material.elastic_n_per_m3(1, 2), middle ? 1.5 * 0.1 : 1.5);
+        EXPECT_EQ(material.elastic_n_per_m3(2, 1), middle ? 1.5 * 0.1 : 1.5);
+        EXPECT_EQ(material.elastic_n_per_m3(0, 0), 1.5);
+        EXPECT_EQ(material.mass_kg, plane == 0 ? 8 : 4);
+    }
+    EXPECT_EQ(
+        message_with("/regions", R"([{"nodes": {"a1": 0}, "factors": {"elastic": {"44": 1}}}])")
+            .substr(0, 58),
+        "cube.json:/body/regions/0/factors/elastic/44: expected a k");
+    EXPECT_EQ(message_with("/regions", R"([{"nodes": {"a1": 0}, "factors": {"mass": 0}}])"),
+              "cube.json:/body/material/0/mass_kg: expected (0, inf), found 0");
+}
+
+TEST(BodyDescription, GradedRegionsGrowLinearly) {
+    Json json = cube();
+    json["regions"] = Json::parse(R"([
+        {"nodes": {"a2": {"from": 1, "to": 0}}, "factors": {"elastic": 0.4}, "graded": "a2"}])");
+    const tissue::GridSolid solid = grid_solid(read(json));
+    for (int plane = 0; plane < 4; ++plane)
+        EXPECT_NEAR(solid.material[static_cast<std::size_t>(plane) * 4].elastic_n_per_m3(0, 0),
+                    1.5 * (1 - 0.6 * (3 - plane) / 3.0), 1e-12);
+    json["regions"][0]["graded"] = "a1";
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/regions/0/graded: expected an axis that \"nodes\" gives a range of, "
+              "found \"a1\"");
+}
+
+TEST(BodyDescription, CornersReachAlongTheEdges) {
+    const NodeSelection selection = read_node_selection(
+        JsonCursor::from_json(Json::parse(R"({"corners": [[0, 0], [1, 0], [0, 1]], "reach": 1})"),
+                              "cloth.json"),
+        2);
+    // Figure 8a holds three corners by nine nodes.
+    const std::vector<int> nodes = select(selection, {.m = 13, .n = 13, .o = 1});
+    EXPECT_EQ(nodes, (std::vector<int>{0, 1, 11, 12, 13, 25, 143, 156, 157}));
+}
+
+TEST(BodyDescription, TensorsTakeTheMeanOfTheirDiagonals) {
+    const auto tensor = [](const char* text) {
+        return read_tensor(JsonCursor::from_json(Json::parse(text), "tensor.json"), 3);
+    };
+    Mat3 expected;
+    expected << 1, 2, 7, 2, 3, 4, 7, 4, 5;
+    EXPECT_EQ(tensor(R"({"11": 1, "22": 3, "33": 5, "13": 7})"), expected);
+    EXPECT_EQ(message_of([&] { tensor(R"({"11": 1, "22": 3})"); }),
+              "tensor.json:/: expected the diagonal entry \"33\", found none");
+    EXPECT_EQ(message_of([&] { tensor(R"({"11": 1, "22": 3, "33": 5, "12": 1, "21": 2})"); }),
+              "tensor.json:/21: expected the same number as in \"12\", the tensor being symmetric, "
+              "found 2");
+}
+
+TEST(BodyDescription, ModuliBecomeTheParametersOfTheBlock) {
+    Json json = cube();
+    json["rest"]["block_m"] = {1, 2, 3};
+    json["material"] = {{"shear_pa", 600}, {"bulk_pa", 1200}, {"density_kg_per_m3", 10}};
+    const tissue::SolidMaterial material = grid_solid(read(json)).material.front();
+    EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(0, 1), 600 * 6 / (1.0 * 4));
+    EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(2, 2), 600 * 6 / 81.0);
+    EXPECT_DOUBLE_EQ(material.incompressibility_n_per_m5, 1200 / 12.0 / 27);
+    EXPECT_DOUBLE_EQ(material.mass_kg, 60);
+
+    // E = mu (3 K + 2 mu) / (K + mu)
+    json["material"].erase("shear_pa");
+    json["material"]["young_pa"] = 600 * (3 * 1200 + 2 * 600) / (1200 + 600.0);
+    EXPECT_NEAR(grid_solid(read(json)).material.front().elastic_n_per_m3(0, 1), 900, 1e-9);
+
+    json["material"]["shear_pa"] = 600;
+    EXPECT_EQ(
+        message_of([&] { read(json); }),
+        "cube.json:/body/material: expected one of \"shear_pa\" and \"young_pa\", found both");
+    json["material"].erase("young_pa");
+    json["material"]["elastic_n_per_m3"] = 1;
+    EXPECT_EQ(message_of([&] { read(json); }).substr(0, 50),
+              "cube.json:/body/material/elastic_n_per_m3: expecte");
+}
+
+TEST(BodyDescription, RestShapesAreTurnedThenMoved) {
+    Json json = cube();
+    json["rest"] = Json::parse(
+        R"({"block_m": [3, 2, 1], "turn": {"axis": [0, 0, 2], "angle_deg": 90}, "at_m": [10, 0, 0]})");
+    const Points rest = grid_solid(read(json)).rest;
+    EXPECT_NEAR((rest.row(63) - Eigen::RowVector3d(8, 3, 1)).norm(), 0, 1e-12);
+    json["rest"]["turn"]["axis"] = {0, 0, 0};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/rest/turn/axis: expected a direction, found [0,0,0]");
+}
+
+TEST(SoftBody, MeasuresVolumeAndStartsAtRest) {
+    Json json = cube();
+    json["rest"] = Json::parse(R"({"block_m": [3, 2, 1]})");
+    const SoftBody body = build_body(read(json));
+    EXPECT_NEAR(body.volume(body.rest), 6, 1e-12);
+    // Of 4^3 nodes 3^3 have all forward neighbours; each dV is per unit of material volume.
+    EXPECT_NEAR(body.volume_element_sum(body.rest), 6 * 27, 1e-10);
+    EXPECT_EQ(body.length_scale_m, 3);
+    EXPECT_EQ(body.fixed.size(), 16u);
+    EXPECT_EQ(body.start().v, Points::Zero(64, 3));
+    Points force;
+    body.system.force(0, body.rest, body.start().v, force);
+    EXPECT_NEAR(force.col(2).sum(), -4 * 9.81, 1e-10) << "only weight acts at rest";
+}
+
+TEST(IntegratorDescription, SaysWhatIsWrong) {
+    const auto message = [](const char* text) {
+        return message_of(
+            [&] { read_integrator(JsonCursor::from_json(Json::parse(text), "run.json")); });
+    };
+    EXPECT_EQ(message(R"({"method": "rk4", "step_s": 0})"),
+              "run.json:/step_s: expected a number in (0, inf), found 0");
+    EXPECT_EQ(message(R"({"method": "rk4", "steps_s": 1})"),
+              "run.json:/steps_s: expected a known key (did you mean \"step_s\"?), found unknown "
+              "key \"steps_s\"");
+    EXPECT_EQ(message(R"({"method": "rk3"})").substr(0, 46),
+              "run.json:/method: expected one of \"euler\" \"ver");
+    const auto options = read_integrator(JsonCursor::from_json(
+        Json::parse(R"({"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6})"), "run.json"));
+    EXPECT_EQ(options.method, solve::Method::kCashKarp);
+    EXPECT_EQ(options.step_s, 1e-3);
+    EXPECT_EQ(options.tolerance, 1e-6);
+}
+
+}  // namespace
+}  // namespace risorius::body
