@@ -70,7 +70,7 @@ struct IntegratorReport {
     long evaluations = 0;  ///< of forces, or of the potential and its gradient
     long rejections =
         0;  ///< steps tried and repeated smaller; for Newton, halvings of its line search and moves refused; for
-        ///< kBaraffWitkin, steps whose exact curvature was singular, solved with the positive one
+    ///< kBaraffWitkin, steps whose exact curvature was singular, solved with the positive one
     long linear_solves = 0;  ///< factorisations or conjugate-gradient runs
     double error_estimate =
         0;  ///< the largest of an accepted step; implicit: last Newton move, share of the length scale

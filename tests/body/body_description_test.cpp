@@ -145,8 +145,8 @@ TEST(BodyDescription, RegionsChangeOnlyTheirNodesAndEntries) {
         const int plane = node / 16;
         const bool middle = plane == 1 || plane == 2;
         EXPECT_EQ(material.elastic_n_per_m3(1, 1), middle ? 0.75 : 1.5);
-        EXPECT_EQ(material.elastic_n_per_m3(1, 2), middle ? 1.5 * 0.1 : 1.5);
-        EXPECT_EQ(material.elastic_n_per_m3(2, 1), middle ? 1.5 * 0.1 : 1.5);
+        EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(1, 2), middle ? 1.5 * 0.1 : 1.5);
+        EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(2, 1), middle ? 1.5 * 0.1 : 1.5);
         EXPECT_EQ(material.elastic_n_per_m3(0, 0), 1.5);
         EXPECT_EQ(material.mass_kg, plane == 0 ? 8 : 4);
     }

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "solve/metric_builder.h"
-#include "tissue/force_term_checks.h"
 #include "tissue/grid_shape.h"
+#include "tissue/slope_checks.h"
 
 namespace risorius::tissue {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "tissue/force_term_checks.h"
+#include "tissue/slope_checks.h"
 
 namespace risorius::tissue {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "tissue/drag.h"
-#include "tissue/force_term_checks.h"
 #include "tissue/gravity.h"
+#include "tissue/slope_checks.h"
 
 namespace risorius::tissue {
 namespace {
