@@ -251,7 +251,7 @@ TEST(BodyDescription, SurfacesAndTubesHaveTwoAxes) {
               "cube.json:/body/grid/1: expected an integer in [3, 1000], found 2");
     json["grid"] = {5, 6};
     EXPECT_EQ(message_of([&] { read(json); }),
-              "cube.json:/body/rest/sheet_m: expected a known key (did you mean \"at_m\"?), found "
+              "cube.json:/body/rest/sheet_m: expected one of tube points_m at_m turn, found "
               "unknown key \"sheet_m\"");
     json["rest"] = Json::parse(R"({"tube": {"radius_m": 1, "length_m": 3}})");
     EXPECT_EQ(build_body(read(json)).rest.rows(), 30);
