@@ -1,3 +1,4 @@
+// Sums of the terms over a system of nodes.
 #include "solve/motion_system.h"
 
 #include <cmath>
@@ -11,17 +12,22 @@ MotionSystem::MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed)
     if (fixed_.empty()) fixed_.assign(static_cast<std::size_t>(mass_kg_.size()), 0);
     if (static_cast<long>(fixed_.size()) != mass_kg_.size())
         throw std::invalid_argument("one fixed flag per node is needed");
-    for (int i = 0; i < size(); ++i)
-        if (!fixed_[static_cast<std::size_t>(i)] &&
-            !(mass_kg_[i] > 0 && std::isfinite(mass_kg_[i])))
+    inverse_mass_.setZero(mass_kg_.size(), 3);
+    for (int i = 0; i < size(); ++i) {
+        if (fixed_[static_cast<std::size_t>(i)]) {
+            fixed_nodes_.push_back(i);
+            continue;
+        }
+        if (!(mass_kg_[i] > 0 && std::isfinite(mass_kg_[i])))
             throw std::invalid_argument("node " + std::to_string(i) + " is free and has no mass");
+        inverse_mass_.row(i).setConstant(1.0 / mass_kg_[i]);
+    }
 }
 
 void MotionSystem::add(std::shared_ptr<ForceTerm> term) { terms_.push_back(std::move(term)); }
 
 void MotionSystem::place_fixed(double t_s, Points& x, Points& v) const {
-    for (int i = 0; i < size(); ++i)
-        if (fixed_[static_cast<std::size_t>(i)]) v.row(i).setZero();
+    for (const int i : fixed_nodes_) v.row(i).setZero();
     if (prescribed_) prescribed_(t_s, x, v);
 }
 
@@ -36,12 +42,8 @@ void MotionSystem::force(double t_s, const Points& x, const Points& v, Points& f
 
 void MotionSystem::acceleration(double t_s, const Points& x, const Points& v, Points& a) const {
     force(t_s, x, v, a);
-    for (int i = 0; i < size(); ++i) {
-        if (fixed_[static_cast<std::size_t>(i)])
-            a.row(i).setZero();
-        else
-            a.row(i) /= mass_kg_[i];
-    }
+    a.array() *= inverse_mass_.array();
+    for (const int i : fixed_nodes_) a.row(i).setZero();
 }
 
 double MotionSystem::energy(double t_s, const Points& x) const {
@@ -61,8 +63,7 @@ double MotionSystem::potential(const ImplicitStep& step, const Points& x, Points
     gradient.setZero(size(), 3);
     double sum = 0;
     for (const auto& term : terms_) sum += term->add_potential(step, x, gradient);
-    for (int i = 0; i < size(); ++i)
-        if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
+    for (const int i : fixed_nodes_) gradient.row(i).setZero();
     return sum;
 }
 

@@ -53,7 +53,9 @@ class MotionSystem {
 
   private:
     Eigen::VectorXd mass_kg_;
+    Points inverse_mass_;  ///< of each coordinate, 1/kg; 0 on fixed nodes
     std::vector<char> fixed_;
+    std::vector<int> fixed_nodes_;
     std::vector<std::shared_ptr<ForceTerm>> terms_;
     PrescribedMotion prescribed_;
 };

@@ -1,0 +1,363 @@
+#include "muscle/musculotendon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "core/error.h"
+
+namespace risorius::muscle {
+
+using solve::Curvature;
+using solve::ImplicitStep;
+
+namespace {
+
+constexpr End kEnds[] = {End::kOrigin, End::kInsertion};
+
+void require(bool holds, const std::string& place, const char* range, double found) {
+    if (!holds) throw Error(place, range, format_number(found));
+}
+
+void check_positive(double value, const std::string& place) {
+    require(std::isfinite(value) && value > 0, place, "(0, inf)", value);
+}
+
+/// d2/dx2 of U(l(s)) as 3 x 3 block: `along` = d2U/ds2 on the direction, `across` = (dU/ds) / s off it.
+Mat3 line_block(const Vec3& direction, double along, double across, Curvature curvature) {
+    if (curvature == Curvature::kPositive) {
+        along = std::max(along, 0.0);
+        across = std::max(across, 0.0);
+    }
+    return across * Mat3::Identity() + (along - across) * direction * direction.transpose();
+}
+
+void add_line_block(int i, int j, const Mat3& block, solve::HessianBuilder& hessian) {
+    hessian.add(i, i, block);
+    hessian.add(j, j, block);
+    hessian.add(i, j, -block);
+}
+
+}  // namespace
+
+void check(const MuscleParameters& p, const std::string& place) {
+    check_positive(p.f0_n, place + "/f0_n");
+    check_positive(p.optimal_length_m, place + "/optimal_length_m");
+    check_positive(p.tendon_slack_m, place + "/tendon_slack_m");
+    check_positive(p.greatest_speed_hz, place + "/greatest_speed_hz");
+    require(p.pennation_deg >= 0 && p.pennation_deg < 90, place + "/pennation_deg", "[0, 90)",
+            p.pennation_deg);
+    require(std::isfinite(p.damping) && p.damping >= 0, place + "/damping", "[0, inf)", p.damping);
+}
+
+MuscleParameters read_muscle_parameters(const JsonCursor& json) {
+    json.allow_keys({"f0_n", "optimal_length_m", "tendon_slack_m", "greatest_speed_hz",
+                     "pennation_deg", "damping"});
+    MuscleParameters p;
+    p.f0_n = json.at("f0_n").number();
+    p.optimal_length_m = json.at("optimal_length_m").number();
+    p.tendon_slack_m = json.at("tendon_slack_m").number();
+    if (const auto v = json.find("greatest_speed_hz")) p.greatest_speed_hz = v->number();
+    if (const auto v = json.find("pennation_deg")) p.pennation_deg = v->number();
+    if (const auto v = json.find("damping")) p.damping = v->number();
+    check(p, json.place());
+    return p;
+}
+
+Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m) {
+    const int chains = grid.n * grid.o;
+    // Each plate stands across the mean of the outermost segments, so that a bent belly is met squarely.
+    const auto plate = [&](int end_row, int inner_row) {
+        const Points ends = rest.middleRows(end_row, chains);
+        const Vec3 outward = (ends - rest.middleRows(inner_row, chains)).colwise().sum();
+        const Vec3 offset = outward.normalized() * (tendon_slack_m / 2);
+        Points points = ends;
+        points.rowwise() += offset.transpose();
+        return points;
+    };
+    return {{plate(0, chains)}, {plate((grid.m - 1) * chains, (grid.m - 2) * chains)}};
+}
+
+Musculotendon::Musculotendon(const MuscleParameters& parameters, MuscleCurves curves,
+                             const tissue::GridShape& grid, const Points& rest, Anchors anchors,
+                             ActivationAt activation, const std::string& place)
+    : parameters_(parameters),
+      curves_(std::move(curves)),
+      grid_(grid),
+      anchors_(std::move(anchors)),
+      activation_(std::move(activation)),
+      chain_force_n_(parameters.f0_n / chains()),
+      half_slack_m_(parameters.tendon_slack_m / 2) {
+    check(parameters, place);
+    if (grid.m < 2 || rest.rows() != grid.size())
+        throw std::invalid_argument("Musculotendon: the rest shape is not that of the grid");
+    if (anchors_.origin.rest.rows() != chains() || anchors_.insertion.rest.rows() != chains())
+        throw std::invalid_argument("Musculotendon: an anchor needs one point per chain");
+
+    const double l0 = parameters.optimal_length_m;
+    const double thickness = l0 * std::sin(parameters.pennation_deg * std::numbers::pi / 180);
+    segments_.resize(static_cast<std::size_t>((grid.m - 1) * chains()));
+    for (int c = 0; c < chains(); ++c) {
+        std::vector<double> span;
+        double total = 0;
+        for (int m = 0; m + 1 < grid.m; ++m) {
+            span.push_back(line(rest.row(node(m, c)), rest.row(node(m + 1, c)), 0).span);
+            if (!(span.back() > 0))
+                throw std::invalid_argument("Musculotendon: a segment without length");
+            total += span.back();
+        }
+        for (int m = 0; m + 1 < grid.m; ++m) {
+            const double share = span[static_cast<std::size_t>(m)] / total;
+            segments_[static_cast<std::size_t>(node(m, c))] = {share * l0, share * thickness};
+        }
+    }
+}
+
+Musculotendon::Line Musculotendon::line(const Vec3& from, const Vec3& to, double thickness_m) {
+    Line line;
+    const Vec3 d = to - from;
+    line.span = d.norm();
+    // Two nodes in one place have no direction to pull along.
+    if (line.span > 0) line.direction = d / line.span;
+    line.length = line.span;
+    line.slope = 1;
+    if (thickness_m > 0) {
+        line.length = std::hypot(line.span, thickness_m);
+        line.slope = line.span / line.length;
+        line.curvature = (1 - line.slope * line.slope) / line.length;
+    }
+    return line;
+}
+
+Musculotendon::Line Musculotendon::fibre(const Points& x, int m, int chain) const {
+    return line(x.row(node(m, chain)), x.row(node(m + 1, chain)), segment(m, chain).thickness_m);
+}
+
+Musculotendon::Line Musculotendon::tendon(const Points& x, const Points& plate, End end,
+                                          int chain) const {
+    return line(x.row(tendon_node(end, chain)), plate.row(chain), 0);
+}
+
+Points Musculotendon::anchor_points(End end, double t_s) const {
+    const Anchor& anchor = end == End::kOrigin ? anchors_.origin : anchors_.insertion;
+    if (!anchor.motion) return anchor.rest;
+    const Rigid motion = anchor.motion(t_s);
+    return (anchor.rest * motion.linear().transpose()).rowwise() + motion.translation().transpose();
+}
+
+double Musculotendon::mean_stretch(const Points& x, int chain) const {
+    double length = 0;
+    for (int m = 0; m + 1 < grid_.m; ++m) length += fibre(x, m, chain).length;
+    return length / parameters_.optimal_length_m;
+}
+
+void Musculotendon::add_force(double t_s, const Points& x, const Points& v, Points& force) const {
+    const double a = activation_(t_s);
+    for (int c = 0; c < chains(); ++c) {
+        const double active = a == 0 ? 0 : a * curves_.active.value(mean_stretch(x, c));
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const int i = node(m, c), j = node(m + 1, c);
+            const Segment& s = segment(m, c);
+            const Line f = fibre(x, m, c);
+            const double rate = f.slope * (v.row(j) - v.row(i)).dot(f.direction.transpose());
+            const double vt = rate / (parameters_.greatest_speed_hz * s.optimal_m);
+            double tension =
+                curves_.passive.value(f.length / s.optimal_m) + parameters_.damping * vt;
+            if (active != 0) tension += active * curves_.velocity.value(vt);
+            const Vec3 pull = chain_force_n_ * tension * f.slope * f.direction;
+            force.row(i) += pull.transpose();
+            force.row(j) -= pull.transpose();
+        }
+    }
+    add_tendon_force(t_s, x, 1, force);
+}
+
+void Musculotendon::add_tendon_force(double t_s, const Points& x, double sign,
+                                     Points& force) const {
+    for (const End end : kEnds) {
+        const Points pulled = anchor_forces(end, t_s, x);
+        for (int c = 0; c < chains(); ++c) force.row(tendon_node(end, c)) -= sign * pulled.row(c);
+    }
+}
+
+double Musculotendon::tendon_energy(double t_s, const Points& x) const {
+    double energy = 0;
+    for (const End end : kEnds) {
+        const Points points = anchor_points(end, t_s);
+        for (int c = 0; c < chains(); ++c)
+            energy +=
+                chain_force_n_ * half_slack_m_ *
+                curves_.tendon.at(tendon(x, points, end, c).span / half_slack_m_ - 1).integral;
+    }
+    return energy;
+}
+
+double Musculotendon::energy(double t_s, const Points& x) const {
+    const double a = activation_(t_s);
+    double energy = 0;
+    for (int c = 0; c < chains(); ++c) {
+        energy += chain_force_n_ * parameters_.optimal_length_m * a *
+                  curves_.active.at(mean_stretch(x, c)).integral;
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const double l0 = segment(m, c).optimal_m;
+            energy += chain_force_n_ * l0 * curves_.passive.at(fibre(x, m, c).length / l0).integral;
+        }
+    }
+    return energy + tendon_energy(t_s, x);
+}
+
+Musculotendon::Active Musculotendon::active(const ImplicitStep& step, const Points& x,
+                                            int chain) const {
+    const double a = activation_(step.end_s);
+    if (a == 0) return {};
+    if (step.rate_hz() > 0)
+        return {.force = a * curves_.active.value(mean_stretch(step.start, chain))};
+    const Curve::Value now = curves_.active.at(mean_stretch(x, chain));
+    return {.force = a * now.value, .slope = a * now.slope, .integral = a * now.integral};
+}
+
+Musculotendon::Pull Musculotendon::fibre_pull(const ImplicitStep& step, const Line& now, int m,
+                                              int chain, double active) const {
+    const Segment& s = segment(m, chain);
+    const Curve::Value passive = curves_.passive.at(now.length / s.optimal_m);
+    Pull pull{.energy = s.optimal_m * passive.integral,
+              .tension = passive.value,
+              .slope = passive.slope / s.optimal_m};
+    if (step.rate_hz() == 0) {
+        pull.tension += active;  // its energy is the chain's
+    } else {
+        const double greatest = parameters_.greatest_speed_hz * s.optimal_m * step.step_s;
+        const double vt = (now.length - fibre(step.start, m, chain).length) / greatest;
+        const Curve::Value velocity = curves_.velocity.at(vt);
+        const double b = parameters_.damping;
+        pull.energy += greatest * (active * velocity.integral + b * vt * vt / 2);
+        pull.tension += active * velocity.value + b * vt;
+        pull.slope += (active * velocity.slope + b) / greatest;
+    }
+    pull.energy *= chain_force_n_;
+    pull.tension *= chain_force_n_;
+    pull.slope *= chain_force_n_;
+    return pull;
+}
+
+double Musculotendon::add_potential(const ImplicitStep& step, const Points& x,
+                                    Points& gradient) const {
+    double potential = tendon_energy(step.end_s, x);
+    add_tendon_force(step.end_s, x, -1, gradient);
+    for (int c = 0; c < chains(); ++c) {
+        const Active chain = active(step, x, c);
+        potential += chain_force_n_ * parameters_.optimal_length_m * chain.integral;
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const int i = node(m, c), j = node(m + 1, c);
+            const Line f = fibre(x, m, c);
+            const Pull pull = fibre_pull(step, f, m, c, chain.force);
+            potential += pull.energy;
+            const Vec3 along = pull.tension * f.slope * f.direction;
+            gradient.row(i) -= along.transpose();
+            gradient.row(j) += along.transpose();
+        }
+    }
+    return potential;
+}
+
+void Musculotendon::add_hessian(const ImplicitStep& step, const Points& x, Curvature curvature,
+                                solve::HessianBuilder& hessian) const {
+    for (int c = 0; c < chains(); ++c) {
+        const Active chain = active(step, x, c);
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const Line f = fibre(x, m, c);
+            if (!(f.span > 0)) continue;
+            const Pull pull = fibre_pull(step, f, m, c, chain.force);
+            const double along = pull.slope * f.slope * f.slope + pull.tension * f.curvature;
+            const double across = pull.tension * f.slope / f.span;
+            add_line_block(node(m, c), node(m + 1, c),
+                           line_block(f.direction, along, across, curvature), hessian);
+        }
+        if (chain.slope != 0 && (chain.slope > 0 || curvature == Curvature::kExact))
+            add_chain_block(x, c, chain_force_n_ * chain.slope / parameters_.optimal_length_m,
+                            hessian);
+    }
+    for (const End end : kEnds) {
+        const Points points = anchor_points(end, step.end_s);
+        for (int c = 0; c < chains(); ++c) {
+            const Line t = tendon(x, points, end, c);
+            const Curve::Value tension = curves_.tendon.at(t.span / half_slack_m_ - 1);
+            if (tension.value == 0) continue;
+            const int i = tendon_node(end, c);
+            hessian.add(i, i,
+                        line_block(t.direction, chain_force_n_ * tension.slope / half_slack_m_,
+                                   chain_force_n_ * tension.value / t.span, curvature));
+        }
+    }
+}
+
+void Musculotendon::add_chain_block(const Points& x, int chain, double stiffness,
+                                    solve::HessianBuilder& hessian) const {
+    const int count = grid_.m;
+    std::vector<int> rows(static_cast<std::size_t>(count));
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * count);  // of the chain's length
+    for (int m = 0; m < count; ++m) {
+        rows[static_cast<std::size_t>(m)] = node(m, chain);
+        if (m + 1 == count) break;
+        const Line f = fibre(x, m, chain);
+        g.segment<3>(3 * m) -= f.slope * f.direction;
+        g.segment<3>(3 * m + 3) += f.slope * f.direction;
+    }
+    const Eigen::MatrixXd block = stiffness * g * g.transpose();
+    hessian.add_dense(rows.data(), count, block.data());
+}
+
+void Musculotendon::add_metric(double step_s, solve::MetricBuilder& metric) const {
+    const double steepest = curves_.velocity.at(0).slope + parameters_.damping;
+    const double rate = steepest / (parameters_.greatest_speed_hz * step_s);  // 0 in an equilibrium
+    const double c[2] = {-1, 1};
+    for (int chain = 0; chain < chains(); ++chain) {
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const int rows[2] = {node(m, chain), node(m + 1, chain)};
+            // At full force a fibre resists turning with F0 / l0.
+            metric.add_outer(rows, c, 2, chain_force_n_ / segment(m, chain).optimal_m * (1 + rate));
+        }
+        const double stiffest = curves_.tendon.at(1).slope;  // far beyond its toe
+        for (const End end : kEnds)
+            metric.add_diagonal(tendon_node(end, chain), chain_force_n_ / half_slack_m_ * stiffest);
+    }
+}
+
+Points Musculotendon::anchor_forces(End end, double t_s, const Points& x) const {
+    const Points points = anchor_points(end, t_s);
+    Points forces(chains(), 3);
+    for (int c = 0; c < chains(); ++c) {
+        const Line t = tendon(x, points, end, c);
+        const double tension = chain_force_n_ * curves_.tendon.value(t.span / half_slack_m_ - 1);
+        forces.row(c) = -tension * t.direction.transpose();
+    }
+    return forces;
+}
+
+Vec3 Musculotendon::anchor_pull(End end, double t_s, const Points& x) const {
+    return anchor_forces(end, t_s, x).colwise().sum().transpose();
+}
+
+Eigen::VectorXd Musculotendon::stretch(const Points& x) const {
+    Eigen::VectorXd stretch(chains());
+    for (int c = 0; c < chains(); ++c) stretch[c] = mean_stretch(x, c);
+    return stretch;
+}
+
+double Musculotendon::segment_spread(const Points& x) const {
+    double worst = 0;
+    for (int c = 0; c < chains(); ++c) {
+        double least = INFINITY, greatest = 0;
+        for (int m = 0; m + 1 < grid_.m; ++m) {
+            const double l = fibre(x, m, c).length / segment(m, c).optimal_m;
+            least = std::min(least, l);
+            greatest = std::max(greatest, l);
+        }
+        worst = std::max(worst, greatest - least);
+    }
+    return worst;
+}
+
+}  // namespace risorius::muscle
