@@ -3,6 +3,7 @@
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/rig_files.h"
+#include "experiment/registry.h"
 #include "io/read_mesh.h"
 #include "rig/head.h"
 #include "track/script.h"
@@ -33,6 +34,14 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
         if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
 }
 
+// An experiment reads its file and builds its bodies before its first step, which is where it is stopped.
+void check_experiment(const JsonCursor& json) {
+    try {
+        experiment::run_figure(json, {.threads = 1, .stopped = [] { return true; }});
+    } catch (const experiment::Interrupted&) {
+    }
+}
+
 // Eyes and teeth may be open, intersecting pieces; the skin has to be a sound surface.
 void check_mesh_file(const fs::path& file, CheckResult& result) {
     const geom::PolygonMesh mesh = io::read_mesh(file);
@@ -52,10 +61,11 @@ void check(CheckResult& result) {
         return check_mesh_file(result.file, result);
     }
     const JsonCursor json = JsonCursor::read_file(result.file);
-    const std::string format =
-        json.at("format").one_of({"risorius-script", "risorius-rig", "risorius-landmarks"});
+    const std::string format = json.at("format").one_of(
+        {"risorius-script", "risorius-rig", "risorius-landmarks", "risorius-experiment"});
     result.format = format.substr(std::string("risorius-").size());
     if (result.format == "script") check_script(result.file);
+    if (result.format == "experiment") check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") {
         const rig::Head head = check_rig(result.file);

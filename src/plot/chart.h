@@ -12,7 +12,7 @@ enum class Mark { kLine, kDashed, kPoints, kLinePoints };
 
 struct Series {
     std::string label;  ///< in the key; empty leaves it out
-    std::vector<double> x, y;
+    std::vector<double> x = {}, y = {};
     Mark mark = Mark::kLine;
     int colour = -1;  ///< of the palette, -1 = the next one; series of equal colour belong together
 };
@@ -24,15 +24,15 @@ struct Band {
 };
 
 struct Axis {
-    std::string label;  ///< quantity and unit: "time (s)"
+    std::string label = {};  ///< quantity and unit: "time (s)"
     bool logarithmic = false;
     std::optional<std::pair<double, double>> range = {};  ///< of the data when not given
 };
 
 struct Chart {
-    std::string name;   ///< of its files
-    std::string title;  ///< one line above
-    Axis x, y;
+    std::string name;        ///< of its files
+    std::string title = {};  ///< one line above
+    Axis x = {}, y = {};
     std::vector<Series> series = {};
     std::vector<Band> bands = {};
 };

@@ -39,7 +39,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_check(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check", "Validate scripts, rigs, landmarks and meshes");
+    CLI::App* command =
+        app.add_subcommand("check", "Validate scripts, rigs, landmarks, experiments and meshes");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->files, "What to check")->required();
     add_common(*command, arguments->common);

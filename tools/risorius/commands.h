@@ -13,6 +13,7 @@ void add_fit(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_figure(CLI::App& app);
 
 /// The input is wrong, and what is wrong has been said.
 class SaidAlready : public std::exception {};

@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     cli::add_check(app);
     cli::add_info(app);
     cli::add_bench(app);
+    cli::add_figure(app);
     cli::catch_interrupts();
     try {
         app.parse(argc, argv);  // runs the command

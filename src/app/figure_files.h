@@ -1,0 +1,39 @@
+// The result of an experiment as files: numbers as JSON and CSV, charts as SVG and PNG, shapes as pictures.
+//
+// The same result gives the same bytes; nothing here knows the time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiment/figure_result.h"
+#include "plot/write_chart.h"
+
+namespace risorius::app {
+
+/// A CSV file: comma separated, names in quotes where they need them, numbers with all their digits.
+std::string csv_of(const experiment::Table& table);
+
+struct FigurePicture {
+    std::string file;
+    std::vector<std::string> captions;  ///< one per object, from left to right
+};
+
+struct FigureFiles {
+    std::vector<std::string> tables,
+        charts;  ///< "volume.csv"; "volume" of volume.svg, .png, .gp, .data.csv
+    std::vector<FigurePicture> pictures;
+    std::vector<std::string> all;  ///< every file, in order of name
+};
+
+/// Writes all but results.json into `folder`, which must exist. Shapes that follow each other under one name stand side
+/// by side in one picture. Throws Error for names that no file can have or that two results share, RunError when
+/// something cannot be written or drawn.
+FigureFiles write_figure(const experiment::FigureResult& figure,
+                         const std::filesystem::path& folder, const plot::ChartWriter& charts = {});
+
+/// What results.json says of one figure, but for the list of its files.
+Json figure_json(const experiment::FigureResult& figure);
+
+}  // namespace risorius::app

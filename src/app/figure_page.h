@@ -1,0 +1,31 @@
+// One HTML page with figures side by side: what was published, what was measured, pictures and charts, and why they differ.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/figure_files.h"
+#include "experiment/figure_result.h"
+
+namespace risorius::app {
+
+/// A figure that has been run and written.
+struct ShownFigure {
+    experiment::FigureResult result;
+    FigureFiles files;
+    std::string folder;  ///< of its files from the page, "" or "9b/"
+    std::string readme;  ///< Markdown; empty when there is none
+    std::string
+        published;  ///< file name of a picture of the published figure; empty when there is none
+};
+
+std::string figure_page(const std::vector<ShownFigure>& figures);
+
+/// "8 to 13 %", "at most 5 %", "at least 2": the accepted range of a check in words.
+std::string range_text(const experiment::Check& check);
+
+/// Four significant digits, as people read them: "10.82", "0.0002", "1.2e-09".
+std::string short_number(double value);
+
+}  // namespace risorius::app

@@ -1,0 +1,236 @@
+#include "app/run_figure.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "app/figure_files.h"
+#include "app/figure_page.h"
+#include "app/staged_file.h"
+#include "app/staged_folder.h"
+#include "app/stopwatch.h"
+#include "app/version.h"
+#include "core/error.h"
+#include "experiment/registry.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kExperimentFile = "experiment.json";
+constexpr double kUnknownTime_s =
+    20;  ///< what a figure counts in the progress when nothing is known
+
+fs::path folder_of_figures(const fs::path& from) {
+    return from.empty() ? fs::path(RISORIUS_FIGURES_FOLDER) : from;
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// An experiment to be run, and where its files go.
+struct Job {
+    fs::path file;
+    std::string folder;  ///< below the results, "" or "9b/"
+    double run_time_s = 0;
+};
+
+std::vector<Job> jobs_of(const FigureOptions& options) {
+    const fs::path from = folder_of_figures(options.from);
+    // A path is told from an id by its ending, so that a mistyped id is not taken for a missing file.
+    if (options.figure.ends_with(".json"))
+        return {{.file = options.figure, .folder = "", .run_time_s = 0}};
+    std::vector<Job> jobs;
+    const std::vector<FigureEntry> entries = list_figures(options.from);
+    for (const FigureEntry& entry : entries)
+        if (options.figure == "all" || options.figure == entry.id)
+            jobs.push_back({.file = from / entry.id / kExperimentFile,
+                            .folder = options.figure == "all" ? entry.id + "/" : "",
+                            .run_time_s = entry.run_time_s});
+    if (!jobs.empty()) return jobs;
+    std::string expected = "all, a file that ends in .json, or one of";
+    std::vector<std::string_view> known{"all"};
+    for (const FigureEntry& entry : entries) {
+        expected += " " + entry.id;
+        known.push_back(entry.id);
+    }
+    const std::string near = nearest_name(options.figure, known);
+    if (!near.empty()) expected += " (did you mean \"" + near + "\"?)";
+    throw Error("figure", expected, "\"" + options.figure + "\"");
+}
+
+/// A picture of the figure as published, which a reader may have put beside the experiment.
+std::string published_picture(const fs::path& folder) {
+    for (const char* name : {"published.png", "published.jpg", "published.svg"})
+        if (fs::exists(folder / name)) return name;
+    return "";
+}
+
+void write_json(const fs::path& file, const Json& json) { write_text(file, json.dump(2) + "\n"); }
+
+/// Writes everything of one figure but the page and the times.
+ShownFigure write_results(const Job& job, experiment::FigureResult result, const fs::path& top,
+                          const plot::ChartWriter& charts) {
+    const fs::path folder = job.folder.empty() ? top : top / job.folder;
+    fs::create_directories(folder);
+    ShownFigure shown;
+    shown.folder = job.folder;
+    shown.files = write_figure(result, folder, charts);
+    shown.readme = text_of(job.file.parent_path() / "README.md");
+    shown.published = published_picture(job.file.parent_path());
+    write_text(folder / kExperimentFile, text_of(job.file));
+    if (!shown.published.empty())
+        fs::copy_file(job.file.parent_path() / shown.published, folder / shown.published);
+    shown.result = std::move(result);
+    return shown;
+}
+
+/// Every file of a folder as results.json lists them, those still to be written included.
+Json listing(const fs::path& folder, const std::set<std::string>& to_come) {
+    std::set<std::string> files = to_come;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (!entry.is_directory())
+            files.insert(entry.path().lexically_relative(folder).generic_string());
+    return Json(std::vector<std::string>(files.begin(), files.end()));
+}
+
+Json results_of_all(const std::vector<ShownFigure>& figures) {
+    Json json = Json::object();
+    json["format"] = "risorius-figures";
+    json["version"] = 1;
+    json["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    json["passes"] = std::all_of(figures.begin(), figures.end(),
+                                 [](const ShownFigure& figure) { return figure.result.passes(); });
+    json["figures"] = Json::array();
+    for (const ShownFigure& figure : figures) {
+        Json entry = figure_json(figure.result);
+        for (const char* key : {"format", "version", "toolkit", "tables", "record"})
+            entry.erase(key);
+        entry["results"] = figure.folder + "results.json";
+        json["figures"].push_back(entry);
+    }
+    return json;
+}
+
+/// Runs one after the other, each on all threads.
+class Run {
+  public:
+    Run(const FigureOptions& options, const Watch& watch, const std::vector<Job>& jobs)
+        : options_(options), watch_(watch), jobs_(jobs) {
+        for (const Job& job : jobs) total_s_ += expected_s(job);
+    }
+
+    experiment::FigureResult operator()(const Job& job) {
+        const JsonCursor file = JsonCursor::read_file(job.file);
+        const double begin = done_s_ / total_s_, share = expected_s(job) / total_s_;
+        const std::string name = job.folder.substr(0, job.folder.find('/'));
+        experiment::RunOptions run_options{.threads = options_.threads};
+        run_options.shared = &shared_;
+        run_options.stopped = watch_.stopped;
+        if (watch_.progress)
+            run_options.progress = [=, this](double part, const std::string& what) {
+                watch_.progress(begin + share * part, name.empty() ? what : name + ": " + what);
+            };
+        watch_.tell(begin, name);
+        done_s_ += expected_s(job);
+        try {
+            return options_.run ? options_.run(file, run_options)
+                                : experiment::run_figure(file, run_options);
+        } catch (const experiment::Interrupted&) {
+            throw Interrupted();
+        }
+    }
+
+  private:
+    static double expected_s(const Job& job) {
+        return job.run_time_s > 0 ? job.run_time_s : kUnknownTime_s;
+    }
+
+    const FigureOptions& options_;
+    const Watch& watch_;
+    const std::vector<Job>& jobs_;
+    experiment::SharedRuns shared_;
+    double total_s_ = 0, done_s_ = 0;
+};
+
+}  // namespace
+
+std::vector<FigureEntry> list_figures(const fs::path& from) {
+    const fs::path folder = folder_of_figures(from);
+    const auto present = [&](const std::string& id) {
+        return fs::exists(folder / id / kExperimentFile);
+    };
+    std::vector<FigureEntry> list;
+    std::set<std::string> others;
+    if (fs::is_directory(folder))
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (const std::string id = entry.path().filename().string(); present(id))
+                others.insert(id);
+    for (const experiment::Figure& figure : experiment::figures())
+        if (others.erase(std::string(figure.id)) > 0)
+            list.push_back({.id = std::string(figure.id),
+                            .title = std::string(figure.title),
+                            .run_time_s = figure.run_time_s});
+    for (const std::string& id : others) {
+        const JsonCursor file = JsonCursor::read_file(folder / id / kExperimentFile);
+        const auto title = file.find("title");
+        list.push_back({.id = id, .title = title ? title->string() : id, .run_time_s = 0});
+    }
+    if (list.empty()) throw Error(folder.string(), "folders with an experiment.json", "none");
+    return list;
+}
+
+FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
+    // What is asked for, refused before anything is run
+    const std::vector<Job> jobs = jobs_of(options);
+    for (const Job& job : jobs) JsonCursor::read_file(job.file);
+    StagedFolder staged(options.out);
+
+    // Each figure
+    const Stopwatch total;
+    Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
+    Run run(options, watch, jobs);
+    std::vector<ShownFigure> figures;
+    for (const Job& job : jobs) {
+        const Stopwatch running;
+        experiment::FigureResult result = run(job);
+        const double run_s = running.seconds();
+        const Stopwatch writing;
+        figures.push_back(write_results(job, std::move(result), staged.partial(), options.charts));
+        timing["figures"].push_back(
+            {{"id", figures.back().result.id}, {"run_s", run_s}, {"write_s", writing.seconds()}});
+    }
+
+    // What holds them together
+    FigureReport report;
+    const bool together = options.figure == "all";
+    for (const ShownFigure& figure : figures) {
+        for (const experiment::Check& check : figure.result.checks)
+            if (!check.passes()) report.failed.push_back({figure.result.id, check});
+        const fs::path folder = staged.partial() / figure.folder;
+        Json json = figure_json(figure.result);
+        std::set<std::string> to_come{"results.json"};
+        if (!together) to_come.insert({"index.html", "timing.json"});
+        json[kFilesKey] = listing(folder, to_come);
+        write_json(folder / "results.json", json);
+        report.results = json;
+    }
+    write_text(staged.partial() / "index.html", figure_page(figures));
+    if (together) {
+        report.results = results_of_all(figures);
+        report.results[kFilesKey] = listing(staged.partial(), {"results.json", "timing.json"});
+        write_json(staged.partial() / "results.json", report.results);
+    }
+    timing["total_s"] = total.seconds();
+    write_json(staged.partial() / "timing.json", timing);
+    watch.tell(1, "written");
+    staged.commit();
+    return report;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,122 @@
+// risorius figure ID|all|EXPERIMENT.json -o DIR, risorius figure --list
+#include <cstdio>
+
+#include "app/figure_page.h"
+#include "app/run_figure.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct Arguments {
+    Common common;
+    app::FigureOptions options;
+    bool list = false;
+};
+
+/// "3 s", "4 min"
+std::string about(double seconds) {
+    if (seconds <= 0) return "";
+    char text[32];
+    if (seconds < 90)
+        std::snprintf(text, sizeof text, "about %.0f s", seconds);
+    else
+        std::snprintf(text, sizeof text, "about %.0f min", seconds / 60);
+    return text;
+}
+
+void list(const Arguments& arguments) {
+    const auto entries = app::list_figures(arguments.options.from);
+    if (arguments.common.json) {
+        Json report = Json::array();
+        for (const app::FigureEntry& entry : entries)
+            report.push_back(
+                {{"id", entry.id}, {"title", entry.title}, {"run_time_s", entry.run_time_s}});
+        std::printf("%s\n", report.dump(2).c_str());
+        return;
+    }
+    if (arguments.common.quiet) return;
+    for (const app::FigureEntry& entry : entries)
+        std::printf("%-10s %-60s %s\n", entry.id.c_str(), entry.title.c_str(),
+                    about(entry.run_time_s).c_str());
+}
+
+void print_figure(const Json& figure) {
+    int passed = 0;
+    for (const Json& check : figure["checks"]) passed += check["passes"].get<bool>();
+    std::printf("%-10s %d of %d numbers inside their accepted range  %s\n",
+                figure["id"].get<std::string>().c_str(), passed,
+                static_cast<int>(figure["checks"].size()),
+                figure["title"].get<std::string>().c_str());
+}
+
+std::string told(const app::FailedCheck& failed) {
+    const experiment::Check& check = failed.check;
+    const std::string unit = check.unit.empty() ? "" : " " + check.unit;
+    return failed.figure + ": " + check.name + ": expected " + app::range_text(check) + ", found " +
+           app::short_number(check.measured) + unit;
+}
+
+void run(const Arguments& arguments) {
+    if (arguments.list) return list(arguments);
+    const app::FigureOptions& options = arguments.options;
+    if (options.figure.empty()) throw Error("figure", "an id, all, a file or --list", "none");
+    if (options.out.empty()) throw Error("figure", "--out", "none");
+    if (options.threads < 0 || options.threads > 256)
+        throw Error("--threads", "an integer in [0, 256]", std::to_string(options.threads));
+    app::FigureReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::run_figures(options, bar.watch());
+    }
+    const std::string page = (options.out / "index.html").generic_string();
+    if (arguments.common.json) {
+        std::printf("%s\n", report.results.dump(2).c_str());
+    } else if (!arguments.common.quiet) {
+        if (report.results.contains("figures"))
+            for (const Json& figure : report.results["figures"]) print_figure(figure);
+        else
+            print_figure(report.results);
+        std::printf("%s\n", page.c_str());
+    }
+    for (const app::FailedCheck& failed : report.failed)
+        std::fprintf(stderr, "risorius: %s\n", told(failed).c_str());
+    if (!report.failed.empty())
+        throw RunError(std::to_string(report.failed.size()) +
+                       (report.failed.size() == 1 ? " number lies" : " numbers lie") +
+                       " outside of the accepted range, see " + page);
+}
+
+}  // namespace
+
+void add_figure(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "figure", "Run an experiment of samples/figures against what was published");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("FIGURE", arguments->options.figure,
+                        "An id of --list, all, or the path of an experiment.json");
+    command->add_option(
+        "-o,--out", arguments->options.out,
+        "Folder of the results: new, empty, or with former results, which are replaced");
+    command->add_flag("--list", arguments->list, "Ids, titles and about how long each takes");
+    command->add_option("--from", arguments->options.from,
+                        "Folder with a folder per id; samples/figures when not given");
+    command
+        ->add_option("--threads", arguments->options.threads,
+                     "0 = as many as the machine has; the results are the same")
+        ->type_name("INT");
+    add_common(*command, arguments->common);
+    command->footer(
+        "Writes index.html (published and measured side by side), results.json, tables as CSV, "
+        "charts as SVG and PNG\n"
+        "with the gnuplot script that draws them, and pictures of the deformed objects. Exit code "
+        "1 when a number\n"
+        "lies outside of its accepted range; everything is written then, too.\n\n"
+        "Examples:\n  risorius figure --list\n  risorius figure 9b -o out/9b\n"
+        "  risorius figure all -o out/figures\n  risorius figure mine/experiment.json -o out/mine");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
