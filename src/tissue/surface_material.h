@@ -74,6 +74,7 @@ std::vector<std::array<int, 2>> grid_lines(const SurfaceGrid& grid);
 /// Throws Error with the field named below `place`: too few nodes, wrong sizes, NaN, negative or unsymmetric values, no
 /// mass, a rest shape that is degenerate or folded.
 void check(const GridSurface& surface, const std::string& place);
+void check(const SurfaceMaterial& material, const std::string& place);
 
 const SurfaceMaterial& material_of(const GridSurface& surface, int node);
 Eigen::VectorXd node_mass(const GridSurface& surface);  ///< kg
