@@ -259,7 +259,6 @@ SheetConstants sheet_constants(const SurfaceMaterial& material, const Vec2& size
     return sheet;
 }
 
-double aligned_hinge_bending(double bending_n_m) { return bending_n_m / 3; }
-double equilateral_hinge_bending(double bending_n_m) { return bending_n_m * 2 / 3; }
+double hinge_bending(double bending_n_m) { return bending_n_m / 3; }
 
 }  // namespace risorius::tissue

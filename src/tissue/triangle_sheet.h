@@ -9,8 +9,8 @@
 // Curvature from folds: on a smooth surface z = 1/2 x . b x the interpolating triangles fold by theta = B kappa, B known
 // from the rest shape; so b is what the folds theta - theta0 mean, and at a border, where folds are missing, the b of
 // least energy among those that agree with the others (no moment acts there). Bending is then exact for constant curvature
-// on any triangulation, where a stiffness per hinge (SkinSheet) depends on how the triangles lie: by a factor of two
-// between right-angled and equilateral ones.
+// on any triangulation, where a stiffness per hinge (SkinSheet) depends on how the triangles lie, by a factor of two in
+// twist.
 #pragma once
 
 #include <vector>
