@@ -1,6 +1,7 @@
 #include "experiment/implicit_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "experiment/body_cases.h"
 #include "experiment/progress.h"
 #include "experiment/settle.h"
+#include "experiment/step_search.h"
 
 namespace risorius::experiment {
 namespace {
@@ -32,19 +34,6 @@ struct Plan {
     solve::IntegratorOptions to_rest;
     double rest_duration_s = 0;
 };
-
-std::vector<double> read_steps(const JsonCursor& json) {
-    json.allow_keys({"longest_s", "shortest_s", "per_decade"});
-    const double longest = json.at("longest_s").number({1e-9, 1e6});
-    const double shortest = json.at("shortest_s").number({1e-9, longest});
-    const int per_decade = json.at("per_decade").integer(1, 1000);
-    std::vector<double> steps;
-    for (int i = 0;; ++i) {
-        const double step = longest * std::pow(10.0, -static_cast<double>(i) / per_decade);
-        if (step < shortest * (1 - 1e-9)) return steps;
-        steps.push_back(step);
-    }
-}
 
 std::size_t method_named(const Plan& plan, const JsonCursor& json) {
     std::vector<std::string_view> names;
@@ -97,7 +86,7 @@ Plan read_plan(const JsonCursor& experiment) {
             plan.ratios.push_back({method_named(plan, names[0]), method_named(plan, names[1])});
         }
 
-    plan.steps_s = read_steps(experiment.at("steps"));
+    plan.steps_s = read_step_table(experiment.at("steps"));
     plan.duration_s = experiment.at("duration_s").number({1e-6, 1e6});
     plan.allowed_error = experiment.at("allowed_error").number({1e-6, 1});
     const JsonCursor rest = experiment.at("rest");
