@@ -4,6 +4,7 @@
 
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/implicit_steps.h"
 #include "experiment/muscle_stability.h"
 #include "experiment/stable_step.h"
 #include "experiment/static_resolution.h"
@@ -24,6 +25,7 @@ const std::vector<NamedKind>& kind_table() {
         {"static-resolution", run_static_resolution},
         {"stable-step", run_stable_step},
         {"muscle-stability", run_muscle_stability},
+        {"implicit-steps", run_implicit_steps},
     };
     return table;
 }
@@ -33,6 +35,10 @@ const std::vector<NamedKind>& kind_table() {
 const std::vector<Figure>& figures() {
     static const std::vector<Figure> list = {
         {"5", "Resolution dependent and independent parameters", "equilibrium", 2},
+        {"8a", "Cloth hanging from three corners", "equilibrium", 2},
+        {"8b", "Metal sheet held in two corners, softer on its right half", "equilibrium", 3},
+        {"8c", "Stiff tube held at one end", "equilibrium", 2},
+        {"8d", "Tube softer on its right half", "equilibrium", 3},
         {"8e", "Incompressible cube hanging", "equilibrium", 2},
         {"8f", "Inhomogeneous anisotropic block held at both ends", "equilibrium", 10},
         {"9a", "Change of the sum of volume elements", "volume-history", 240},
@@ -40,6 +46,7 @@ const std::vector<Figure>& figures() {
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 120},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
          "muscle-stability", 120},
+        {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
     };
     return list;

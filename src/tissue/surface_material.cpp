@@ -35,14 +35,6 @@ void check_tensor(const Mat2& tensor, const std::string& place) {
             shown(tensor(1, 0)));
 }
 
-void check_material(const SurfaceMaterial& material, const std::string& place) {
-    check_tensor(material.elastic_n_per_m3, place + "/elastic_n_per_m3");
-    check_tensor(material.damping_ns_per_m3, place + "/damping_ns_per_m3");
-    check_tensor(material.bending_n_per_m, place + "/bending_n_per_m");
-    check_range(material.mass_kg, /*zero_allowed=*/false, place + "/mass_kg");
-    check_range(material.drag_ns_per_m, /*zero_allowed=*/true, place + "/drag_ns_per_m");
-}
-
 /// Four nodes of a cell, counter-clockwise in a.
 std::array<int, 4> cell_nodes(const SurfaceGrid& grid, int i, int j) {
     const int next = (j + 1) % grid.n;
@@ -163,6 +155,14 @@ std::vector<std::array<int, 2>> grid_lines(const SurfaceGrid& grid) {
     return lines;
 }
 
+void check(const SurfaceMaterial& material, const std::string& place) {
+    check_tensor(material.elastic_n_per_m3, place + "/elastic_n_per_m3");
+    check_tensor(material.damping_ns_per_m3, place + "/damping_ns_per_m3");
+    check_tensor(material.bending_n_per_m, place + "/bending_n_per_m");
+    check_range(material.mass_kg, /*zero_allowed=*/false, place + "/mass_kg");
+    check_range(material.drag_ns_per_m, /*zero_allowed=*/true, place + "/drag_ns_per_m");
+}
+
 void check(const GridSurface& surface, const std::string& place) {
     const SurfaceGrid& grid = surface.grid;
     if (grid.m < 2) throw Error(place + "/grid/m", "at least 2 nodes", std::to_string(grid.m));
@@ -182,14 +182,14 @@ void check(const GridSurface& surface, const std::string& place) {
     check_not_folded(surface, place + "/rest");
 
     if (surface.material.size() == 1) {
-        check_material(surface.material.front(), place + "/material");
+        check(surface.material.front(), place + "/material");
         return;
     }
     if (static_cast<int>(surface.material.size()) != grid.size())
         throw Error(place + "/material", "1 material or " + sizes + ", one per node",
                     std::to_string(surface.material.size()));
     for (std::size_t node = 0; node < surface.material.size(); ++node)
-        check_material(surface.material[node], place + "/material/" + std::to_string(node));
+        check(surface.material[node], place + "/material/" + std::to_string(node));
 }
 
 const SurfaceMaterial& material_of(const GridSurface& surface, int node) {
@@ -259,7 +259,6 @@ SheetConstants sheet_constants(const SurfaceMaterial& material, const Vec2& size
     return sheet;
 }
 
-double aligned_hinge_bending(double bending_n_m) { return bending_n_m / 3; }
-double equilateral_hinge_bending(double bending_n_m) { return bending_n_m * 2 / 3; }
+double hinge_bending(double bending_n_m) { return bending_n_m / 3; }
 
 }  // namespace risorius::tissue

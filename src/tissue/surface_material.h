@@ -74,6 +74,7 @@ std::vector<std::array<int, 2>> grid_lines(const SurfaceGrid& grid);
 /// Throws Error with the field named below `place`: too few nodes, wrong sizes, NaN, negative or unsymmetric values, no
 /// mass, a rest shape that is degenerate or folded.
 void check(const GridSurface& surface, const std::string& place);
+void check(const SurfaceMaterial& material, const std::string& place);
 
 const SurfaceMaterial& material_of(const GridSurface& surface, int node);
 Eigen::VectorXd node_mass(const GridSurface& surface);  ///< kg
@@ -107,9 +108,9 @@ SheetConstants sheet_of(double shear_pa, double thickness_m);
 SurfaceMaterial surface_material(const SheetConstants& sheet, const Vec2& size_m);
 SheetConstants sheet_constants(const SurfaceMaterial& material, const Vec2& size_m);
 
-/// The hinge constant k_B of SkinSheet that bends as D does. A hinge sees only the fold along its own edge, so the ratio
-/// depends on the triangles: 1/3 where edges run along and across the fold (exact), 2/3 for equilateral triangles.
-double aligned_hinge_bending(double bending_n_m);
-double equilateral_hinge_bending(double bending_n_m);
+/// The hinge constant k_B of SkinSheet that rolls up as D does: D / 3, exact for hinges of equilateral triangles and for
+/// right-angled ones with edges along and across the roll. Other shapes differ: right-angled triangles twist twice as
+/// stiffly as the plate, equilateral ones resist a bowl by two thirds of it.
+double hinge_bending(double bending_n_m);
 
 }  // namespace risorius::tissue
