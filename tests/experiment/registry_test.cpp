@@ -1,0 +1,96 @@
+// Experiment files: what the registry knows, that all samples read, and what a person reads when one is wrong.
+#include "experiment/registry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiment/experiment_kind.h"
+#include "experiment/samples.h"
+
+namespace risorius::experiment {
+namespace {
+
+/// Reads everything and runs nothing: asked to stop at the first chance.
+void read_only(const JsonCursor& experiment) {
+    RunOptions options;
+    options.stopped = [] { return true; };
+    run_figure(experiment, options);
+}
+
+TEST(Registry, EverySampleReadsWithoutError) {
+    int files = 0;
+    for (const auto& folder : std::filesystem::directory_iterator(samples_folder())) {
+        const auto file = folder.path() / "experiment.json";
+        if (!std::filesystem::exists(file)) continue;
+        ++files;
+        EXPECT_THROW(read_only(JsonCursor::read_file(file)), Interrupted) << file;
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "README.md")) << folder.path();
+    }
+    EXPECT_GE(files, 7);
+}
+
+TEST(Registry, EveryFigureHasItsSampleOfItsKind) {
+    const auto names = kinds();
+    for (const Figure& figure : figures()) {
+        const Json experiment = sample(std::string(figure.id));
+        EXPECT_EQ(experiment.at("figure"), figure.id);
+        EXPECT_EQ(experiment.at("kind"), figure.kind);
+        EXPECT_TRUE(std::find(names.begin(), names.end(), figure.kind) != names.end());
+        EXPECT_GT(figure.run_time_s, 0);
+    }
+}
+
+TEST(Registry, WrongFilesAreNamedWithTheirPlace) {
+    const auto message = [](const char* pointer, Json value) {
+        Json json = sample("5");
+        json[Json::json_pointer(pointer)] = std::move(value);
+        return message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); });
+    };
+    EXPECT_EQ(message("/format", "risorius-script"),
+              "mine.json:/format: expected \"risorius-experiment\", found \"risorius-script\"");
+    EXPECT_EQ(message("/version", 2), "mine.json:/version: expected an integer in [1, 1], found 2");
+    EXPECT_EQ(message("/kind", "equilibria").substr(0, 50),
+              "mine.json:/kind: expected one of \"equilibrium\" \"vol");
+    EXPECT_EQ(message("/body/material/mass_kg", -1),
+              "mine.json (rest):/body/material/mass_kg: expected a number in (0, inf), found -1");
+    EXPECT_EQ(message("/cases/2/change/grid", {4, 4, 1}),
+              "mine.json (raw-4x4x4):/body/grid/2: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/cases/2/name", "rest"),
+              "mine.json:/cases/2/name: expected a name of its own, found \"rest\" again");
+    EXPECT_EQ(message("/steps", 3).substr(0, 26), "mine.json:/steps: expected");
+}
+
+TEST(Registry, ChecksNameWhatWasMeasured) {
+    Json json = sample("5");
+    json["cases"] = Json::array({json["cases"][1]});
+    json["checks"] = Json::parse(R"([{"measured": "length/raw-3x3x3"}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/measured: expected one of \"length_ratio/raw-3x3x3\" "
+              "\"drift_ratio/raw-3x3x3\" \"volume_change_percent/raw-3x3x3\" "
+              "\"greatest_move_m/raw-3x3x3\" \"force_ratio/raw-3x3x3\" \"diverged/raw-3x3x3\", "
+              "found \"length/raw-3x3x3\"");
+
+    json["checks"] =
+        Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2, "high": 1}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/low: expected at most \"high\", which is 1, found 2");
+
+    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2}])");
+    EXPECT_FALSE(run(json).passes()) << "a band it does not meet is a result, not an error";
+}
+
+TEST(Registry, ParallelWorkEndsWithItsFirstFailure) {
+    std::vector<int> done(100, 0);
+    parallel_for(100, 3, [&](int i) { done[static_cast<std::size_t>(i)] = i; });
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i);
+    EXPECT_THROW(parallel_for(10, 2,
+                              [](int i) {
+                                  if (i == 3) throw std::out_of_range("3");
+                              }),
+                 std::out_of_range);
+    parallel_for(0, 2, [](int) { FAIL() << "nothing to do"; });
+}
+
+}  // namespace
+}  // namespace risorius::experiment
