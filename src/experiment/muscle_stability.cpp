@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -90,8 +91,7 @@ Plan read_plan(const JsonCursor& experiment) {
         std::vector<std::string_view> names;
         for (const solve::Method method : plan.methods) names.push_back(solve::name_of(method));
         plan.tension_method = solve::method_named(v->at("method").one_of(names));
-        plan.tension_shortest_s =
-            v->at("shortest_s").number({plan.search.steps_s.back(), plan.search.steps_s.front()});
+        plan.tension_shortest_s = v->at("shortest_s").number({0, plan.search.steps_s.front()});
     }
     return plan;
 }
@@ -114,6 +114,17 @@ double mean_tension(const Plan& plan, double step_s, const RunOptions& options) 
         sum += muscle.tension(state.t_s, state.x);
     }
     return sum / kSamples;
+}
+
+/// Down the table and on below its end: linear theory costs nothing.
+double longest_of_linear_theory(solve::Method method,
+                                const std::vector<std::complex<double>>& lambdas,
+                                const StepSearch& search) {
+    const double ratio = std::pow(10.0, -1.0 / 12);
+    for (double step_s = search.steps_s.front(); step_s > 1e-12; step_s *= ratio)
+        if (stays_bounded(method, lambdas, step_s, search.duration_s, kGrowthToInstability))
+            return step_s;
+    return 0;
 }
 
 struct Results {
@@ -173,12 +184,8 @@ Results run_all(const Plan& plan, const RunOptions& options) {
                  const body::MuscleBody muscle = plan.build(plan.linear_edges[e]);
                  const auto lambdas = small_motions(muscle.body, muscle.body.rest);
                  for (std::size_t m = 0; m < methods; ++m)
-                     for (const double step_s : plan.search.steps_s)
-                         if (stays_bounded(plan.methods[m], lambdas, step_s, plan.search.duration_s,
-                                           kGrowthToInstability)) {
-                             results.linear_s[e * methods + m] = step_s;
-                             break;
-                         }
+                     results.linear_s[e * methods + m] =
+                         longest_of_linear_theory(plan.methods[m], lambdas, plan.search);
              }});
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.work > b.work; });
@@ -290,11 +297,21 @@ void show_longer(const Plan& plan, const Results& results, Outcome& outcome) {
 }
 
 void show_linear(const Plan& plan, const Results& results, Outcome& outcome) {
+    if (plan.linear_edges.empty()) return;
     const std::size_t methods = plan.methods.size();
-    for (std::size_t e = 0; e < plan.linear_edges.size(); ++e)
-        for (std::size_t m = 0; m < methods; ++m)
+    Table table{.name = "longest_step_of_linear_theory", .columns = {"nodes"}, .rows = {}};
+    for (const solve::Method method : plan.methods)
+        table.columns.push_back(std::string(solve::name_of(method)) + "_s");
+    for (std::size_t e = 0; e < plan.linear_edges.size(); ++e) {
+        table.rows.push_back({static_cast<double>(node_count(plan.linear_edges[e]))});
+        for (std::size_t m = 0; m < methods; ++m) {
+            const double step_s = results.linear_s[e * methods + m];
+            table.rows.back().push_back(step_s);
             outcome.measured.add(key("linear_s", plan.methods[m], plan.linear_edges[e]), "s",
-                                 results.linear_s[e * methods + m]);
+                                 step_s);
+        }
+    }
+    outcome.figure.tables.push_back(std::move(table));
 }
 
 void show_tension(const Plan& plan, const Results& results, Outcome& outcome) {
