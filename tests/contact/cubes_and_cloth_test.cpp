@@ -19,14 +19,14 @@ using testing::SoftScene;
 
 constexpr double kGravity = 9.81;
 constexpr double kThickness_m = 1e-3;
-ContactMaterial touch(double slip_speed) {
+ContactMaterial touch(double friction, double slip_speed) {
     return {.stiffness_pa_per_m = stiffness_for(3 * kGravity / 0.01, kThickness_m),
             .thickness_m = kThickness_m,
-            .friction = 0.5,
+            .friction = friction,
             .slip_speed_m_per_s = slip_speed,
             .damping_s = 2e-3};
 }
-const ContactMaterial kTouch = touch(1e-2);
+const ContactMaterial kTouch = touch(0.5, 1e-2);
 
 std::shared_ptr<SurfaceContact> between(SoftScene& scene, const ContactMaterial& material) {
     return scene.add(std::make_shared<SurfaceContact>(scene.state.x, scene.surface(0),
@@ -39,10 +39,10 @@ struct Stack {
     std::shared_ptr<ObstacleContact> floor;
     std::shared_ptr<SurfaceContact> contact;
 
-    Stack(const Vec3& aside, double slip_speed) {
-        const ContactMaterial material = touch(slip_speed);
-        scene.add_block({0, 0, 0.5 * kThickness_m});
-        scene.add_block(Vec3(0, 0, 0.1 + 3e-3) + aside);
+    Stack(const Vec3& aside, const ContactMaterial& material) {
+        constexpr double kViscosity_pa_s = 300;  // rocking dies away within the run
+        scene.add_block({0, 0, 0.5 * kThickness_m}, kViscosity_pa_s);
+        scene.add_block(Vec3(0, 0, 0.1 + 3e-3) + aside, kViscosity_pa_s);
         scene.add_gravity({0, 0, -kGravity});
         contact = between(scene, material);
         floor = scene.add(
@@ -52,7 +52,7 @@ struct Stack {
 };
 
 TEST(StackedCubes, RestOnEachOtherWithTheirWeights) {
-    Stack stack({0.012, -0.007, 0}, 1e-3);
+    Stack stack({0.012, -0.007, 0}, touch(0.5, 1e-3));
     const auto system = stack.scene.system();
     const auto report = testing::implicit_steps(1.0 / 60)->advance(system, stack.scene.state, 1.5);
     EXPECT_TRUE(report.converged);
@@ -65,25 +65,22 @@ TEST(StackedCubes, RestOnEachOtherWithTheirWeights) {
     EXPECT_GT(stack.contact->least_gap_m(x), 0) << "no part of one lies in the other";
     EXPECT_LT(stack.scene.state.v.cwiseAbs().maxCoeff(), 1e-3);
     EXPECT_GT(stack.scene.middle(1).z(), 0.145);
-    EXPECT_NEAR(stack.scene.middle(1).x() - stack.scene.middle(0).x(), 0.012, 2e-3)
-        << "friction keeps it in place";
-    std::printf("force %g, gap %g mm, solves %ld\n", stack.contact->force_on_first(x).z(),
-                1e3 * stack.contact->least_gap_m(x), report.linear_solves);
+    const int top = stack.scene.grid.index(1, 1, 2), bottom = 27 + stack.scene.grid.index(1, 1, 0);
+    EXPECT_NEAR(x(bottom, 0) - x(top, 0), 0.012, 2e-3) << "friction keeps it in place";
 }
 
 TEST(StackedCubes, EndInTheSameStateInExplicitAndImplicitSteps) {
     Points end[2];
     for (const bool is_implicit : {false, true}) {
-        Stack stack({0, 0, 0}, 1e-2);
+        Stack stack({0, 0, 0}, kTouch);
         const auto system = stack.scene.system();
         const auto steps =
             is_implicit ? testing::implicit_steps(1.0 / 120) : testing::explicit_steps(2e-4);
         steps->advance(system, stack.scene.state, 1.0);
         end[is_implicit] = stack.scene.state.x;
     }
-    EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 1e-5);
-    std::printf("z %g all %g\n", (end[0] - end[1]).col(2).cwiseAbs().maxCoeff(),
-                (end[0] - end[1]).cwiseAbs().maxCoeff());
+    // The rims still creep along each other, below the slip speed
+    EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 /// Sum of m v, and of m x cross v about the origin.
@@ -122,8 +119,6 @@ TEST(CollidingCubes, KeepMomentumAndAngularMomentumInExplicitSteps) {
     EXPECT_LT((momentum(scene).first - linear).norm(), 1e-13);
     // The terms turn nothing; Runge-Kutta's own error in the angular momentum is of the order of its accuracy
     EXPECT_LT((momentum(scene).second - angular).norm(), 1e-8 * angular.norm());
-    std::printf("angular drift %g of %g\n", (momentum(scene).second - angular).norm(),
-                angular.norm());
 }
 
 TEST(CollidingCubes, KeepMomentumInImplicitStepsAndDoNotPassThroughEachOther) {
@@ -142,8 +137,6 @@ TEST(CollidingCubes, KeepMomentumInImplicitStepsAndDoNotPassThroughEachOther) {
     EXPECT_LT((momentum(scene).first - linear).norm(), 1e-6);
     // Depth of a blow at 0.6 m/s between cubes of 1 kg
     EXPECT_GT(least, -3e-3);
-    std::printf("least %g mm, momentum drift %g\n", 1e3 * least,
-                (momentum(scene).first - linear).norm());
 }
 
 TEST(CollidingCubes, EndInTheSameBitsInTwoRuns) {
@@ -194,14 +187,14 @@ TEST(Cloth, DrapesOverASphereAndOverAMeshWithoutPassingThrough) {
         make_mesh(rock.positions, rock.triangles, {.cells = 24}), turned);
     for (const auto& obstacle : {ball, block}) {
         Cloth cloth(0.02);
-        // Twenty times the cloth's own weight per area
+        // A hundred times the cloth's own weight per area
         const ContactMaterial material{
-            .stiffness_pa_per_m = stiffness_for(20 * 0.08 * kGravity / 0.16, 2e-3),
+            .stiffness_pa_per_m = stiffness_for(100 * 0.08 * kGravity / 0.16, 2e-3),
             .thickness_m = 2e-3,
             .friction = 0.3,
             .slip_speed_m_per_s = 1e-2};
         const auto contact = std::make_shared<ObstacleContact>(
-            surface_samples(cloth.state.x, cloth.triangles(), 2), obstacle, material);
+            surface_samples(cloth.state.x, cloth.triangles(), 3), obstacle, material);
         solve::MotionSystem system(cloth.mass, std::vector<char>(cloth.mass.size(), 0));
         system.add(std::make_shared<tissue::GridSurfaceTerm>(cloth.sheet));
         system.add(std::make_shared<tissue::Gravity>(cloth.mass));
@@ -209,18 +202,13 @@ TEST(Cloth, DrapesOverASphereAndOverAMeshWithoutPassingThrough) {
         const auto report = testing::implicit_steps(1.0 / 60)->advance(system, cloth.state, 0.8);
         EXPECT_FALSE(report.diverged);
         // Seen by four times as many points as felt the contact
-        const ObstacleContact fine(surface_samples(cloth.sheet.rest, cloth.triangles(), 4),
+        const ObstacleContact fine(surface_samples(cloth.sheet.rest, cloth.triangles(), 6),
                                    obstacle, material);
         EXPECT_GT(contact->least_gap_m(0.8, cloth.state.x), -1e-3);
         EXPECT_GT(fine.least_gap_m(0.8, cloth.state.x), -4e-3);
         EXPECT_GT(contact->touching(0.8, cloth.state.x), 20);
         EXPECT_GT(cloth.state.x.row(7 * 15 + 7).z(), 0.0) << "its middle lies on top";
         EXPECT_LT(cloth.state.x.row(0).z(), -0.05) << "its corners hang";
-        std::printf("least %g fine %g mm, touching %d, corner %g, solves %ld conv %d\n",
-                    1e3 * contact->least_gap_m(0.8, cloth.state.x),
-                    1e3 * fine.least_gap_m(0.8, cloth.state.x),
-                    contact->touching(0.8, cloth.state.x), cloth.state.x(0, 2),
-                    report.linear_solves, report.converged);
     }
 }
 
