@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
 #include "experiment/muscle_stability.h"
@@ -24,6 +25,7 @@ const std::vector<NamedKind>& kind_table() {
         {"static-resolution", run_static_resolution},
         {"stable-step", run_stable_step},
         {"muscle-stability", run_muscle_stability},
+        {"contact", run_contact_scenes},
     };
     return table;
 }
@@ -41,6 +43,7 @@ const std::vector<Figure>& figures() {
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
          "muscle-stability", 120},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
+        {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
     };
     return list;
 }
