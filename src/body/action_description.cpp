@@ -23,22 +23,7 @@ Vec3 direction_of(const JsonCursor& json) {
     return direction.normalized();
 }
 
-contact::ContactMaterial read_contact(const JsonCursor& json) {
-    json.allow_keys(
-        {"stiffness_pa_per_m", "thickness_m", "friction", "slip_speed_m_per_s", "damping_s"});
-    contact::ContactMaterial material;
-    if (const auto value = json.find("stiffness_pa_per_m"))
-        material.stiffness_pa_per_m = detail::positive(*value);
-    if (const auto value = json.find("thickness_m"))
-        material.thickness_m = detail::positive(*value);
-    material.friction = detail::not_negative(json, "friction", material.friction);
-    if (const auto value = json.find("slip_speed_m_per_s"))
-        material.slip_speed_m_per_s = detail::positive(*value);
-    material.damping_s = detail::not_negative(json, "damping_s", material.damping_s);
-    return material;
-}
-
-std::shared_ptr<const contact::Obstacle> read_obstacle(const JsonCursor& json) {
+std::shared_ptr<const contact::Obstacle> read_shape(const JsonCursor& json) {
     if (const auto plane = json.find("plane")) {
         plane->allow_keys({"point_m", "normal"});
         return std::make_shared<contact::Obstacle>(
@@ -60,6 +45,21 @@ std::shared_ptr<const contact::Obstacle> read_obstacle(const JsonCursor& json) {
 }
 
 }  // namespace
+
+contact::ContactMaterial read_contact(const JsonCursor& json) {
+    json.allow_keys(
+        {"stiffness_pa_per_m", "thickness_m", "friction", "slip_speed_m_per_s", "damping_s"});
+    contact::ContactMaterial material;
+    if (const auto value = json.find("stiffness_pa_per_m"))
+        material.stiffness_pa_per_m = detail::positive(*value);
+    if (const auto value = json.find("thickness_m"))
+        material.thickness_m = detail::positive(*value);
+    material.friction = detail::not_negative(json, "friction", material.friction);
+    if (const auto value = json.find("slip_speed_m_per_s"))
+        material.slip_speed_m_per_s = detail::positive(*value);
+    material.damping_s = detail::not_negative(json, "damping_s", material.damping_s);
+    return material;
+}
 
 std::vector<SpringDescription> read_springs(const JsonCursor& json, int axes) {
     std::vector<SpringDescription> springs;
@@ -101,18 +101,19 @@ std::vector<PulseDescription> read_pulses(const JsonCursor& json, int axes) {
     return pulses;
 }
 
+ObstacleDescription read_obstacle(const JsonCursor& json) {
+    json.allow_keys({"plane", "sphere", "capsule", "contact"});
+    const int shapes = json.has("plane") + json.has("sphere") + json.has("capsule");
+    if (shapes != 1)
+        json.fail("one of \"plane\", \"sphere\" and \"capsule\"", shapes == 0 ? "none" : "several");
+    ObstacleDescription one{.obstacle = read_shape(json), .contact = {}};
+    if (const auto contact = json.find("contact")) one.contact = read_contact(*contact);
+    return one;
+}
+
 std::vector<ObstacleDescription> read_obstacles(const JsonCursor& json) {
     std::vector<ObstacleDescription> obstacles;
-    for (const JsonCursor& entry : json.items()) {
-        entry.allow_keys({"plane", "sphere", "capsule", "contact"});
-        const int shapes = entry.has("plane") + entry.has("sphere") + entry.has("capsule");
-        if (shapes != 1)
-            entry.fail("one of \"plane\", \"sphere\" and \"capsule\"",
-                       shapes == 0 ? "none" : "several");
-        ObstacleDescription one{.obstacle = read_obstacle(entry), .contact = {}};
-        if (const auto contact = entry.find("contact")) one.contact = read_contact(*contact);
-        obstacles.push_back(std::move(one));
-    }
+    for (const JsonCursor& entry : json.items()) obstacles.push_back(read_obstacle(entry));
     return obstacles;
 }
 

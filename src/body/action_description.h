@@ -38,6 +38,9 @@ struct ObstacleDescription {
 /// `axes` of the body, 2 or 3.
 std::vector<SpringDescription> read_springs(const JsonCursor& json, int axes);
 std::vector<PulseDescription> read_pulses(const JsonCursor& json, int axes);
+ObstacleDescription read_obstacle(const JsonCursor& json);
 std::vector<ObstacleDescription> read_obstacles(const JsonCursor& json);
+/// Fields of ContactMaterial; what is left out has its default.
+contact::ContactMaterial read_contact(const JsonCursor& json);
 
 }  // namespace risorius::body

@@ -36,6 +36,9 @@ class SurfaceContact : public solve::ForceTerm {
     SurfaceContact(const Points& rest, std::vector<ContactSample> samples, const Triangles& closed,
                    const ContactMaterial& material, const SurfaceContactOptions& options = {});
 
+    SurfaceContact(const SurfaceContact&) = delete;  // pairs point into the object
+    SurfaceContact& operator=(const SurfaceContact&) = delete;
+
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
     double energy(double t_s, const Points& x) const override;

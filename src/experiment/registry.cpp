@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
 #include "experiment/implicit_steps.h"
@@ -26,6 +27,7 @@ const std::vector<NamedKind>& kind_table() {
         {"stable-step", run_stable_step},
         {"muscle-stability", run_muscle_stability},
         {"implicit-steps", run_implicit_steps},
+        {"contact", run_contact_scenes},
     };
     return table;
 }
@@ -48,6 +50,7 @@ const std::vector<Figure>& figures() {
          "muscle-stability", 120},
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
+        {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
     };
     return list;
 }

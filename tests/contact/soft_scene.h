@@ -25,9 +25,10 @@ struct SoftScene {
     int blocks = 0;
 
     /// With its lowest corner at `low`.
-    void add_block(const Vec3& low, double shear_pa = 2e4) {
+    void add_block(const Vec3& low, double viscosity_pa_s = 50) {
+        const double shear_pa = 2e4;
         const auto shape = [=](const Vec3& a) { return Vec3(low + kSide_m * a); };
-        const tissue::CellModuli moduli{shear_pa, 5 * shear_pa, 50};
+        const tissue::CellModuli moduli{shear_pa, 5 * shear_pa, viscosity_pa_s};
         auto body = tissue::cell_body(tissue::uniform_cells(grid), shape, moduli,
                                       kMass_kg / (kSide_m * kSide_m * kSide_m));
         const int first = static_cast<int>(state.x.rows()), count = grid.size();

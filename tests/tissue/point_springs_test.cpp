@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "core/error.h"
 #include "force_term_checks.h"
+#include "solve/integrator.h"
 #include "tissue/grid_point.h"
 
 namespace risorius::tissue {
@@ -163,6 +165,34 @@ TEST(InteractiveSpring, FollowsTheCallerFromTheNextStepOnAndLetsGo) {
     spring.begin_step(0.2, 0.1, x, v);
     EXPECT_FALSE(spring.attached());
     EXPECT_EQ(spring.energy(0.2, x), 0.0);
+}
+
+TEST(InteractiveSpring, TakesABodyAlongInEveryKindOfStepAndThenLetsItFly) {
+    for (const solve::Method method : {solve::Method::kRungeKutta4, solve::Method::kTerzopoulos,
+                                       solve::Method::kImplicitEuler}) {
+        const auto spring = std::make_shared<InteractiveSpring>(100.0, 2.0);
+        solve::MotionSystem system(Eigen::VectorXd::Constant(2, 0.01), {0, 0});
+        system.add(spring);
+        solve::MotionState state{0, Points::Zero(2, 3), Points::Zero(2, 3)};
+        const auto steps = solve::make_integrator({.method = method, .step_s = 1e-3});
+
+        // Pulled at the middle of the two: both follow alike
+        spring->attach(NodeBlend({0, 1}, {0.5, 0.5}), {0, 0, 1});
+        steps->advance(system, state, 1.0);
+        EXPECT_LT((state.x.row(0) - Eigen::RowVector3d(0, 0, 1)).norm(), 1e-3);
+        spring->move({2, 0, 1});
+        steps->advance(system, state, 2.0);
+        EXPECT_LT((state.x.row(1) - Eigen::RowVector3d(2, 0, 1)).norm(), 1e-3);
+
+        spring->move({3, 0, 1});
+        steps->advance(system, state, 2.02);
+        spring->release();
+        steps->advance(system, state, 2.021);
+        const Points v = state.v;
+        EXPECT_GT(v(0, 0), 1.0);
+        steps->advance(system, state, 2.1);
+        EXPECT_LT((state.v - v).norm(), 1e-9) << "nothing holds it any more";
+    }
 }
 
 TEST(InteractiveSpring, RefusesNegativeStiffness) {
