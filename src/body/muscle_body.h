@@ -17,6 +17,7 @@
 #include "body/body_description.h"
 #include "body/soft_body.h"
 #include "muscle/musculotendon.h"
+#include "tissue/cell_body.h"
 
 namespace risorius::body {
 
