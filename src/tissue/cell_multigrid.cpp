@@ -23,12 +23,13 @@ struct CellMultigrid::Level {
     std::vector<char> fixed;
     std::vector<detail::CellBlockLaw> laws;  ///< one per cell
     std::unique_ptr<BlockMatrix> matrix;
-    std::vector<std::array<std::int32_t, 64>> plain_slots;  ///< of cells without hanging corners
+    std::vector<std::array<std::int32_t, 64>>
+        plain_slots;  ///< of cells without hanging corners, v < w
     std::vector<int> plain_cells;
     struct HangingCell {
         int cell;
         CellMesh::Support support;
-        std::vector<std::int32_t> slots;  ///< count x count
+        std::vector<std::int32_t> slots;  ///< count x count, where node i < node j
     };
     std::vector<HangingCell> hanging_cells;
     std::vector<float> diagonal;  ///< M/h^2 and the other terms, per node
@@ -47,6 +48,21 @@ struct CellMultigrid::Level {
 
     explicit Level(CellBody of) : body(std::move(of)) {}
 };
+
+namespace {
+
+void add_to(Block& to, const Block& block) {
+    for (int c = 0; c < 3; ++c) to.column[c] += block.column[c];
+}
+
+Block transposed(const Block& block) {
+    Block out{};
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) out.column[r][c] = block.column[c][r];
+    return out;
+}
+
+}  // namespace
 
 CellMesh coarser(const CellMesh& mesh) {
     std::vector<CellPlace> cells;
@@ -150,8 +166,10 @@ CellMultigrid::CellMultigrid(const solve::MotionSystem& system,
         std::vector<std::vector<int>> cliques;
         for (const CellMesh::Cell& cell : mesh.cells()) cliques.push_back(mesh.support(cell).node);
         level.matrix = std::make_unique<BlockMatrix>(mesh.node_count(), cliques);
+        // Corners and nodes ascend alike, so that blocks above the diagonal of a cell are so in the matrix
         const auto slot = [&](int i, int j) {
-            return fixed[static_cast<std::size_t>(i)] || fixed[static_cast<std::size_t>(j)]
+            return i >= j ? level.matrix->spare_slot()
+                   : fixed[static_cast<std::size_t>(i)] || fixed[static_cast<std::size_t>(j)]
                        ? level.matrix->spare_slot()
                        : level.matrix->slot(i, j);
         };
@@ -246,10 +264,10 @@ void CellMultigrid::refresh(const solve::ImplicitStep& /*step*/, const Points& x
             const auto c = static_cast<std::size_t>(level.plain_cells[k]);
             detail::cell_blocks(level.laws[c], mesh.cells()[c], level.positions, blocks);
             const auto& slots = level.plain_slots[k];
-            for (std::size_t s = 0; s < 64; ++s) {
-                Block& to = matrix.block(slots[s]);
-                for (int column = 0; column < 3; ++column)
-                    to.column[column] += blocks[s].column[column];
+            for (std::size_t v = 0; v < 8; ++v) {
+                add_to(matrix.diagonal(mesh.cells()[c].vertex[v]), blocks[9 * v]);
+                for (std::size_t w = v + 1; w < 8; ++w)
+                    matrix.add(slots[8 * v + w], blocks[8 * v + w]);
             }
         }
         for (const Level::HangingCell& hanging : level.hanging_cells) {
@@ -258,17 +276,24 @@ void CellMultigrid::refresh(const solve::ImplicitStep& /*step*/, const Points& x
             const std::size_t count = hanging.support.node.size();
             for (std::size_t i = 0; i < count; ++i)
                 for (std::size_t j = 0; j < count; ++j) {
-                    Block& to = matrix.block(hanging.slots[i * count + j]);
+                    if (hanging.support.node[i] > hanging.support.node[j]) continue;
+                    Block sum{};
                     for (int v = 0; v < 8; ++v)
                         for (int w = 0; w < 8; ++w) {
                             const double both =
                                 hanging.support.weight(v, static_cast<Eigen::Index>(i)) *
                                 hanging.support.weight(w, static_cast<Eigen::Index>(j));
                             if (both == 0) continue;
+                            const Block part =
+                                v <= w ? blocks[8 * v + w] : transposed(blocks[8 * w + v]);
                             for (int column = 0; column < 3; ++column)
-                                to.column[column] +=
-                                    static_cast<float>(both) * blocks[8 * v + w].column[column];
+                                sum.column[column] +=
+                                    static_cast<float>(both) * part.column[column];
                         }
+                    if (i == j)
+                        add_to(matrix.diagonal(hanging.support.node[i]), sum);
+                    else
+                        matrix.add(hanging.slots[i * count + j], sum);
                 }
         }
         for (int i = 0; i < mesh.node_count(); ++i) {
@@ -286,12 +311,14 @@ void CellMultigrid::refresh(const solve::ImplicitStep& /*step*/, const Points& x
         Eigen::MatrixXf dense = Eigen::MatrixXf::Zero(3 * free, 3 * free);
         for (Eigen::Index i = 0; i < free; ++i)
             for (Eigen::Index j = 0; j <= i; ++j) {
-                const int at = matrix.slot(level.free_nodes[static_cast<std::size_t>(i)],
-                                           level.free_nodes[static_cast<std::size_t>(j)]);
+                const int row = level.free_nodes[static_cast<std::size_t>(i)];
+                const int column = level.free_nodes[static_cast<std::size_t>(j)];
+                const int at = i == j ? 0 : matrix.slot(column, row);
                 if (at < 0) continue;
+                // block (column, row) lies above the diagonal, dense below it
+                const Block block = i == j ? matrix.diagonal(row) : transposed(matrix.block(at));
                 for (int r = 0; r < 3; ++r)
-                    for (int c = 0; c < 3; ++c)
-                        dense(3 * i + r, 3 * j + c) = matrix.block(at).column[c][r];
+                    for (int c = 0; c < 3; ++c) dense(3 * i + r, 3 * j + c) = block.column[c][r];
             }
         level.direct.compute(dense);
     }
@@ -317,10 +344,7 @@ void CellMultigrid::cycle(std::size_t l) const {
     }
     const BlockMatrix& matrix = *level.matrix;
     matrix.forward_from_zero(level.b, level.x, level.r);
-    if (options_.sweeps > 1) {
-        for (int s = 1; s < options_.sweeps; ++s) matrix.forward(level.b, level.x);
-        matrix.residual(level.b, level.x, level.r);
-    }
+    for (int s = 1; s < options_.sweeps; ++s) matrix.forward(level.b, level.x, level.r);
     const Level& next = *levels_[l + 1];
     next.b.assign(static_cast<std::size_t>(next.body.mesh.node_count()), FloatRow{});
     const std::size_t n = level.b.size();
@@ -339,7 +363,7 @@ void CellMultigrid::cycle(std::size_t l) const {
         }
         level.x[i] = sum;
     }
-    for (int s = 0; s < options_.sweeps; ++s) matrix.backward(level.b, level.x);
+    for (int s = 0; s < options_.sweeps; ++s) matrix.backward(level.b, level.x, level.r);
 }
 
 void CellMultigrid::apply(const Points& b, Points& x) const {
@@ -377,7 +401,7 @@ double CellMultigrid::apply_flops() const {
             const double n = 3.0 * static_cast<double>(level->free_nodes.size());
             sum += 2 * n * n;
         } else {
-            sum += 18.0 * 2 * options_.sweeps * level->matrix->spare_slot();
+            sum += 18.0 * 4 * options_.sweeps * static_cast<double>(level->matrix->block_count());
         }
     }
     return sum;

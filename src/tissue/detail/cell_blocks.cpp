@@ -168,10 +168,10 @@ void cell_blocks(const CellBlockLaw& law, const CellMesh::Cell& cell, const Poin
             p = wj ? p - paired[0] : p + paired[0];
             p = wk ? p - paired[1] : p + paired[1];
             const Block same = p + o, other = p - o;
-            blocks[8 * v + w] = same + outer(gradient[v], gradient[w]);
-            blocks[8 * (7 - v) + 7 - w] = same + outer(gradient[7 - v], gradient[7 - w]);
+            if (v <= w) blocks[8 * v + w] = same + outer(gradient[v], gradient[w]);
+            if (v >= w)
+                blocks[8 * (7 - v) + 7 - w] = same + outer(gradient[7 - v], gradient[7 - w]);
             blocks[8 * v + 7 - w] = other + outer(gradient[v], gradient[7 - w]);
-            blocks[8 * (7 - v) + w] = other + outer(gradient[7 - v], gradient[w]);
         }
     }
 }

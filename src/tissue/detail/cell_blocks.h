@@ -22,7 +22,7 @@ constexpr double kCellBlockFlops = 4500;  ///< about, of one cell
 CellBlockLaw cell_block_law(const CellBody& body, int cell, const Points& rest_vertices,
                             double rate_hz);
 
-/// Block 8 v + w belongs to corners v and w.
+/// Block 8 v + w belongs to corners v and w; written for v <= w only.
 void cell_blocks(const CellBlockLaw& law, const CellMesh::Cell& cell, const Points& vertices,
                  solve::Block (&blocks)[64]);
 
