@@ -8,7 +8,7 @@
 namespace risorius::solve {
 
 // direction_ = -H gradient_, H the L-BFGS inverse with A^-1 at its core (Nocedal's two loops).
-void QuasiNewton::direction(const SparseCholesky& metric) {
+void QuasiNewton::direction(const InverseMetric& metric) {
     const int ring = static_cast<int>(pairs_.size());
     const auto pair = [&](int age) -> Pair& {
         return pairs_[static_cast<std::size_t>((newest_ - age + ring) % ring)];
@@ -19,7 +19,7 @@ void QuasiNewton::direction(const SparseCholesky& metric) {
         p.alpha = p.inverse_product * dot(p.step, work_);
         work_ -= p.alpha * p.gradient_change;
     }
-    metric.solve(work_, direction_);
+    metric(work_, direction_);
     for (int age = kept_ - 1; age >= 0; --age) {
         const Pair& p = pair(age);
         const double beta = p.inverse_product * dot(p.gradient_change, direction_);
@@ -29,6 +29,12 @@ void QuasiNewton::direction(const SparseCholesky& metric) {
 }
 
 StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCholesky& metric,
+                                 Points& x, const QuasiNewtonOptions& options) {
+    return minimise(
+        energy, [&](const Points& b, Points& y) { metric.solve(b, y); }, x, options);
+}
+
+StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseMetric& metric,
                                  Points& x, const QuasiNewtonOptions& options) {
     const long n = x.rows();
     pairs_.resize(static_cast<std::size_t>(std::max(options.memory, 0)));

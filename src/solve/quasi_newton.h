@@ -17,6 +17,9 @@ namespace risorius::solve {
 /// Returns E(x) and writes dE/dx (n x 3). Rows of fixed nodes must be zero.
 using EnergyAndGradient = std::function<double(const Points& x, Points& gradient)>;
 
+/// x = B b with B symmetric, positive definite and near the inverse of the second derivative.
+using InverseMetric = std::function<void(const Points& b, Points& x)>;
+
 struct QuasiNewtonOptions {
     int iterations = 6;        ///< at most
     int least_iterations = 0;  ///< before the tolerance may stop it
@@ -45,6 +48,8 @@ class QuasiNewton {
   public:
     StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                         const QuasiNewtonOptions& options);
+    StepReport minimise(const EnergyAndGradient& energy, const InverseMetric& metric, Points& x,
+                        const QuasiNewtonOptions& options);
 
   private:
     struct Pair {
@@ -53,7 +58,7 @@ class QuasiNewton {
         double inverse_product;  ///< 1 / (s . y)
         double alpha;
     };
-    void direction(const SparseCholesky& metric);
+    void direction(const InverseMetric& metric);
 
     std::vector<Pair> pairs_;  ///< ring of options.memory pairs
     int newest_ = 0;
