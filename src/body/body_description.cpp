@@ -1,254 +1,276 @@
 #include "body/body_description.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <stdexcept>
 
-#include "tissue/grid_shape.h"
+#include "body/detail/read_numbers.h"
 
 namespace risorius::body {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using detail::not_negative;
+using detail::positive;
+
 constexpr int kMostNodesPerAxis = 1000;
 
-const std::vector<Quantity>& solid_quantities() {
-    static const std::vector<Quantity> list = {
+const std::vector<Quantity>& quantities_of(Kind kind) {
+    static const std::vector<Quantity> solid = {
         {"elastic", "elastic_n_per_m3", 3},
         {"damping", "damping_ns_per_m3", 3},
         {"incompressibility", "incompressibility_n_per_m5", 0},
         {"mass", "mass_kg", 0},
         {"drag", "drag_ns_per_m", 0}};
-    return list;
+    static const std::vector<Quantity> surface = {{"elastic", "elastic_n_per_m3", 2},
+                                                  {"damping", "damping_ns_per_m3", 2},
+                                                  {"bending", "bending_n_per_m", 2},
+                                                  {"mass", "mass_kg", 0},
+                                                  {"drag", "drag_ns_per_m", 0}};
+    return kind == Kind::kSolid ? solid : surface;
 }
 
-double positive(const JsonCursor& json) {
-    if (!json.is_number() || !(json.number() > 0)) json.fail("a number in (0, inf)");
-    return json.number();
+int axes_of(Kind kind) { return kind == Kind::kSolid ? 3 : 2; }
+
+Kind read_kind(const JsonCursor& json) {
+    const std::string name = json.one_of({"solid", "surface", "cylinder"});
+    return name == "solid" ? Kind::kSolid : name == "surface" ? Kind::kSurface : Kind::kCylinder;
 }
 
-double not_negative(const JsonCursor& json) { return json.number({0, kInfinity}); }
-
-double not_negative(const JsonCursor& json, std::string_view key, double otherwise) {
-    const auto found = json.find(key);
-    return found ? not_negative(*found) : otherwise;
-}
-
-tissue::GridShape read_grid(const JsonCursor& json) {
+tissue::GridShape read_grid(const JsonCursor& json, Kind kind) {
     const auto counts = json.items();
-    if (counts.size() != 3) json.fail("three numbers of nodes, one per axis");
-    const auto count = [&](std::size_t axis) { return counts[axis].integer(2, kMostNodesPerAxis); };
-    return {.m = count(0), .n = count(1), .o = count(2)};
+    const int axes = axes_of(kind);
+    if (static_cast<int>(counts.size()) != axes)
+        json.fail(std::string(axes == 3 ? "three" : "two") + " numbers of nodes, one per axis");
+    const auto count = [&](std::size_t axis) {
+        // Round a tube two nodes would lie on one line.
+        const int least = kind == Kind::kCylinder && axis == 1 ? 3 : 2;
+        return counts[axis].integer(least, kMostNodesPerAxis);
+    };
+    return {.m = count(0), .n = count(1), .o = axes == 3 ? count(2) : 1};
 }
 
-RestDescription read_rest(const JsonCursor& json, const tissue::GridShape& grid) {
-    json.allow_keys({"block_m", "cylinder", "points_m", "at_m", "turn"});
-    RestDescription rest;
-    const int forms = json.has("block_m") + json.has("cylinder") + json.has("points_m");
-    if (forms != 1)
-        json.fail("one of \"block_m\", \"cylinder\" and \"points_m\"",
-                  forms == 0 ? "none" : "several");
-
-    if (const auto block = json.find("block_m")) {
-        rest.form = RestDescription::Form::kBlock;
-        rest.block_m = block->vec3();
-        for (const JsonCursor& edge : block->items()) positive(edge);
-    } else if (const auto cylinder = json.find("cylinder")) {
-        cylinder->allow_keys({"radius_m", "length_m"});
-        rest.form = RestDescription::Form::kCylinder;
-        rest.radius_m = positive(cylinder->at("radius_m"));
-        rest.length_m = positive(cylinder->at("length_m"));
-    } else {
-        rest.form = RestDescription::Form::kPoints;
-        const JsonCursor points = json.at("points_m");
-        const auto rows = points.items();
-        if (static_cast<int>(rows.size()) != grid.size())
-            points.fail(std::to_string(grid.size()) + " points, one per node of the grid",
-                        std::to_string(rows.size()));
-        rest.points_m.resize(grid.size(), 3);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            rest.points_m.row(static_cast<long>(i)) = rows[i].vec3().transpose();
-    }
-
-    if (const auto at = json.find("at_m")) rest.at_m = at->vec3();
-    if (const auto turn = json.find("turn")) {
-        turn->allow_keys({"axis", "angle_deg"});
-        rest.turn_axis = turn->at("axis").vec3();
-        if (!(rest.turn_axis.norm() > 0)) turn->at("axis").fail("a direction");
-        rest.turn_axis.normalize();
-        rest.turn_deg = turn->at("angle_deg").number({-360, 360});
-    }
-    return rest;
+tissue::Parameters read_parameters(const JsonCursor& material, std::string_view key) {
+    const auto json = material.find(key);
+    if (!json) return tissue::Parameters::kResolutionIndependent;
+    return json->one_of({"resolution-independent", "per-node"}) == "per-node"
+               ? tissue::Parameters::kPerNode
+               : tissue::Parameters::kResolutionIndependent;
 }
 
-tissue::SolidMaterial read_solid_material(const JsonCursor& json) {
+void read_solid_material(const JsonCursor& json, BodyDescription& body) {
     json.allow_keys({"mass_kg", "elastic_n_per_m3", "damping_ns_per_m3",
                      "incompressibility_n_per_m5", "drag_ns_per_m", "parameters"});
-    tissue::SolidMaterial material;
+    tissue::SolidMaterial& material = body.material;
     material.mass_kg = positive(json.at("mass_kg"));
     material.elastic_n_per_m3 = read_tensor(json.at("elastic_n_per_m3"), 3);
     if (const auto damping = json.find("damping_ns_per_m3"))
         material.damping_ns_per_m3 = read_tensor(*damping, 3);
     material.incompressibility_n_per_m5 = not_negative(json, "incompressibility_n_per_m5", 0);
     material.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
-    return material;
+    body.parameters = read_parameters(json, "parameters");
+    if (body.parameters == tissue::Parameters::kPerNode &&
+        body.discretisation == Discretisation::kCells)
+        json.at("parameters").fail("\"resolution-independent\", which is all that cells know");
+}
+
+void read_surface_material(const JsonCursor& json, BodyDescription& body) {
+    json.allow_keys({"mass_kg", "elastic_n_per_m3", "damping_ns_per_m3", "bending_n_per_m",
+                     "drag_ns_per_m", "parameters", "bending_parameters"});
+    tissue::SurfaceMaterial& material = body.surface;
+    const auto tensor = [](const JsonCursor& entry) -> tissue::Mat2 {
+        return read_tensor(entry, 2).topLeftCorner<2, 2>();
+    };
+    material.mass_kg = positive(json.at("mass_kg"));
+    material.elastic_n_per_m3 = tensor(json.at("elastic_n_per_m3"));
+    if (const auto damping = json.find("damping_ns_per_m3"))
+        material.damping_ns_per_m3 = tensor(*damping);
+    if (const auto bending = json.find("bending_n_per_m"))
+        material.bending_n_per_m = tensor(*bending);
+    material.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
+    body.parameters = read_parameters(json, "parameters");
+    body.bending_parameters = read_parameters(json, "bending_parameters");
 }
 
 bool has_moduli(const JsonCursor& material) {
-    return material.has("shear_pa") || material.has("young_pa") || material.has("bulk_pa") ||
+    return material.has("shear_pa") || material.has("young_pa") ||
            material.has("density_kg_per_m3");
 }
 
-/// The elastic part is that of Lame's mu alone and K (J - 1)^2 / 2 adds to lambda, so that E = mu (3 K + 2 mu) / (K + mu).
-double shear_of_young(double young_pa, double bulk_pa) {
-    const double b = 3 * bulk_pa - young_pa;
-    return (std::sqrt(b * b + 8 * young_pa * bulk_pa) - b) / 4;
-}
-
 ModuliDescription read_moduli(const JsonCursor& json) {
-    json.allow_keys({"shear_pa", "young_pa", "bulk_pa", "density_kg_per_m3", "viscosity_pa_s",
-                     "drag_ns_per_m"});
+    json.allow_keys({"shear_pa", "bulk_pa", "young_pa", "poisson_ratio", "density_kg_per_m3",
+                     "viscosity_pa_s", "drag_ns_per_m"});
+    const bool by_young = json.has("young_pa");
+    if (by_young == json.has("shear_pa"))
+        json.fail("either \"shear_pa\" and \"bulk_pa\" or \"young_pa\" and \"poisson_ratio\"",
+                  by_young ? "both" : "neither");
     ModuliDescription moduli;
-    if (json.has("shear_pa") == json.has("young_pa"))
-        json.fail("one of \"shear_pa\" and \"young_pa\"", json.has("shear_pa") ? "both" : "none");
-    moduli.bulk_pa = not_negative(json, "bulk_pa", 0);
-    if (json.has("shear_pa"))
-        moduli.shear_pa = positive(json.at("shear_pa"));
-    else
-        moduli.shear_pa = shear_of_young(positive(json.at("young_pa")), moduli.bulk_pa);
+    const double stiffness = positive(json.at(by_young ? "young_pa" : "shear_pa"));
+    const JsonCursor second = json.at(by_young ? "poisson_ratio" : "bulk_pa");
+    try {
+        moduli.elastic = by_young ? tissue::moduli_of_young(stiffness, second.number())
+                                  : tissue::moduli_of_bulk(stiffness, second.number());
+    } catch (const std::invalid_argument&) {
+        second.fail(by_young ? "a number in [0, 0.5)"
+                             : "at least two thirds of the shear modulus, " +
+                                   format_number(2 * stiffness / 3));
+    }
     moduli.density_kg_per_m3 = positive(json.at("density_kg_per_m3"));
     moduli.viscosity_pa_s = not_negative(json, "viscosity_pa_s", 0);
     moduli.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
     return moduli;
 }
 
-void change_material(tissue::SolidMaterial& material, const MaterialChange& change, double share) {
-    const auto apply = [&](auto& value) { value = changed(value, change, share); };
-    if (change.quantity == "elastic") apply(material.elastic_n_per_m3);
-    if (change.quantity == "damping") apply(material.damping_ns_per_m3);
-    if (change.quantity == "incompressibility") apply(material.incompressibility_n_per_m5);
-    if (change.quantity == "mass") apply(material.mass_kg);
-    if (change.quantity == "drag") apply(material.drag_ns_per_m);
-}
-
-Rigid placed(const RestDescription& rest) {
-    Rigid place = Rigid::Identity();
-    place.rotate(Eigen::AngleAxisd(rest.turn_deg * std::numbers::pi / 180, rest.turn_axis));
-    place.translation() = rest.at_m;
-    return place;
-}
-
-Points rest_points(const RestDescription& rest, const tissue::GridShape& grid) {
-    const Rigid place = placed(rest);
-    if (rest.form == RestDescription::Form::kBlock)
-        return tissue::block_rest(grid, rest.block_m, place);
-    if (rest.form == RestDescription::Form::kCylinder)
-        return tissue::cylinder_rest(grid, rest.radius_m, rest.length_m, place);
-    Points points = rest.points_m;
-    for (long i = 0; i < points.rows(); ++i)
-        points.row(i) = (place * Vec3(points.row(i).transpose())).transpose();
-    return points;
-}
-
-/// lambda_ij = mu V0 / (Li^2 Lj^2), and so omega of the viscosity; psi = K / (2 V0), which differences spread over cells.
 tissue::SolidMaterial material_of_block(const ModuliDescription& moduli, const Vec3& edges_m,
                                         const tissue::GridShape& grid,
                                         Discretisation discretisation) {
-    const double volume = edges_m.prod();
+    const double volume_m3 = edges_m.prod(), k_pa = moduli.elastic.volume_pa;
     tissue::SolidMaterial material;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            const double edges = edges_m[i] * edges_m[j];
-            material.elastic_n_per_m3(i, j) = moduli.shear_pa * volume / (edges * edges);
-            material.damping_ns_per_m3(i, j) = moduli.viscosity_pa_s * volume / (edges * edges);
-        }
-    material.incompressibility_n_per_m5 = moduli.bulk_pa / (2 * volume);
-    if (discretisation == Discretisation::kDifferences)
-        material.incompressibility_n_per_m5 *= grid.spacing(0) * grid.spacing(1) * grid.spacing(2);
-    material.mass_kg = moduli.density_kg_per_m3 * volume;
+    material.elastic_n_per_m3 = tissue::block_tensor(moduli.elastic.shear_pa, edges_m);
+    material.damping_ns_per_m3 = tissue::block_tensor(moduli.viscosity_pa_s, edges_m);
+    material.incompressibility_n_per_m5 =
+        discretisation == Discretisation::kCells
+            ? tissue::incompressibility(k_pa, volume_m3)
+            : tissue::nodal_incompressibility(k_pa, volume_m3, grid);
+    material.mass_kg = moduli.density_kg_per_m3 * volume_m3;
     material.drag_ns_per_m = moduli.drag_ns_per_m;
     return material;
+}
+
+void change_tensor(Mat3& tensor, const MaterialChange& change, double share) {
+    tensor = changed(tensor, change, share);
+}
+
+void change_tensor(tissue::Mat2& tensor, const MaterialChange& change, double share) {
+    Mat3 whole = Mat3::Zero();
+    whole.topLeftCorner<2, 2>() = tensor;
+    tensor = changed(whole, change, share).topLeftCorner<2, 2>();
+}
+
+/// What solids and surfaces have in common.
+template <typename Material>
+void change_shared(Material& material, const MaterialChange& change, double share) {
+    if (change.quantity == "elastic") change_tensor(material.elastic_n_per_m3, change, share);
+    if (change.quantity == "damping") change_tensor(material.damping_ns_per_m3, change, share);
+    if (change.quantity == "mass") material.mass_kg = changed(material.mass_kg, change, share);
+    if (change.quantity == "drag")
+        material.drag_ns_per_m = changed(material.drag_ns_per_m, change, share);
+}
+
+void change_own(tissue::SolidMaterial& material, const MaterialChange& change, double share) {
+    if (change.quantity == "incompressibility")
+        material.incompressibility_n_per_m5 =
+            changed(material.incompressibility_n_per_m5, change, share);
+}
+
+void change_own(tissue::SurfaceMaterial& material, const MaterialChange& change, double share) {
+    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, share);
+}
+
+/// One material, or one per node where regions change it.
+template <typename Material>
+std::vector<Material> material_field(const BodyDescription& description, const Material& whole) {
+    if (description.regions.empty()) return {whole};
+    std::vector<Material> field(static_cast<std::size_t>(description.grid.size()), whole);
+    for_each_change(description.regions, description.grid,
+                    [&](int node, const MaterialChange& change, double share) {
+                        Material& material = field[static_cast<std::size_t>(node)];
+                        change_shared(material, change, share);
+                        change_own(material, change, share);
+                    });
+    return field;
 }
 
 }  // namespace
 
 BodyDescription read_body(const JsonCursor& json) {
-    json.allow_keys({"kind", "discretisation", "grid", "rest", "material", "regions", "fixed",
-                     "gravity_m_per_s2"});
     BodyDescription body;
     body.place = json.place();
-    json.at("kind").one_of({"solid"});
-    body.grid = read_grid(json.at("grid"));
-    body.rest = read_rest(json.at("rest"), body.grid);
+    body.kind = read_kind(json.at("kind"));
+    std::vector<std::string_view> known = {
+        "kind",    "grid",   "rest",     "material", "regions", "fixed", "gravity_m_per_s2",
+        "springs", "pulses", "obstacles"};
+    if (body.kind == Kind::kSolid) known.push_back("discretisation");
+    json.allow_keys(known);
+
+    body.grid = read_grid(json.at("grid"), body.kind);
+    body.rest = read_rest(json.at("rest"), body.kind);
     if (const auto discretisation = json.find("discretisation"))
         body.discretisation = discretisation->one_of({"differences", "cells"}) == "cells"
                                   ? Discretisation::kCells
                                   : Discretisation::kDifferences;
 
     const JsonCursor material = json.at("material");
-    if (has_moduli(material)) {
+    if (body.kind != Kind::kSolid) {
+        read_surface_material(material, body);
+    } else if (has_moduli(material)) {
         if (body.rest.form != RestDescription::Form::kBlock)
             material.fail("lambda, omega and psi where the rest shape is not a block", "moduli");
         body.moduli = read_moduli(material);
     } else {
-        body.material = read_solid_material(material);
-        if (const auto parameters = material.find("parameters")) {
-            const bool raw =
-                parameters->one_of({"resolution-independent", "per-node"}) == "per-node";
-            if (raw && body.discretisation == Discretisation::kCells)
-                parameters->fail("\"resolution-independent\", which is all that cells know");
-            body.parameters =
-                raw ? tissue::Parameters::kPerNode : tissue::Parameters::kResolutionIndependent;
-        }
+        read_solid_material(material, body);
     }
+
+    const int axes = axes_of(body.kind);
     if (const auto regions = json.find("regions"))
-        body.regions = read_regions(*regions, solid_quantities(), 3);
+        body.regions = read_regions(*regions, quantities_of(body.kind), axes);
     if (const auto fixed = json.find("fixed"))
         for (const JsonCursor& selection : fixed->items())
-            body.fixed.push_back(read_node_selection(selection, 3));
+            body.fixed.push_back(read_node_selection(selection, axes));
     if (const auto gravity = json.find("gravity_m_per_s2")) body.gravity_m_per_s2 = gravity->vec3();
+    if (const auto springs = json.find("springs")) body.springs = read_springs(*springs, axes);
+    if (const auto pulses = json.find("pulses")) body.pulses = read_pulses(*pulses, axes);
+    if (const auto obstacles = json.find("obstacles")) body.obstacles = read_obstacles(*obstacles);
 
     // What only the whole shows: a folded rest shape, a plane the grid does not have.
-    tissue::check(grid_solid(body), body.place);
+    if (body.kind == Kind::kSolid)
+        tissue::check(grid_solid(body), body.place);
+    else
+        tissue::check(grid_surface(body), body.place);
     fixed_flags(body);
     return body;
 }
 
 tissue::GridSolid grid_solid(const BodyDescription& description) {
-    const tissue::GridShape& grid = description.grid;
     tissue::GridSolid solid;
-    solid.grid = grid;
+    solid.grid = description.grid;
     solid.parameters = description.parameters;
-    const RestDescription& rest = description.rest;
-    if (rest.form == RestDescription::Form::kPoints && rest.points_m.rows() != grid.size())
-        throw Error(description.place + "/rest/points_m",
-                    std::to_string(grid.size()) + " points, one per node of the grid",
-                    std::to_string(rest.points_m.rows()));
-    solid.rest = rest_points(rest, grid);
-
-    const tissue::SolidMaterial whole =
-        description.moduli
-            ? material_of_block(*description.moduli, rest.block_m, grid, description.discretisation)
-            : description.material;
-    if (description.regions.empty()) {
-        solid.material = {whole};
-        return solid;
-    }
-    solid.material.assign(static_cast<std::size_t>(grid.size()), whole);
-    for_each_change(
-        description.regions, grid, [&](int node, const MaterialChange& change, double share) {
-            change_material(solid.material[static_cast<std::size_t>(node)], change, share);
-        });
+    solid.rest = rest_points(description.rest, description.grid);
+    solid.material = material_field(
+        description, description.moduli
+                         ? material_of_block(*description.moduli, description.rest.edges_m,
+                                             description.grid, description.discretisation)
+                         : description.material);
     return solid;
+}
+
+tissue::GridSurface grid_surface(const BodyDescription& description) {
+    tissue::GridSurface surface;
+    surface.grid = {.m = description.grid.m,
+                    .n = description.grid.n,
+                    .closed = description.kind == Kind::kCylinder};
+    surface.parameters = description.parameters;
+    surface.bending = description.bending_parameters;
+    surface.rest = rest_points(description.rest, description.grid);
+    surface.material = material_field(description, description.surface);
+    return surface;
 }
 
 std::vector<double> relative_stiffness(const BodyDescription& description) {
     std::vector<double> stiffness;
     if (description.regions.empty()) return stiffness;
-    for (const tissue::SolidMaterial& material : grid_solid(description).material)
-        stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), 1e-300)));
+    constexpr double kLeast = 1e-300;  // nothing at all
+    if (description.kind == Kind::kSolid) {
+        for (const tissue::SolidMaterial& material : grid_solid(description).material)
+            stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), kLeast)));
+        return stiffness;
+    }
+    bool bending = false;
+    for (const MaterialRegion& region : description.regions)
+        for (const MaterialChange& change : region.changes)
+            bending = bending || change.quantity == "bending";
+    for (const tissue::SurfaceMaterial& material : grid_surface(description).material)
+        stiffness.push_back(std::log(std::max(
+            (bending ? material.bending_n_per_m : material.elastic_n_per_m3).mean(), kLeast)));
     return stiffness;
 }
 

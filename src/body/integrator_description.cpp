@@ -1,16 +1,10 @@
 #include "body/integrator_description.h"
 
-#include <limits>
+#include "body/detail/read_numbers.h"
 
 namespace risorius::body {
-namespace {
 
-double positive(const JsonCursor& json) {
-    if (!json.is_number() || !(json.number() > 0)) json.fail("a number in (0, inf)");
-    return json.number();
-}
-
-}  // namespace
+using detail::positive;
 
 solve::IntegratorOptions read_integrator(const JsonCursor& json) {
     json.allow_keys({"method", "step_s", "tolerance", "least_step_s", "diverged_at",
@@ -19,7 +13,7 @@ solve::IntegratorOptions read_integrator(const JsonCursor& json) {
     options.method = solve::method_named(json.at("method").one_of(solve::method_names()));
     if (const auto step = json.find("step_s")) options.step_s = positive(*step);
     if (const auto tolerance = json.find("tolerance"))
-        options.tolerance = tolerance->number({0, std::numeric_limits<double>::infinity()});
+        options.tolerance = tolerance->number({0, 0.5});
     if (const auto least = json.find("least_step_s")) options.least_step_s = positive(*least);
     if (const auto diverged = json.find("diverged_at")) options.diverged_at = positive(*diverged);
     if (const auto iterations = json.find("newton_iterations"))

@@ -1,33 +1,126 @@
 #include "body/soft_body.h"
 
+#include <cassert>
 #include <memory>
 
+#include "contact/obstacle_contact.h"
+#include "contact/surface_samples.h"
+#include "tissue/cell_body.h"
+#include "tissue/cell_solid.h"
 #include "tissue/difference_solid.h"
 #include "tissue/drag.h"
 #include "tissue/gravity.h"
+#include "tissue/grid_point.h"
 #include "tissue/grid_shape.h"
+#include "tissue/grid_surface.h"
 
 namespace risorius::body {
+namespace {
 
-SoftBody build_body(const BodyDescription& description) {
+/// What the kinds of bodies build in their own way.
+struct Matter {
+    Points rest;
+    Eigen::VectorXd mass_kg, drag_ns_per_m;
+    std::shared_ptr<solve::ForceTerm> inner;  ///< elasticity, damping, incompressibility
+    Triangles surface;
+    std::vector<std::array<int, 2>> wires;
+};
+
+Matter matter_of_solid(const BodyDescription& description) {
     const tissue::GridSolid solid = grid_solid(description);
     tissue::check(solid, description.place);
-    const Eigen::VectorXd mass_kg = tissue::node_mass(solid);
-    const Eigen::VectorXd drag_ns_per_m = tissue::node_drag(solid);
+    Matter matter;
+    matter.rest = solid.rest;
+    matter.mass_kg = tissue::node_mass(solid);
+    matter.drag_ns_per_m = tissue::node_drag(solid);
+    if (description.discretisation == Discretisation::kCells)
+        matter.inner = std::make_shared<tissue::CellSolid>(tissue::cell_body(solid));
+    else
+        matter.inner = std::make_shared<tissue::DifferenceSolid>(solid, description.place);
+    matter.surface = tissue::surface_triangles(solid.grid);
+    matter.wires = tissue::grid_lines(solid.grid);
+    return matter;
+}
+
+Matter matter_of_surface(const BodyDescription& description) {
+    const tissue::GridSurface surface = grid_surface(description);
+    tissue::check(surface, description.place);
+    Matter matter;
+    matter.rest = surface.rest;
+    matter.mass_kg = tissue::node_mass(surface);
+    matter.drag_ns_per_m = tissue::node_drag(surface);
+    matter.inner = std::make_shared<tissue::GridSurfaceTerm>(surface);
+    matter.surface = tissue::surface_triangles(surface.grid);
+    matter.wires = tissue::grid_lines(surface.grid);
+    return matter;
+}
+
+/// A point by its material coordinates. A grid of one layer has no third axis, and a tube goes on from its last row of
+/// nodes to the first.
+solve::NodeBlend point_of(const BodyDescription& description, const Vec3& a) {
+    if (description.kind == Kind::kSolid) return tissue::point_of_grid(description.grid, a);
+    const tissue::SurfaceGrid grid{.m = description.grid.m,
+                                   .n = description.grid.n,
+                                   .closed = description.kind == Kind::kCylinder};
+    const auto cell = [&](int axis) {
+        const double at = a[axis] * grid.links(axis);
+        const int first = std::min(static_cast<int>(at), grid.links(axis) - 1);
+        return std::pair<int, double>(first, at - first);
+    };
+    const auto [i, s] = cell(0);
+    const auto [j, t] = cell(1);
+    solve::NodeBlend point;
+    for (const int di : {0, 1})
+        for (const int dj : {0, 1})
+            point.add(grid.index(i + di, (j + dj) % grid.n), (di ? s : 1 - s) * (dj ? t : 1 - t));
+    return point;
+}
+
+void add_actions(const BodyDescription& description, const Matter& matter,
+                 solve::MotionSystem& system) {
+    std::vector<tissue::PointSpring> springs;
+    for (const SpringDescription& one : description.springs) {
+        springs.push_back(one.spring);
+        springs.back().at = point_of(description, one.at);
+    }
+    if (!springs.empty()) system.add(std::make_shared<tissue::PointSprings>(std::move(springs)));
+
+    std::vector<tissue::ForceGenerator> generators;
+    for (const PulseDescription& one : description.pulses) {
+        generators.push_back(one.generator);
+        generators.back().at = point_of(description, one.at);
+    }
+    if (!generators.empty())
+        system.add(std::make_shared<tissue::ForceGenerators>(std::move(generators)));
+
+    for (const ObstacleDescription& one : description.obstacles)
+        system.add(std::make_shared<contact::ObstacleContact>(
+            contact::surface_samples(matter.rest, matter.surface), one.obstacle, one.contact));
+}
+
+}  // namespace
+
+SoftBody build_body(const BodyDescription& description) {
+    const Matter matter = description.kind == Kind::kSolid ? matter_of_solid(description)
+                                                           : matter_of_surface(description);
     const std::vector<char> fixed = fixed_flags(description);
 
-    solve::MotionSystem system(mass_kg, fixed);
-    system.add(std::make_shared<tissue::DifferenceSolid>(solid, description.place));
-    system.add(std::make_shared<tissue::Gravity>(mass_kg, description.gravity_m_per_s2));
-    if ((drag_ns_per_m.array() > 0).any())
-        system.add(std::make_shared<tissue::Drag>(drag_ns_per_m));
+    solve::MotionSystem system(matter.mass_kg, fixed);
+    system.add(matter.inner);
+    system.add(std::make_shared<tissue::Gravity>(matter.mass_kg, description.gravity_m_per_s2));
+    if ((matter.drag_ns_per_m.array() > 0).any())
+        system.add(std::make_shared<tissue::Drag>(matter.drag_ns_per_m));
+    add_actions(description, matter, system);
 
-    SoftBody body{.grid = solid.grid, .rest = solid.rest, .system = std::move(system)};
+    SoftBody body{.kind = description.kind,
+                  .grid = description.grid,
+                  .rest = matter.rest,
+                  .system = std::move(system),
+                  .surface = matter.surface,
+                  .wires = matter.wires};
     body.length_scale_m =
         (body.rest.colwise().maxCoeff() - body.rest.colwise().minCoeff()).maxCoeff();
-    body.weight_n = mass_kg.sum() * description.gravity_m_per_s2.norm();
-    body.surface = tissue::surface_triangles(body.grid);
-    body.wires = tissue::grid_lines(body.grid);
+    body.weight_n = matter.mass_kg.sum() * description.gravity_m_per_s2.norm();
     for (int i = 0; i < body.grid.size(); ++i)
         if (fixed[static_cast<std::size_t>(i)]) body.fixed.push_back(i);
     return body;
@@ -40,9 +133,13 @@ solve::MotionState SoftBody::start() const {
     return state;
 }
 
-double SoftBody::volume(const Points& x) const { return tissue::enclosed_volume(grid, x); }
+double SoftBody::volume(const Points& x) const {
+    assert(kind == Kind::kSolid);
+    return tissue::enclosed_volume(grid, x);
+}
 
 double SoftBody::volume_element_sum(const Points& x) const {
+    assert(kind == Kind::kSolid);
     double sum = 0;
     for (int i = 0; i + 1 < grid.m; ++i)
         for (int j = 0; j + 1 < grid.n; ++j)

@@ -12,8 +12,9 @@
 namespace risorius::body {
 
 struct SoftBody {
-    tissue::GridShape grid;
-    Points rest;  ///< MNO x 3, m
+    Kind kind = Kind::kSolid;
+    tissue::GridShape grid;  ///< one layer thick for surfaces
+    Points rest;             ///< MNO x 3, m
     solve::MotionSystem
         system;  ///< its terms are shared with copies of this body: one thread at a time
     double length_scale_m = 1;  ///< longest edge of the rest shape's bounding box
@@ -27,7 +28,7 @@ struct SoftBody {
     /// At rest, not moving, t = 0.
     solve::MotionState start() const;
 
-    /// Volume enclosed, cells being trilinear, m^3.
+    /// Volume enclosed, cells being trilinear, m^3. This and the next are for solids.
     double volume(const Points& x) const;
     /// The thesis' sum over nodes of dV, of forward differences, whatever the discretisation, m^3.
     double volume_element_sum(const Points& x) const;

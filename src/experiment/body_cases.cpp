@@ -73,6 +73,8 @@ std::vector<BodyRun> read_runs(const JsonCursor& experiment) {
                     .label = json.at("label").string(),
                     .body = changed_body(experiment.at("body"), json.find("change"), name),
                     .integrator = body::read_integrator(json.at("integrator"))};
+        if (run.body.kind != body::Kind::kSolid)
+            experiment.at("body").fail("a body of kind \"solid\"", "a surface");
         for (const tissue::GridShape& grid : read_grids(json.at("grids"))) {
             run.body.grid = grid;
             tissue::check(body::grid_solid(run.body), run.body.place);

@@ -19,6 +19,13 @@ struct Case {
     bool settles = true;
 };
 
+/// "length_along" has to be an axis the body has.
+void check_axis(const JsonCursor& experiment, const body::BodyDescription& body) {
+    const auto along = experiment.find("length_along");
+    if (along && along->string() == "a3" && body.kind != body::Kind::kSolid)
+        along->fail("\"a1\" or \"a2\", the axes of a surface");
+}
+
 std::vector<Case> read_cases(const JsonCursor& experiment) {
     std::vector<Case> cases;
     for (const JsonCursor& json : experiment.at("cases").items()) {
@@ -30,6 +37,7 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
                 json.at("name").fail("a name of its own", "\"" + one.name + "\" again");
         one.caption = json.at("caption").string();
         one.body = changed_body(experiment.at("body"), json.find("change"), one.name);
+        check_axis(experiment, one.body);
         if (const auto at = json.find("at"))
             one.settles = at->one_of({"rest", "equilibrium"}) == "equilibrium";
         cases.push_back(std::move(one));
@@ -68,7 +76,8 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         if (one.settles) result.settled = settle(body, integrator, duration_s, options);
         const Points& x = result.settled.x;
         result.shape = shape_of(one.body, body, x, one.name, one.caption);
-        result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
+        if (body.kind == body::Kind::kSolid)
+            result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
         result.greatest_move_m = (x - body.rest).rowwise().norm().maxCoeff();
         if (axis >= 0) result.extent = extent_along(body, x, axis);
         progress.done(1, one.name);
@@ -89,7 +98,9 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
             outcome.measured.add("length_ratio/" + name, "", result.extent.length_ratio);
             outcome.measured.add("drift_ratio/" + name, "", result.extent.drift_ratio);
         }
-        outcome.measured.add("volume_change_percent/" + name, "%", result.volume_change_percent);
+        if (cases[i].body.kind == body::Kind::kSolid)
+            outcome.measured.add("volume_change_percent/" + name, "%",
+                                 result.volume_change_percent);
         outcome.measured.add("greatest_move_m/" + name, "m", result.greatest_move_m);
         outcome.measured.add("force_ratio/" + name, "", settled.force_ratio);
         outcome.measured.add("diverged/" + name, "", settled.report.diverged ? 1 : 0);

@@ -26,15 +26,15 @@ struct Band {
 struct Axis {
     std::string label;  ///< quantity and unit: "time (s)"
     bool logarithmic = false;
-    std::optional<std::pair<double, double>> range;  ///< of the data when not given
+    std::optional<std::pair<double, double>> range = {};  ///< of the data when not given
 };
 
 struct Chart {
     std::string name;   ///< of its files
     std::string title;  ///< one line above
     Axis x, y;
-    std::vector<Series> series;
-    std::vector<Band> bands;
+    std::vector<Series> series = {};
+    std::vector<Band> bands = {};
 };
 
 }  // namespace risorius::plot

@@ -27,12 +27,6 @@ Mat3 cross_matrix(const Vec3& a) {
     return m;
 }
 
-Mat2 positive_part(const Mat2& s) {
-    const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s);
-    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-           eigen.eigenvectors().transpose();
-}
-
 /// The unit normal and what its change with the tangents needs.
 struct Normal {
     double length;  ///< |N|, N = t_1 x t_2
@@ -74,7 +68,6 @@ struct NormalCurvature {
 GridSurfaceTerm::GridSurfaceTerm(const GridSurface& surface) : rest_(surface.rest) {
     add_metric_elements(surface);
     add_bending_elements(surface);
-    for (const Metric& element : metric_) damped_ = damped_ || element.phi.maxCoeff() > 0;
 }
 
 void GridSurfaceTerm::add_metric_elements(const GridSurface& surface) {
@@ -82,7 +75,7 @@ void GridSurfaceTerm::add_metric_elements(const GridSurface& surface) {
     const Mat2 weights = metric_weights(grid, surface.parameters);
     for (int i = 0; i < grid.m; ++i)
         for (int j = 0; j < grid.n; ++j) {
-            Metric element;
+            MetricElements::Element element;
             const int self = grid.index(i, j);
             element.node[element.count++] = self;
             const auto add_forward = [&](int axis, int neighbour) {
@@ -96,8 +89,7 @@ void GridSurfaceTerm::add_metric_elements(const GridSurface& surface) {
             const SurfaceMaterial& material = material_of(surface, self);
             element.eta = material.elastic_n_per_m3.cwiseProduct(weights);
             element.phi = material.damping_ns_per_m3.cwiseProduct(weights);
-            element.rest = metric_of(element, surface.rest);
-            metric_.push_back(element);
+            metric_.add(element, surface.rest);
         }
 }
 
@@ -183,21 +175,6 @@ void GridSurfaceTerm::add_bending(const Points& rest, Bending element) {
     bending_.push_back(element);
 }
 
-Mat2 GridSurfaceTerm::metric_of(const Metric& element, const Points& x) const {
-    Tangents r;
-    for (int i = 0; i < 2; ++i) r.col(i) = difference(element.node, element.d[i], element.count, x);
-    return r.transpose() * r;
-}
-
-double GridSurfaceTerm::metric_energy(const Points& x) const {
-    double energy = 0;
-    for (const Metric& element : metric_) {
-        const Mat2 change = metric_of(element, x) - element.rest;
-        energy += 0.25 * element.eta.cwiseProduct(change.cwiseAbs2()).sum();
-    }
-    return energy;
-}
-
 double GridSurfaceTerm::bending_energy(const Points& x) const {
     Points ignored = Points::Zero(x.rows(), 3);
     return add_bending_gradient(x, ignored);
@@ -228,20 +205,7 @@ double GridSurfaceTerm::add_bending_gradient(const Points& x, Points& gradient) 
 }
 
 void GridSurfaceTerm::add_force(double, const Points& x, const Points& v, Points& force) const {
-    for (const Metric& element : metric_) {
-        Tangents r, rate;
-        for (int i = 0; i < 2; ++i) {
-            r.col(i) = difference(element.node, element.d[i], element.count, x);
-            rate.col(i) = difference(element.node, element.d[i], element.count, v);
-        }
-        const Mat2 half_rate = rate.transpose() * r;
-        const Mat2 stress = element.eta.cwiseProduct(r.transpose() * r - element.rest) +
-                            element.phi.cwiseProduct(half_rate + half_rate.transpose());
-        const Tangents p = r * stress;
-        for (int k = 0; k < element.count; ++k)
-            for (int i = 0; i < 2; ++i)
-                force.row(element.node[k]) -= element.d[i][k] * p.col(i).transpose();
-    }
+    metric_.add_force(x, v, force);
     Points gradient = Points::Zero(x.rows(), 3);
     add_bending_gradient(x, gradient);
     force -= gradient;
@@ -249,66 +213,14 @@ void GridSurfaceTerm::add_force(double, const Points& x, const Points& v, Points
 
 double GridSurfaceTerm::add_potential(const solve::ImplicitStep& step, const Points& x,
                                       Points& gradient) const {
-    const double rate_hz = step.rate_hz();
-    double energy = 0;
-    for (const Metric& element : metric_) {
-        Tangents r;
-        for (int i = 0; i < 2; ++i)
-            r.col(i) = difference(element.node, element.d[i], element.count, x);
-        const Mat2 g = r.transpose() * r;
-        const Mat2 strain = g - element.rest;
-        Mat2 stress = element.eta.cwiseProduct(strain);
-        energy += 0.25 * stress.cwiseProduct(strain).sum();
-        if (rate_hz > 0) {
-            const Mat2 moved = g - metric_of(element, step.start);
-            const Mat2 viscous = rate_hz * element.phi.cwiseProduct(moved);
-            energy += 0.25 * viscous.cwiseProduct(moved).sum();
-            stress += viscous;
-        }
-        const Tangents p = r * stress;
-        for (int k = 0; k < element.count; ++k)
-            for (int i = 0; i < 2; ++i)
-                gradient.row(element.node[k]) += element.d[i][k] * p.col(i).transpose();
-    }
+    const double energy = metric_.add_potential(step, x, gradient);
     return energy + add_bending_gradient(x, gradient);
 }
 
 void GridSurfaceTerm::add_hessian(const solve::ImplicitStep& step, const Points& x,
                                   solve::Curvature curvature,
                                   solve::HessianBuilder& hessian) const {
-    const double rate_hz = step.rate_hz();
-    const bool exact = curvature == solve::Curvature::kExact;
-    for (const Metric& element : metric_) {
-        Tangents r;
-        for (int i = 0; i < 2; ++i)
-            r.col(i) = difference(element.node, element.d[i], element.count, x);
-        const Mat2 g = r.transpose() * r;
-        Mat2 stress = element.eta.cwiseProduct(g - element.rest);
-        Mat2 stiffness = element.eta;
-        if (rate_hz > 0) {
-            stress += rate_hz * element.phi.cwiseProduct(g - metric_of(element, step.start));
-            stiffness += rate_hz * element.phi;
-        }
-        if (!exact) stress = positive_part(stress);
-        // Second derivative by D_1 r and D_2 r: s (x) I + 1/2 sum k_ij g_ij g_ij^T with g_ij = dG_ij
-        Mat3 block[2][2];
-        for (int a = 0; a < 2; ++a)
-            for (int b = 0; b < 2; ++b) block[a][b] = stress(a, b) * Mat3::Identity();
-        const Vec3 r1 = r.col(0), r2 = r.col(1);
-        const double shear = 0.5 * (stiffness(0, 1) + stiffness(1, 0));
-        block[0][0] += 2 * stiffness(0, 0) * r1 * r1.transpose() + shear * r2 * r2.transpose();
-        block[1][1] += 2 * stiffness(1, 1) * r2 * r2.transpose() + shear * r1 * r1.transpose();
-        block[0][1] += shear * r2 * r1.transpose();
-        block[1][0] += shear * r1 * r2.transpose();
-        for (int k = 0; k < element.count; ++k)
-            for (int l = 0; l <= k; ++l) {
-                Mat3 sum = Mat3::Zero();
-                for (int a = 0; a < 2; ++a)
-                    for (int b = 0; b < 2; ++b)
-                        sum += element.d[a][k] * element.d[b][l] * block[a][b];
-                hessian.add(element.node[k], element.node[l], sum);
-            }
-    }
+    metric_.add_hessian(step, x, curvature, hessian);
     for (const Bending& element : bending_) {
         if (element.normal == 0) {
             for (int k = 0; k < element.count; ++k)
@@ -333,7 +245,7 @@ void GridSurfaceTerm::add_hessian(const solve::ImplicitStep& step, const Points&
         for (int k = 0; k < element.count; ++k)
             for (int l = 0; l <= k; ++l) {
                 Mat3 sum = de[k].transpose() * de[l];
-                if (exact)
+                if (curvature == solve::Curvature::kExact)
                     for (int a = 0; a < 2; ++a)
                         for (int b = 0; b < 2; ++b)
                             sum -= element.normal * element.t[a][k] * element.t[b][l] *
@@ -344,15 +256,7 @@ void GridSurfaceTerm::add_hessian(const solve::ImplicitStep& step, const Points&
 }
 
 void GridSurfaceTerm::add_metric(double step_s, solve::MetricBuilder& metric) const {
-    for (const Metric& element : metric_) {
-        // At rest only 1/2 sum k_ij g_ij g_ij^T is left. (a + b)^2 <= 2 a^2 + 2 b^2 takes apart the shear.
-        const Mat2 k = element.eta + element.phi / step_s;
-        const double shear = k(0, 1) + k(1, 0);
-        metric.add_outer(element.node, element.d[0], element.count,
-                         2 * k(0, 0) * element.rest(0, 0) + shear * element.rest(1, 1));
-        metric.add_outer(element.node, element.d[1], element.count,
-                         2 * k(1, 1) * element.rest(1, 1) + shear * element.rest(0, 0));
-    }
+    metric_.add_metric(step_s, metric);
     for (const Bending& element : bending_) {
         if (element.normal == 0) {
             metric.add_outer(element.node, element.second, element.count, element.zeta);
@@ -373,33 +277,7 @@ void GridSurfaceTerm::add_metric(double step_s, solve::MetricBuilder& metric) co
 void GridSurfaceTerm::add_secant(double, const Points& x, const Points& v, bool lag_rate,
                                  solve::MetricBuilder& K, solve::MetricBuilder&,
                                  Points& force) const {
-    for (const Metric& element : metric_) {
-        Tangents r, rate;
-        for (int i = 0; i < 2; ++i) {
-            r.col(i) = difference(element.node, element.d[i], element.count, x);
-            rate.col(i) = difference(element.node, element.d[i], element.count, v);
-        }
-        const Mat2 half_rate = rate.transpose() * r;
-        const Mat2 viscous = element.phi.cwiseProduct(half_rate + half_rate.transpose());
-        Mat2 alpha = element.eta.cwiseProduct(r.transpose() * r - element.rest);
-        if (lag_rate) alpha += viscous;
-        double block[9];
-        for (int k = 0; k < element.count; ++k)
-            for (int l = 0; l < element.count; ++l) {
-                double sum = 0;
-                for (int a = 0; a < 2; ++a)
-                    for (int b = 0; b < 2; ++b)
-                        sum += element.d[a][k] * element.d[b][l] * alpha(a, b);
-                block[k * element.count + l] = sum;
-            }
-        K.add_block(element.node, block, element.count);
-        if (!lag_rate && damped_) {
-            const Tangents p = r * viscous;
-            for (int k = 0; k < element.count; ++k)
-                for (int i = 0; i < 2; ++i)
-                    force.row(element.node[k]) -= element.d[i][k] * p.col(i).transpose();
-        }
-    }
+    metric_.add_secant(x, v, lag_rate, K, force);
     for (const Bending& element : bending_) {
         K.add_outer(element.node, element.second, element.count, element.zeta);
         if (element.normal == 0) continue;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "solve/force_term.h"
+#include "tissue/metric_elements.h"
 #include "tissue/surface_material.h"
 
 namespace risorius::tissue {
@@ -30,10 +31,10 @@ class GridSurfaceTerm : public solve::ForceTerm {
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
     double energy(double t_s, const Points& x) const override {
         (void)t_s;
-        return metric_energy(x) + bending_energy(x);
+        return metric_.energy(x) + bending_energy(x);
     }
-    double metric_energy(const Points& x) const;   ///< J
-    double bending_energy(const Points& x) const;  ///< J
+    double metric_energy(const Points& x) const { return metric_.energy(x); }  ///< J
+    double bending_energy(const Points& x) const;                              ///< J
     /// With h R = sum 1/4 phi_ij ((G_ij - G_ij(x_n)) / h)^2 h.
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
@@ -48,13 +49,6 @@ class GridSurfaceTerm : public solve::ForceTerm {
                     Points& force) const override;
 
   private:
-    /// First differences at one node, over it and its next neighbours.
-    struct Metric {
-        int count = 0;
-        int node[3] = {};
-        double d[2][3] = {};  ///< coefficients of D_1 and D_2
-        Mat2 eta, phi, rest;  ///< rest: G0
-    };
     /// One second difference, over at most three nodes along one axis and two beside, or a cell.
     struct Bending {
         int count = 0;
@@ -68,13 +62,11 @@ class GridSurfaceTerm : public solve::ForceTerm {
     void add_metric_elements(const GridSurface& surface);
     void add_bending_elements(const GridSurface& surface);
     void add_bending(const Points& rest, Bending element);
-    Mat2 metric_of(const Metric& element, const Points& x) const;
     double add_bending_gradient(const Points& x, Points& gradient) const;
 
-    std::vector<Metric> metric_;
+    MetricElements metric_;
     std::vector<Bending> bending_;
     Points rest_;
-    bool damped_ = false;
 };
 
 }  // namespace risorius::tissue

@@ -77,8 +77,9 @@ TEST(BodyDescription, BadNumbersAreNamedWithTheirPlace) {
               "cube.json:/body/rest/block_m/2: expected a number in (0, inf), found 0");
     EXPECT_EQ(message_with("/gravity_m_per_s2", "[0, \"down\", 0]"),
               "cube.json:/body/gravity_m_per_s2/1: expected a number, found \"down\"");
-    EXPECT_EQ(message_with("/kind", "\"gas\""),
-              "cube.json:/body/kind: expected one of \"solid\", found \"gas\"");
+    EXPECT_EQ(
+        message_with("/kind", "\"gas\""),
+        "cube.json:/body/kind: expected one of \"solid\" \"surface\" \"cylinder\", found \"gas\"");
 }
 
 TEST(BodyDescription, UnknownAndMissingKeysAreNamed) {
@@ -198,26 +199,101 @@ TEST(BodyDescription, TensorsTakeTheMeanOfTheirDiagonals) {
 TEST(BodyDescription, ModuliBecomeTheParametersOfTheBlock) {
     Json json = cube();
     json["rest"]["block_m"] = {1, 2, 3};
-    json["material"] = {{"shear_pa", 600}, {"bulk_pa", 1200}, {"density_kg_per_m3", 10}};
+    json["material"] = {{"shear_pa", 600}, {"bulk_pa", 1600}, {"density_kg_per_m3", 10}};
+    // The volume term has K = B - 2 mu / 3; differences count it once per cell.
     const tissue::SolidMaterial material = grid_solid(read(json)).material.front();
     EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(0, 1), 600 * 6 / (1.0 * 4));
     EXPECT_DOUBLE_EQ(material.elastic_n_per_m3(2, 2), 600 * 6 / 81.0);
-    EXPECT_DOUBLE_EQ(material.incompressibility_n_per_m5, 1200 / 12.0 / 27);
+    EXPECT_NEAR(material.incompressibility_n_per_m5, 1200 / 12.0 / 27, 1e-12);
     EXPECT_DOUBLE_EQ(material.mass_kg, 60);
+    json["discretisation"] = "cells";
+    EXPECT_NEAR(grid_solid(read(json)).material.front().incompressibility_n_per_m5, 1200 / 12.0,
+                1e-12);
 
-    // E = mu (3 K + 2 mu) / (K + mu)
+    // nu = K / (2 (K + mu)), E = 2 mu (1 + nu)
     json["material"].erase("shear_pa");
-    json["material"]["young_pa"] = 600 * (3 * 1200 + 2 * 600) / (1200 + 600.0);
+    json["material"].erase("bulk_pa");
+    json["material"]["poisson_ratio"] = 1200 / (2 * 1800.0);
+    json["material"]["young_pa"] = 1200 * (1 + 1200 / (2 * 1800.0));
     EXPECT_NEAR(grid_solid(read(json)).material.front().elastic_n_per_m3(0, 1), 900, 1e-9);
 
+    json["material"]["poisson_ratio"] = 0.5;
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/material/poisson_ratio: expected a number in [0, 0.5), found 0.5");
     json["material"]["shear_pa"] = 600;
-    EXPECT_EQ(
-        message_of([&] { read(json); }),
-        "cube.json:/body/material: expected one of \"shear_pa\" and \"young_pa\", found both");
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/material: expected either \"shear_pa\" and \"bulk_pa\" or "
+              "\"young_pa\" and \"poisson_ratio\", found both");
     json["material"].erase("young_pa");
     json["material"]["elastic_n_per_m3"] = 1;
     EXPECT_EQ(message_of([&] { read(json); }).substr(0, 50),
               "cube.json:/body/material/elastic_n_per_m3: expecte");
+}
+
+TEST(BodyDescription, SurfacesAndTubesHaveTwoAxes) {
+    Json json = Json::parse(R"({
+        "kind": "surface", "grid": [5, 4], "rest": {"sheet_m": [3, 2]},
+        "material": {"mass_kg": 4, "elastic_n_per_m3": 0.25, "bending_n_per_m": 0.0001,
+                     "bending_parameters": "per-node", "drag_ns_per_m": 0.1},
+        "regions": [{"nodes": {"a1": "last"}, "factors": {"bending": 0.5}}],
+        "fixed": [{"corners": [[0, 0]], "reach": 1}]})");
+    const BodyDescription body = read(json);
+    const tissue::GridSurface surface = grid_surface(body);
+    EXPECT_EQ(surface.bending, tissue::Parameters::kPerNode);
+    EXPECT_EQ(surface.parameters, tissue::Parameters::kResolutionIndependent);
+    EXPECT_EQ(surface.material[0].bending_n_per_m, tissue::Mat2::Constant(0.0001));
+    EXPECT_EQ(surface.material[19].bending_n_per_m, tissue::Mat2::Constant(0.00005));
+    EXPECT_EQ(build_body(body).fixed, (std::vector<int>{0, 1, 4}));
+
+    json["grid"] = {5, 2};
+    json["kind"] = "cylinder";
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/grid/1: expected an integer in [3, 1000], found 2");
+    json["grid"] = {5, 6};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/rest/sheet_m: expected a known key (did you mean \"at_m\"?), found "
+              "unknown key \"sheet_m\"");
+    json["rest"] = Json::parse(R"({"tube": {"radius_m": 1, "length_m": 3}})");
+    EXPECT_EQ(build_body(read(json)).rest.rows(), 30);
+    json["material"]["incompressibility_n_per_m5"] = 1;
+    EXPECT_EQ(message_of([&] { read(json); }).substr(0, 62),
+              "cube.json:/body/material/incompressibility_n_per_m5: expected ");
+}
+
+TEST(BodyDescription, SpringsPullAndPulsesPushWhereTheySay) {
+    Json json = cube();
+    json["gravity_m_per_s2"] = {0, 0, 0};
+    json["springs"] =
+        Json::parse(R"([{"at": [0, 0, 0], "tied_to_m": [-2, 0, 0], "stiffness_n_per_m": 3}])");
+    json["pulses"] = Json::parse(
+        R"([{"at": [0.5, 0.5, 0], "direction": [0, 5, 0], "shape": "box", "amplitude_n": 7}])");
+    const SoftBody body = build_body(read(json));
+    Points force;
+    body.system.force(0, body.rest, body.start().v, force);
+    EXPECT_NEAR(force(0, 0), -6, 1e-12);
+    EXPECT_NEAR(force.col(1).sum(), 7, 1e-12);
+    json["pulses"][0]["shape"] = "triangle";
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/pulses/0: expected the key \"duration_s\", which a triangle needs, "
+              "found none");
+    json["springs"][0]["at"] = {0, 0, 2};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/springs/0/at/2: expected [0, 1], found 2");
+}
+
+TEST(BodyDescription, ObstaclesPushBackAndAreChecked) {
+    Json json = cube();
+    json["gravity_m_per_s2"] = {0, 0, 0};
+    json["obstacles"] = Json::parse(R"([{"plane": {"point_m": [0, 0, 0.1], "normal": [0, 0, 1]},
+                                         "contact": {"stiffness_pa_per_m": 1000}}])");
+    const SoftBody body = build_body(read(json));
+    Points force;
+    body.system.force(0, body.rest, body.start().v, force);
+    EXPECT_GT(force.col(2).sum(), 1);
+    json["obstacles"][0]["sphere"] = Json::object();
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/obstacles/0: expected one of \"plane\", \"sphere\" and "
+              "\"capsule\", found several");
 }
 
 TEST(BodyDescription, RestShapesAreTurnedThenMoved) {

@@ -176,4 +176,40 @@ inline Points small_deflection(const solve::ForceTerm& term, const Points& rest,
     return out;
 }
 
+/// Equilibrium under a dead load by Newton's method with halving; `x` is the start and the result. True when no node
+/// moved more than 1e-9 m at last.
+inline bool settle(const solve::ForceTerm& term, const std::vector<char>& fixed, const Points& load,
+                   Points& x, int iterations = 200) {
+    const auto total = [&](const Points& y, Points& gradient) {
+        gradient = -load;
+        const double stored = term.add_potential(no_motion(y), y, gradient);
+        return stored - load.cwiseProduct(y).sum();
+    };
+    solve::HessianBuilder builder(static_cast<int>(x.rows()), fixed);
+    Points gradient, ignored;
+    double energy = total(x, gradient);
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+        builder.clear();
+        term.add_hessian(no_motion(x), x, solve::Curvature::kPositive, builder);
+        for (int i = 0; i < x.rows(); ++i) builder.add_diagonal(i, 1e-7);
+        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(builder.build());
+        Eigen::VectorXd slope(x.size());
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+            slope[i] = fixed[static_cast<std::size_t>(i / 3)] ? 0 : gradient.data()[i];
+        const Eigen::VectorXd step = -solver.solve(slope);
+        double share = 1, next = 0;
+        Points y = x;
+        for (int halving = 0; halving < 40; ++halving, share *= 0.5) {
+            for (Eigen::Index i = 0; i < x.size(); ++i) y.data()[i] = x.data()[i] + share * step[i];
+            next = total(y, ignored);
+            if (next <= energy + 1e-4 * share * step.dot(slope)) break;
+        }
+        const double moved = share * step.cwiseAbs().maxCoeff();
+        x = y;
+        energy = total(x, gradient);
+        if (moved < 1e-9) return true;
+    }
+    return false;
+}
+
 }  // namespace risorius::tissue::laws
