@@ -4,6 +4,7 @@
 
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/muscle_stability.h"
 #include "experiment/stable_step.h"
 #include "experiment/static_resolution.h"
 #include "experiment/volume_history.h"
@@ -22,6 +23,7 @@ const std::vector<NamedKind>& kind_table() {
         {"volume-history", run_volume_history},
         {"static-resolution", run_static_resolution},
         {"stable-step", run_stable_step},
+        {"muscle-stability", run_muscle_stability},
     };
     return table;
 }
@@ -36,6 +38,8 @@ const std::vector<Figure>& figures() {
         {"9a", "Change of the sum of volume elements", "volume-history", 240},
         {"9b", "Change of volume", "volume-history", 240},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 120},
+        {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
+         "muscle-stability", 120},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
     };
     return list;

@@ -7,48 +7,25 @@
 #include "experiment/body_cases.h"
 #include "experiment/linear_modes.h"
 #include "experiment/progress.h"
+#include "experiment/step_search.h"
 
 namespace risorius::experiment {
 namespace {
 
 /// The least excitation of a mode against what counts as divergence: linear theory lets a motion grow by so much.
 constexpr double kGrowthToDivergence = 1e6;
-constexpr int kPieces = 50;  // between which a run can be stopped
 
 struct Sweep {
     std::vector<solve::Method> methods;
     std::string name, unit;
     std::vector<double> values;
     std::vector<body::BodyDescription> bodies;  ///< one per value
-    std::vector<double> steps_s;                ///< longest first
-    double duration_s = 0, diverged_at = 1e3;
+    StepSearch search;
 };
-
-std::vector<double> read_steps(const JsonCursor& json) {
-    json.allow_keys({"longest_s", "shortest_s", "per_decade"});
-    const double longest = json.at("longest_s").number({1e-12, 1e6});
-    const double shortest = json.at("shortest_s").number({1e-12, longest});
-    const int per_decade = json.at("per_decade").integer(1, 1000);
-    std::vector<double> steps;
-    for (int i = 0;; ++i) {
-        const double step = longest * std::pow(10.0, -static_cast<double>(i) / per_decade);
-        if (step < shortest * (1 - 1e-9)) return steps;
-        steps.push_back(step);
-    }
-}
 
 Sweep read_sweep(const JsonCursor& experiment) {
     Sweep sweep;
-    for (const JsonCursor& json : experiment.at("methods").items()) {
-        std::vector<std::string_view> fixed_step;
-        for (const std::string_view name : solve::method_names()) {
-            const solve::Method method = solve::method_named(name);
-            if (solve::is_explicit(method) && method != solve::Method::kBulirschStoer)
-                fixed_step.push_back(name);
-        }
-        sweep.methods.push_back(solve::method_named(json.one_of(fixed_step)));
-    }
-    if (sweep.methods.empty()) experiment.at("methods").fail("at least one method");
+    sweep.methods = read_fixed_step_methods(experiment.at("methods"));
 
     const JsonCursor varied = experiment.at("varied");
     varied.allow_keys({"name", "unit", "pointer", "values"});
@@ -76,47 +53,17 @@ Sweep read_sweep(const JsonCursor& experiment) {
     }
     if (sweep.values.empty()) varied.at("values").fail("at least one value");
 
-    sweep.steps_s = read_steps(experiment.at("steps"));
-    sweep.duration_s = experiment.at("duration_s").number({1e-9, 1e6});
+    sweep.search.steps_s = read_step_table(experiment.at("steps"));
+    sweep.search.duration_s = experiment.at("duration_s").number({1e-9, 1e6});
     if (const auto diverged = experiment.find("diverged_at"))
-        sweep.diverged_at = diverged->number({1e-3, 1e12});
+        sweep.search.diverged_at = diverged->number({1e-3, 1e12});
     return sweep;
 }
 
 struct Found {
-    double step_s = 0, predicted_s = 0;  ///< 0: none of the table
-    long evaluations = 0;                ///< of the whole search
+    StableStep stable;
+    double predicted_s = 0;  ///< 0: none of the table
 };
-
-bool survives(const body::SoftBody& body, const solve::IntegratorOptions& integrator,
-              double duration_s, const RunOptions& options, long& evaluations) {
-    const auto steps = solve::make_integrator(integrator);
-    solve::MotionState state = body.start();
-    for (int piece = 1; piece <= kPieces; ++piece) {
-        options.stop_if_asked();
-        const solve::IntegratorReport report =
-            steps->advance(body.system, state, duration_s * piece / static_cast<double>(kPieces));
-        evaluations += report.evaluations;
-        if (report.diverged) return false;
-    }
-    return true;
-}
-
-Found search(const Sweep& sweep, const body::SoftBody& body, solve::Method method,
-             const RunOptions& options) {
-    solve::IntegratorOptions integrator;
-    integrator.method = method;
-    integrator.length_scale_m = body.length_scale_m;
-    integrator.diverged_at = sweep.diverged_at;
-    Found found;
-    for (const double step_s : sweep.steps_s) {
-        integrator.step_s = step_s;
-        if (!survives(body, integrator, sweep.duration_s, options, found.evaluations)) continue;
-        found.step_s = step_s;
-        break;
-    }
-    return found;
-}
 
 void show(const Sweep& sweep, const std::vector<Found>& found, Outcome& outcome) {
     const std::size_t methods = sweep.methods.size();
@@ -145,16 +92,16 @@ void show(const Sweep& sweep, const std::vector<Found>& found, Outcome& outcome)
         for (std::size_t v = 0; v < sweep.values.size(); ++v) {
             const Found& one = found[v * methods + m];
             const std::string of = "/" + name + "/" + format_number(sweep.values[v]);
-            outcome.measured.add("step_s" + of, "s", one.step_s);
+            outcome.measured.add("step_s" + of, "s", one.stable.step_s);
             outcome.measured.add("predicted_s" + of, "s", one.predicted_s);
             if (one.predicted_s > 0)
-                outcome.measured.add("ratio" + of, "", one.step_s / one.predicted_s);
+                outcome.measured.add("ratio" + of, "", one.stable.step_s / one.predicted_s);
             const auto mark = [&](plot::Series& series, double step_s) {
                 if (!(step_s > 0)) return;
                 series.x.push_back(step_s);
                 series.y.push_back(sweep.values[v]);
             };
-            mark(measured, one.step_s);
+            mark(measured, one.stable.step_s);
             mark(theory, one.predicted_s);
         }
         chart.series.push_back(std::move(measured));
@@ -164,9 +111,9 @@ void show(const Sweep& sweep, const std::vector<Found>& found, Outcome& outcome)
         for (Table* table : {&steps, &predicted, &cost}) table->rows.push_back({sweep.values[v]});
         for (std::size_t m = 0; m < methods; ++m) {
             const Found& one = found[v * methods + m];
-            steps.rows.back().push_back(one.step_s);
+            steps.rows.back().push_back(one.stable.step_s);
             predicted.rows.back().push_back(one.predicted_s);
-            cost.rows.back().push_back(static_cast<double>(one.evaluations));
+            cost.rows.back().push_back(static_cast<double>(one.stable.evaluations));
         }
     }
     for (Table* table : {&steps, &predicted, &cost})
@@ -188,7 +135,8 @@ void run_stable_step(const JsonCursor& experiment, const RunOptions& options, Ou
         const std::size_t v = static_cast<std::size_t>(i) / methods;
         const std::size_t m = static_cast<std::size_t>(i) % methods;
         const body::SoftBody body = body::build_body(sweep.bodies[v]);
-        found[static_cast<std::size_t>(i)] = search(sweep, body, sweep.methods[m], options);
+        found[static_cast<std::size_t>(i)].stable =
+            longest_stable_step(body, sweep.methods[m], sweep.search, options);
         progress.done(1, std::string(solve::name_of(sweep.methods[m])) + " at " + sweep.name +
                              " = " + format_number(sweep.values[v]));
     });
@@ -199,8 +147,8 @@ void run_stable_step(const JsonCursor& experiment, const RunOptions& options, Ou
         const body::SoftBody body = body::build_body(sweep.bodies[v]);
         const auto lambdas = small_motions(body, body.rest);
         for (std::size_t m = 0; m < methods; ++m)
-            for (const double step_s : sweep.steps_s)
-                if (stays_bounded(sweep.methods[m], lambdas, step_s, sweep.duration_s,
+            for (const double step_s : sweep.search.steps_s)
+                if (stays_bounded(sweep.methods[m], lambdas, step_s, sweep.search.duration_s,
                                   kGrowthToDivergence)) {
                     found[v * methods + m].predicted_s = step_s;
                     break;

@@ -53,7 +53,8 @@ struct IntegratorOptions {
     double least_step_s = 1e-9;  ///< a controlled step below this is divergence
     double diverged_at =
         1e3;  ///< a node farther than this many length scales from its start, or not finite
-    int newton_iterations = 20;  ///< at most, per implicit step or equilibrium
+    int newton_iterations =
+        20;  ///< at most, per implicit step; ten times as many per equilibrium, which walks there in pseudo-time
     double newton_tolerance =
         1e-8;  ///< stop when no node moves more than this share of the length scale
     Curvature curvature =
@@ -68,7 +69,8 @@ struct IntegratorReport {
     long steps = 0;
     long evaluations = 0;  ///< of forces, or of the potential and its gradient
     long rejections =
-        0;  ///< steps tried and repeated smaller; for Newton, halvings of its line search
+        0;  ///< steps tried and repeated smaller; for Newton, halvings of its line search and moves refused; for
+        ///< kBaraffWitkin, steps whose exact curvature was singular, solved with the positive one
     long linear_solves = 0;  ///< factorisations or conjugate-gradient runs
     double error_estimate =
         0;  ///< the largest of an accepted step; implicit: last Newton move, share of the length scale
@@ -83,10 +85,12 @@ class Integrator {
   public:
     virtual ~Integrator() = default;
 
-    /// Forgets the history of multi-step methods; needed after the state was changed from outside.
+    /// Forgets the history of multi-step methods and where the motion began; needed after the state was changed from
+    /// outside. A state of another time than was left is taken as a restart.
     virtual void restart() = 0;
 
     /// Advances to `until_s` in whole steps; the last is shortened to end there exactly. A diverged state is left as it is.
+    /// One object serves one system; its buffers are kept from step to step.
     virtual IntegratorReport advance(const MotionSystem& system, MotionState& state,
                                      double until_s) = 0;
 };

@@ -12,7 +12,7 @@ MotionSystem::MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed)
     if (fixed_.empty()) fixed_.assign(static_cast<std::size_t>(mass_kg_.size()), 0);
     if (static_cast<long>(fixed_.size()) != mass_kg_.size())
         throw std::invalid_argument("one fixed flag per node is needed");
-    inverse_mass_.setZero(mass_kg_.size());
+    inverse_mass_.setZero(mass_kg_.size(), 3);
     for (int i = 0; i < size(); ++i) {
         if (fixed_[static_cast<std::size_t>(i)]) {
             fixed_nodes_.push_back(i);
@@ -20,7 +20,7 @@ MotionSystem::MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed)
         }
         if (!(mass_kg_[i] > 0 && std::isfinite(mass_kg_[i])))
             throw std::invalid_argument("node " + std::to_string(i) + " is free and has no mass");
-        inverse_mass_[i] = 1.0 / mass_kg_[i];
+        inverse_mass_.row(i).setConstant(1.0 / mass_kg_[i]);
     }
 }
 
@@ -42,7 +42,7 @@ void MotionSystem::force(double t_s, const Points& x, const Points& v, Points& f
 
 void MotionSystem::acceleration(double t_s, const Points& x, const Points& v, Points& a) const {
     force(t_s, x, v, a);
-    for (int i = 0; i < size(); ++i) a.row(i) *= inverse_mass_[i];
+    a.array() *= inverse_mass_.array();
     for (const int i : fixed_nodes_) a.row(i).setZero();
 }
 

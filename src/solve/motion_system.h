@@ -53,7 +53,7 @@ class MotionSystem {
 
   private:
     Eigen::VectorXd mass_kg_;
-    Eigen::VectorXd inverse_mass_;  ///< 1/kg
+    Points inverse_mass_;  ///< of each coordinate, 1/kg; 0 on fixed nodes
     std::vector<char> fixed_;
     std::vector<int> fixed_nodes_;
     std::vector<std::shared_ptr<ForceTerm>> terms_;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "solve/point_sums.h"
+
 namespace risorius::solve::detail {
 
 namespace {
@@ -32,6 +34,23 @@ bool Watch::diverged(const Points& x, const Points& v) const {
     const double* p = x.data();
     const double* p0 = began_.data();
     const double* q = v.data();
+    // As long as all nodes together have not moved so far, none has; NaN goes on to the second look
+    const long n = x.size();
+    Lanes moved{}, speed{};
+    long k = 0;
+    for (; k + 3 < n; k += 4) {
+        const Lanes d = load_lanes(p + k) - load_lanes(p0 + k), u = load_lanes(q + k);
+        moved += d * d;
+        speed += u * u;
+    }
+    double moved_sum = sum_lanes(moved), speed_sum = sum_lanes(speed);
+    for (; k < n; ++k) {
+        moved_sum += (p[k] - p0[k]) * (p[k] - p0[k]);
+        speed_sum += q[k] * q[k];
+    }
+    if (moved_sum <= farthest_squared_ && speed_sum <= std::numeric_limits<double>::max())
+        return false;
+
     bool bad = false;
     for (long i = 0; i < x.rows(); ++i, p += 3, p0 += 3, q += 3) {
         const double dx = p[0] - p0[0], dy = p[1] - p0[1], dz = p[2] - p0[2];

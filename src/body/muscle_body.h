@@ -1,0 +1,63 @@
+// A muscle by itself: a belly of grid solid with its musculotendon, held between two plates. The test bench of Zajac's and
+// of Gasser and Hill's experiments, and of the stability of integration methods.
+//
+//   {"discretisation": "cells", "grid": [6, 6, 6], "section": "round", "length_m": 0.04, "width_m": 0.02,
+//    "thickness_m": 0.02,
+//    "moduli": {"shear_pa": 2000, "bulk_pa": 5e6, "viscosity_pa_s": 200, "density_kg_per_m3": 1060},
+//    "musculotendon": {"f0_n": 94.2, "optimal_length_m": 0.04, "tendon_slack_m": 0.02}}
+//
+// The belly lies along x with its axis through the origin, from x = 0; plates stand half the tendon slack length away
+// from its ends. Field names are the keys.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "body/body_description.h"
+#include "body/soft_body.h"
+#include "muscle/musculotendon.h"
+
+namespace risorius::body {
+
+struct MuscleDescription {
+    enum class Section {
+        kBlock,
+        kRound
+    };  ///< "block": a box; "round": a box pressed into a cylinder
+
+    std::string place;  ///< where it was written, for errors found on building
+    Discretisation discretisation = Discretisation::kCells;
+    tissue::GridShape grid;  ///< a1 along the fibres
+    Section section = Section::kRound;
+    double length_m = 0, width_m = 0, thickness_m = 0;  ///< along x, y, z     (0, inf)
+    tissue::CellModuli moduli;                          ///< mu > 0; the others >= 0
+    double density_kg_per_m3 = 1060;                    ///< (0, inf)
+    muscle::MuscleParameters musculotendon;
+    Vec3 gravity_m_per_s2 = Vec3::Zero();
+
+    double rest_volume_m3() const;  ///< of the section before the grid makes it angular
+};
+
+/// Throws Error with file and JSON pointer. "grid" may be left out where the caller sets it.
+MuscleDescription read_muscle(const JsonCursor& json);
+
+/// What is done to a muscle.
+struct MuscleTask {
+    muscle::ActivationAt activation;
+    /// Distance of the plates minus that at rest, m; empty: they stand.
+    std::function<double(double t_s)> lengthening_m = {};
+};
+
+struct MuscleBody {
+    SoftBody body;
+    std::shared_ptr<muscle::Musculotendon> musculotendon;
+
+    /// Mean of what the two plates feel along x, over F0.
+    double tension(double t_s, const Points& x) const;
+};
+
+/// Throws Error for parameters outside their ranges.
+MuscleBody build_muscle(const MuscleDescription& description, MuscleTask task);
+
+}  // namespace risorius::body
