@@ -5,10 +5,12 @@
 #include <map>
 #include <numbers>
 
-#include "tissue/slope_checks.h"
+#include "force_term_checks.h"
 
 namespace risorius::tissue {
 namespace {
+
+using namespace testing_of;
 
 const GridShape kGrid{4, 3, 5};
 
@@ -39,7 +41,7 @@ TEST(GridShape, EnclosedVolumeIsThatOfTheBlockWhereverItStands) {
 }
 
 TEST(GridShape, EnclosedVolumeIsTheIntegralOverTrilinearCells) {
-    const Points x = block_rest(kGrid, Vec3(3, 2, 4)) + noise(kGrid.size(), 0.15, 1);
+    const Points x = block_rest(kGrid, Vec3(3, 2, 4)) + random_points(kGrid.size(), 0.15, 1);
     // 2 x 2 x 2 Gauss points integrate the determinant of a trilinear map exactly.
     double sum = 0;
     const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
