@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
@@ -28,6 +29,7 @@ const std::vector<NamedKind>& kind_table() {
         {"muscle-stability", run_muscle_stability},
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
+        {"adaptive", run_adaptive},
     };
     return table;
 }
@@ -51,6 +53,7 @@ const std::vector<Figure>& figures() {
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
+        {"adaptive", "Resolution where the strain asks for it", "adaptive", 30},
     };
     return list;
 }
