@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
@@ -30,6 +31,7 @@ const std::vector<NamedKind>& kind_table() {
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
         {"hanging-curve", run_hanging_curve},
+        {"adaptive", run_adaptive},
     };
     return table;
 }
@@ -54,6 +56,7 @@ const std::vector<Figure>& figures() {
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
         {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
+        {"adaptive", "Resolution where the strain asks for it", "adaptive", 30},
     };
     return list;
 }
