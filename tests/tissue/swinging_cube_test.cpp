@@ -1,8 +1,6 @@
-// The cube let go under its ceiling: the transients of figures 9a and 9b, acceptance tests T5a, T5b and T5d. Implicit Euler
-// would damp what is measured here, so the classic Runge-Kutta method steps at 0.6 of its limit.
+// The cube let go under its ceiling: the transients of figures 9a and 9b, acceptance tests T5a and T5b. Implicit Euler would
+// damp what is measured here, so the classic Runge-Kutta method steps at 0.6 of its limit.
 #include <gtest/gtest.h>
-
-#include <array>
 
 #include "solve/integrator.h"
 #include "tissue/difference_solid.h"
@@ -17,8 +15,6 @@ struct Swing {
     double sum_peak_percent = 0;     ///< of sum dV, figure 9a
     double volume_peak_percent = 0;  ///< of the enclosed volume, figure 9b
     double volume_peak_at_s = 0;
-    double settled_at_s = 0;  ///< from then on within 5 % of the final length's way
-    double final_length = 0;
 };
 
 /// `fastest_hz` is the greatest angular frequency of the cube's linear vibrations, rad/s.
@@ -32,7 +28,6 @@ Swing swing(int nodes, double fastest_hz, double until_s) {
         {.method = solve::Method::kRungeKutta4, .step_s = 0.6 * 2.83 / fastest_hz});
     solve::MotionState state{.t_s = 0, .x = solid.rest, .v = Points::Zero(solid.rest.rows(), 3)};
     Swing result;
-    std::vector<std::array<double, 2>> lengths;
     for (int sample = 1; sample * kSampleS <= until_s + 1e-9; ++sample) {
         const auto report = integrator->advance(system, state, sample * kSampleS);
         EXPECT_FALSE(report.diverged);
@@ -44,12 +39,7 @@ Swing swing(int nodes, double fastest_hz, double until_s) {
             result.volume_peak_percent = volume;
             result.volume_peak_at_s = state.t_s;
         }
-        lengths.push_back({state.t_s, hang_length(solid.grid, state.x)});
     }
-    result.final_length = lengths.back()[1];
-    for (const auto& [t, length] : lengths)
-        if (std::abs(length - result.final_length) > 0.05 * (result.final_length - 1))
-            result.settled_at_s = t;
     return result;
 }
 
@@ -71,13 +61,6 @@ TEST(SwingingCube, FigureNineVolumePeaksFallWithResolution) {
         sum_before = found.sum_peak_percent;
         volume_before = found.volume_peak_percent;
     }
-}
-
-TEST(SwingingCube, SettlesWithinEightSeconds) {
-    const Swing three = swing(3, 614, 12);
-    EXPECT_GT(three.settled_at_s, 2);
-    EXPECT_LT(three.settled_at_s, 8);
-    EXPECT_NEAR(three.final_length, 1.1651, 1e-3);  // the static length
 }
 
 }  // namespace
