@@ -111,8 +111,17 @@ Shape shape_of(const body::BodyDescription& description, const body::SoftBody& b
     if (stiffness.empty()) return shape;
     const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
     if (!(*most > *least)) return shape;
+    shape.shade_ends = {"softest", "stiffest"};
     for (const double value : stiffness) shape.shade.push_back((value - *least) / (*most - *least));
     return shape;
+}
+
+Points rest_outline(const body::SoftBody& body) {
+    Points outline(2 * static_cast<Eigen::Index>(body.edges.size()), 3);
+    Eigen::Index row = 0;
+    for (const auto& edge : body.edges)
+        for (const int node : edge) outline.row(row++) = body.rest.row(node);
+    return outline;
 }
 
 Extent extent_along(const body::SoftBody& body, const Points& x, int axis) {

@@ -47,6 +47,9 @@ Workload workload_of(const std::vector<BodyRun>& runs);
 Shape shape_of(const body::BodyDescription& description, const body::SoftBody& body,
                const Points& x, const std::string& name, const std::string& caption);
 
+/// The edges of a body's rest shape, as Shape::outline.
+Points rest_outline(const body::SoftBody& body);
+
 /// Lengths between the first and the last plane of nodes across one axis.
 struct Extent {
     double

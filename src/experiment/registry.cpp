@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/hanging_curve.h"
 #include "experiment/implicit_steps.h"
 #include "experiment/muscle_stability.h"
 #include "experiment/stable_step.h"
@@ -28,6 +30,8 @@ const std::vector<NamedKind>& kind_table() {
         {"muscle-stability", run_muscle_stability},
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
+        {"hanging-curve", run_hanging_curve},
+        {"adaptive", run_adaptive},
     };
     return table;
 }
@@ -50,7 +54,9 @@ const std::vector<Figure>& figures() {
          "muscle-stability", 120},
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 60},
+        {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
+        {"adaptive", "Resolution where the strain asks for it", "adaptive", 30},
     };
     return list;
 }
@@ -80,6 +86,14 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
     figure.checks = outcome.measured.check(experiment);
     figure.record["experiment"] = experiment.json();
     return std::move(outcome.figure);
+}
+
+void check_experiment(const JsonCursor& experiment) {
+    try {
+        // Asked to stop at its first step, which comes after all that.
+        run_figure(experiment, {.threads = 1, .stopped = [] { return true; }});
+    } catch (const Interrupted&) {
+    }
 }
 
 }  // namespace risorius::experiment

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/json_cursor.h"
+#include "paths.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
