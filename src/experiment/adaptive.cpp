@@ -22,6 +22,11 @@ struct Push {
     Vec3 move_m;
 };
 
+struct RefinedRun {
+    tissue::RefineOptions options;
+    int rounds = 1;
+};
+
 struct Case {
     std::string name, caption;
     body::BodyDescription body;
@@ -30,8 +35,7 @@ struct Case {
     int watched_axis = 0;
     bool watched_last = false;
     int uniform_levels = 0;
-    tissue::RefineOptions refine;
-    int rounds = 1;
+    RefinedRun refine, reference;
 };
 
 Vec3 read_vector(const JsonCursor& json) {
@@ -52,7 +56,7 @@ void read_watch(const JsonCursor& json, Case& one) {
     if (named != 1) json.fail("one of \"a1\" \"a2\" \"a3\"");
 }
 
-void read_refine(const JsonCursor& json, Case& one) {
+RefinedRun read_refine(const JsonCursor& json) {
     json.allow_keys({"tolerance", "merge_below", "deepest_level", "rounds"});
     const auto share = [](const JsonCursor& value, bool zero) {
         const double number = value.number({0, 1});
@@ -60,17 +64,20 @@ void read_refine(const JsonCursor& json, Case& one) {
             value.fail(zero ? "a number in [0, 1)" : "a number in (0, 1)");
         return number;
     };
-    one.refine.tolerance = share(json.at("tolerance"), /*zero=*/false);
+    RefinedRun run;
+    run.options.tolerance = share(json.at("tolerance"), /*zero=*/false);
     if (const auto merge = json.find("merge_below"))
-        one.refine.merge_below = share(*merge, /*zero=*/true);
-    one.refine.deepest_level = json.at("deepest_level").integer(0, 8);
-    one.rounds = json.at("rounds").integer(1, 100);
+        run.options.merge_below = share(*merge, /*zero=*/true);
+    run.options.deepest_level = json.at("deepest_level").integer(0, 8);
+    run.rounds = json.at("rounds").integer(1, 100);
+    return run;
 }
 
 std::vector<Case> read_cases(const JsonCursor& experiment) {
     std::vector<Case> cases;
     for (const JsonCursor& json : experiment.at("cases").items()) {
-        json.allow_keys({"name", "caption", "body", "push", "watch", "uniform_levels", "refine"});
+        json.allow_keys(
+            {"name", "caption", "body", "push", "watch", "uniform_levels", "refine", "reference"});
         Case one;
         one.name = json.at("name").string();
         for (const Case& other : cases)
@@ -88,7 +95,8 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
         }
         read_watch(json.at("watch"), one);
         one.uniform_levels = json.at("uniform_levels").integer(0, 5);
-        read_refine(json.at("refine"), one);
+        one.refine = read_refine(json.at("refine"));
+        one.reference = read_refine(json.at("reference"));
         cases.push_back(std::move(one));
     }
     if (cases.empty()) experiment.at("cases").fail("at least one case");
@@ -109,8 +117,9 @@ struct Rest {
 };
 
 struct Series {
-    std::vector<Rest> rests;
-    Shape shape;  ///< of the last
+    std::vector<Rest> rests = {};
+    bool converged = false;  ///< every one
+    Shape shape = {};        ///< of the last
 };
 
 /// Brings one case to rest on one mesh after the other and notes what it cost.
@@ -230,41 +239,25 @@ Series run_uniform(const Case& one, const solve::IntegratorOptions& options,
     tissue::AdaptiveSolid solid(one.solid, {.deepest_level = one.uniform_levels});
     Settler settler(one, options, run);
     solve::MotionState state = solid.start();
-    for (int level = 0; level <= one.uniform_levels; ++level) {
+    bool converged = true;
+    for (int level = 0; converged && level <= one.uniform_levels; ++level) {
         solid.refine_where(
             [&](const tissue::CellMesh::Cell& cell) { return cell.place.level < level; }, &state);
-        if (!settler(solid.solid(), state)) break;
+        converged = settler(solid.solid(), state);
     }
-    return {settler.rests, {}};
+    return {.rests = settler.rests, .converged = converged};
 }
 
-Series run_refined(const Case& one, const solve::IntegratorOptions& options,
-                   const RunOptions& run) {
-    tissue::AdaptiveSolid solid(one.solid, one.refine);
+Series run_refined(const Case& one, const RefinedRun& refined,
+                   const solve::IntegratorOptions& options, const RunOptions& run) {
+    tissue::AdaptiveSolid solid(one.solid, refined.options);
     Settler settler(one, options, run);
     solve::MotionState state = solid.start();
-    tissue::settle_and_refine(solid, std::ref(settler), one.rounds, state);
-    return {settler.rests, shape_of(one, *solid.solid(), state.x, one.name, one.caption)};
-}
-
-/// Limit of a series whose differences shrink by the same factor (Aitken); its last where they do not shrink.
-double limit_of(const std::vector<double>& series) {
-    const double last = series.back();
-    if (series.size() < 3) return last;
-    const double step = last - series[series.size() - 2];
-    const double before = series[series.size() - 2] - series[series.size() - 3];
-    const double factor = step / before;
-    return factor > 0 && factor < 1 ? last + step * factor / (1 - factor) : last;
-}
-
-Answers limit_of(const std::vector<Rest>& rests) {
-    const auto limit = [&](double Answers::*answer) {
-        std::vector<double> series;
-        for (const Rest& rest : rests) series.push_back(rest.answers.*answer);
-        return limit_of(series);
-    };
-    return {limit(&Answers::move_m), limit(&Answers::push_n), limit(&Answers::energy_j),
-            limit(&Answers::volume_change_percent)};
+    const tissue::RefineRounds rounds =
+        tissue::settle_and_refine(solid, std::ref(settler), refined.rounds, state);
+    return {.rests = settler.rests,
+            .converged = rounds.settled == static_cast<int>(settler.rests.size()),
+            .shape = shape_of(one, *solid.solid(), state.x, one.name, one.caption)};
 }
 
 /// The greatest of the answers' differences, each as a share of its reference; of volumes, as a share of the volume.
@@ -277,23 +270,30 @@ double difference_percent(const Answers& a, const Answers& reference) {
                      std::abs(a.volume_change_percent - reference.volume_change_percent)});
 }
 
-void measure(const Case& one, const Series& uniform, const Series& refined, Table& table,
-             Outcome& outcome) {
-    const Answers limit = limit_of(uniform.rests);
+struct NamedSeries {
+    std::string name, label;
+    const Series& series;
+    bool to_the_end = true;  ///< of the reference, all but itself
+};
+
+void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answers& reference,
+              Table& table, FigureResult& figure) {
     plot::Chart chart{
         .name = "error_over_work_" + one.name,
         .title = one.caption,
         .x = {.label = "multiplications of all solves (millions)", .logarithmic = true},
         .y = {.label = "error (%)", .logarithmic = true}};
-    for (const Series* series : {&uniform, &refined}) {
-        const std::string name = series == &uniform ? "uniform" : "adaptive";
-        plot::Series curve{.label = name, .mark = plot::Mark::kLinePoints};
-        for (std::size_t i = 0; i < series->rests.size(); ++i) {
-            const Rest& rest = series->rests[i];
-            const double error = difference_percent(rest.answers, limit);
-            curve.x.push_back(1e-6 * rest.work);
-            curve.y.push_back(std::max(error, 1e-6));
-            table.row_names.push_back(one.name + "/" + name + "/" + std::to_string(i));
+    for (const NamedSeries& named : all) {
+        plot::Series curve{.label = named.label, .mark = plot::Mark::kLinePoints};
+        const std::vector<Rest>& rests = named.series.rests;
+        for (std::size_t i = 0; i < rests.size(); ++i) {
+            const Rest& rest = rests[i];
+            const double error = difference_percent(rest.answers, reference);
+            if (named.to_the_end || i + 1 < rests.size()) {
+                curve.x.push_back(1e-6 * rest.work);
+                curve.y.push_back(error);
+            }
+            table.row_names.push_back(one.name + "/" + named.name + "/" + std::to_string(i));
             table.rows.push_back({static_cast<double>(rest.nodes), static_cast<double>(rest.cells),
                                   static_cast<double>(rest.deepest), 1e-6 * rest.own_work,
                                   1e-6 * rest.work, static_cast<double>(rest.solves),
@@ -303,17 +303,41 @@ void measure(const Case& one, const Series& uniform, const Series& refined, Tabl
         }
         chart.series.push_back(std::move(curve));
     }
-    outcome.figure.charts.push_back(std::move(chart));
+    figure.charts.push_back(std::move(chart));
+}
 
+/// Work at which a series first has an error no greater than `error`, in between by straight lines of the logarithms.
+double work_for(double error, const Series& series, const Answers& reference) {
+    double work_before = 0, error_before = 0;
+    for (const Rest& rest : series.rests) {
+        const double now = difference_percent(rest.answers, reference);
+        if (now <= error) {
+            if (work_before == 0 || now == 0) return rest.work;
+            const double part = std::log(error_before / error) / std::log(error_before / now);
+            return work_before * std::pow(rest.work / work_before, part);
+        }
+        work_before = rest.work;
+        error_before = now;
+    }
+    return kInfinity;
+}
+
+void measure(const Case& one, const Series& uniform, const Series& refined, const Series& reference,
+             Measurements& measured) {
     const Rest &finest = uniform.rests.back(), &last = refined.rests.back();
+    const Answers& truth = reference.rests.back().answers;
     const auto add = [&](const char* what, const char* unit, double value) {
-        outcome.measured.add(what + ("/" + one.name), unit, value);
+        measured.add(what + ("/" + one.name), unit, value);
     };
+    add("converged", "", uniform.converged && refined.converged && reference.converged ? 1 : 0);
     add("difference_percent", "%", difference_percent(last.answers, finest.answers));
     add("work_share", "", last.work / finest.work);
     add("work_share_of_last", "", last.work / finest.own_work);
-    add("uniform_error_percent", "%", difference_percent(finest.answers, limit));
-    add("adaptive_error_percent", "%", difference_percent(last.answers, limit));
+    const double error = difference_percent(finest.answers, truth);
+    add("uniform_error_percent", "%", error);
+    add("adaptive_error_percent", "%", difference_percent(last.answers, truth));
+    add("work_share_for_equal_error", "",
+        std::min(work_for(error, refined, truth), work_for(error, reference, truth)) / finest.work);
     add("mass_change_ratio", "", std::abs(last.mass_kg / finest.mass_kg - 1));
     add("uniform_nodes", "", finest.nodes);
     add("adaptive_nodes", "", last.nodes);
@@ -339,17 +363,20 @@ void run_adaptive(const JsonCursor& experiment, const RunOptions& options, Outco
     if (newton.linear != solve::LinearSolver::kConjugate)
         integrator.fail("\"linear\": \"conjugate\", whose work is counted");
 
-    // Two series of each case, the uniform ones, which take longest, first
+    // Three series of each case, those that take longest first
     const int count = static_cast<int>(cases.size());
-    std::vector<Series> uniform(cases.size()), refined(cases.size());
-    Progress progress(options, 2.0 * count);
-    parallel_for(2 * count, options.threads, [&](int i) {
+    std::vector<Series> uniform(cases.size()), refined(cases.size()), reference(cases.size());
+    Progress progress(options, 3.0 * count);
+    parallel_for(3 * count, options.threads, [&](int i) {
         const auto at = static_cast<std::size_t>(i % count);
+        const Case& one = cases[at];
         if (i < count)
-            uniform[at] = run_uniform(cases[at], newton, options);
+            reference[at] = run_refined(one, one.reference, newton, options);
+        else if (i < 2 * count)
+            uniform[at] = run_uniform(one, newton, options);
         else
-            refined[at] = run_refined(cases[at], newton, options);
-        progress.done(1, cases[at].name + (i < count ? " uniform" : " adaptive"));
+            refined[at] = run_refined(one, one.refine, newton, options);
+        progress.done(1, one.name);
     });
 
     Table table{
@@ -359,7 +386,12 @@ void run_adaptive(const JsonCursor& experiment, const RunOptions& options, Outco
                     "volume_change_percent", "error_percent", "estimated_error_percent"},
         .rows = {}};
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        measure(cases[i], uniform[i], refined[i], table, outcome);
+        tabulate(cases[i],
+                 {{"uniform", "uniform", uniform[i]},
+                  {"adaptive", "adaptive, same smallest cells", refined[i]},
+                  {"reference", "adaptive, smaller cells", reference[i], /*to_the_end=*/false}},
+                 reference[i].rests.back().answers, table, outcome.figure);
+        measure(cases[i], uniform[i], refined[i], reference[i], outcome.measured);
         outcome.figure.shapes.push_back(std::move(refined[i].shape));
     }
     outcome.figure.tables.push_back(std::move(table));

@@ -5,15 +5,17 @@
 //              "push": {"nodes": {...}, "move_m": [0, 0, -0.1]},          nodes held where they are moved; may be left out
 //              "watch": {"a3": "first"},                                  the end whose outward move is an answer
 //              "uniform_levels": 2,                                       halvings of every cell, each started from the last
-//              "refine": {"tolerance": 0.1, "merge_below": 0.02, "deepest_level": 2, "rounds": 4}}]
+//              "refine": {"tolerance": 0.1, "merge_below": 0.02, "deepest_level": 2, "rounds": 4},
+//              "reference": {...}}]                                       as "refine"; its last answers are taken for true
 //
-// Answers: the end's mean move outwards, the force of the push (N), the stored energy (J) and the change of volume. Their
-// error is against the limit of the uniform series (Aitken), the greatest of them in per cent. Work is the multiplications
-// of all linear solves so far, in millions, every coarser mesh included: the same on any machine.
+// Answers: the end's mean move outwards, the force of the push (N), the stored energy (J) and the change of volume. The
+// error is the greatest of theirs, in per cent. Work is the multiplications of all linear solves so far, every coarser
+// mesh included: the same on any machine.
 //
 // Measures, per case: difference_percent (adaptive against the finest uniform, the greatest of the answers), work_share
 // (all rounds against the finest uniform and those it started from), work_share_of_last (against the finest uniform's own
-// solve), uniform_error_percent, adaptive_error_percent, mass_change_ratio, and the answers of both.
+// solve), work_share_for_equal_error (what an adaptive run needs to be as near the truth as the finest uniform),
+// uniform_error_percent, adaptive_error_percent, mass_change_ratio, converged, and the answers of both.
 #pragma once
 
 #include "experiment/experiment_kind.h"

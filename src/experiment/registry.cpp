@@ -51,11 +51,11 @@ const std::vector<Figure>& figures() {
         {"9b", "Change of volume", "volume-history", 30},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 12},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
-         "muscle-stability", 120},
+         "muscle-stability", 25},
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
         {"cells", "Trilinear cells against finite differences", "static-resolution", 20},
         {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2},
-        {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
+        {"contact", "Soft bodies on rigid things and on each other", "contact", 15},
         {"adaptive", "Resolution where the strain asks for it", "adaptive", 30},
     };
     return list;

@@ -66,6 +66,15 @@ TEST(BrokenInput, EveryLandmarkFileIsRefusedByFit) {
                        kBroken / "landmarks", message, out);
 }
 
+TEST(BrokenInput, EveryExperimentIsRefusedByFigure) {
+    const Json expected = expected_in("experiments");
+    expect_complete("experiments", expected);
+    const Folder out;
+    for (const auto& [file, message] : expected.items())
+        expect_refused("figure " + file + " -o " + (out / "figure").string(),
+                       kBroken / "experiments", message, out);
+}
+
 TEST(BrokenInput, EveryMeshIsRefusedByTheRigThatNamesIt) {
     const Json expected = expected_in("meshes");
     expect_complete("meshes", expected);

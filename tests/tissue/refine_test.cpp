@@ -55,7 +55,7 @@ TEST(CellTree, SplittingOneDeepCellGradesTheCellsRoundIt) {
             if (&a != &b) doubled += overlap(a, b);
     }
     EXPECT_NEAR(filled, 1, 1e-12);
-    EXPECT_EQ(doubled, 0);
+    EXPECT_LT(doubled, 1e-12);
 }
 
 TEST(CellTree, MergingUndoesSplitting) {
@@ -77,12 +77,11 @@ TEST(CellTree, MergingIsRefusedOnlyWhereItWouldUnbalanceTheTree) {
     tree.split({1, {1, 1, 1}});  // meets all eight root cells at the middle, so all are split
     EXPECT_FALSE(tree.merge({0, {0, 0, 0}})) << "its part is split";
     EXPECT_FALSE(tree.merge({0, {1, 1, 1}})) << "it meets that part across a corner";
-    const auto before = places_of(tree.mesh());
     EXPECT_TRUE(tree.merge({1, {1, 1, 1}}));
     EXPECT_TRUE(tree.merge({0, {1, 1, 1}}));
     // A split on the far side of a neighbour is no reason to refuse
     CellTree wide({4, 2, 2});
-    wide.split({1, {5, 0, 0}});
+    wide.split({1, {3, 0, 0}});
     wide.split({0, {0, 0, 0}});
     EXPECT_TRUE(wide.is_split({0, {1, 0, 0}}));
     EXPECT_TRUE(wide.merge({0, {0, 0, 0}}));
@@ -171,7 +170,9 @@ TEST(StrainError, FallsWithTheCellSizeAndIsNearTheTrueError) {
         const double effectivity = std::sqrt(squared / true_squared_error(solid));
         EXPECT_GT(effectivity, 0.7) << nodes;
         EXPECT_LT(effectivity, 1.4) << nodes;
-        if (before > 0) EXPECT_NEAR(std::log2(std::sqrt(before / squared)), 1, 0.15);
+        if (before > 0) {
+            EXPECT_NEAR(std::log2(std::sqrt(before / squared)), 1, 0.15);
+        }
         before = squared;
     }
 }
@@ -215,7 +216,7 @@ double tip(const CellSolid& solid, const Points& x) {
 }
 
 TEST(AdaptiveSolid, HangingCubeIsRefinedAlongTheEdgesOfTheHeldFaceAndAgreesWithTheFineGrid) {
-    const RefineOptions options{.tolerance = 0.15, .deepest_level = 1};
+    const RefineOptions options{.tolerance = 0.35, .deepest_level = 1};
     AdaptiveSolid adaptive(thesis_cube(5, 100), options);
     solve::MotionState state = adaptive.start();
     const RefineRounds rounds = settle_and_refine(adaptive, hang, 5, state);
