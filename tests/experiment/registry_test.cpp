@@ -64,6 +64,13 @@ TEST(Registry, WrongFilesAreNamedWithTheirPlace) {
     EXPECT_EQ(message("/steps", 3).substr(0, 26), "mine.json:/steps: expected");
 }
 
+TEST(Registry, EveryGridHasItsStepOrNone) {
+    Json json = sample("9b");
+    json["runs"][0]["steps_s"] = {1e-3, 1e-3};
+    EXPECT_EQ(message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); }),
+              "mine.json:/runs/0/steps_s: expected as many steps as \"grids\", 11, found 2");
+}
+
 TEST(Registry, ChecksNameWhatWasMeasured) {
     Json json = sample("5");
     json["cases"] = Json::array({json["cases"][1]});
