@@ -127,16 +127,17 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
 RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
                                solve::MotionState& state) {
     RefineRounds done;
-    while (done.settled < rounds) {
-        if (!settle(solid.solid(), state)) break;
-        ++done.settled;
-        // The last round's answer is not refined any more: it would no longer be an equilibrium
-        if (done.settled == rounds) break;
+    // The last round's answer is not refined any more: it would no longer be an equilibrium
+    while (done.meshes + 1 < rounds) {
+        if (!settle(solid.solid(), Settling::kOnTheWay, state)) return done;
+        ++done.meshes;
         if (!solid.refine(state)) {
             done.satisfied = true;
             break;
         }
     }
+    done.settled = settle(solid.solid(), Settling::kFinal, state);
+    if (done.settled && !done.satisfied) ++done.meshes;
     return done;
 }
 
