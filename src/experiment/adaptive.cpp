@@ -102,7 +102,7 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
 }
 
 struct Answers {
-    double move_m = 0, push_n = 0, energy_j = 0, volume_change_percent = 0;
+    double move_m = 0, push_n = 0, volume_change_percent = 0;
 };
 
 /// What a series costs, counted: the same on any machine.
@@ -128,7 +128,7 @@ struct Rest {
     int nodes = 0, cells = 0, deepest = 0;
     long solves = 0;
     Work own, all;  ///< of this mesh, and of all before it too
-    double estimated_error = 0, mass_kg = 0, last_move_m = 0;
+    double energy_j = 0, estimated_error = 0, mass_kg = 0, last_move_m = 0;
     Answers answers;
 };
 
@@ -201,10 +201,9 @@ class Settler {
         noted_ = &solid;
         rest.last_move_m = report.last_move_m;
         rest.mass_kg = solid.body().mass_kg.sum();
-        rest.answers.energy_j = solid.energy(state.t_s, x);
-        if (rest.answers.energy_j > 0)
-            rest.estimated_error =
-                std::sqrt(tissue::squared_error(solid, x).sum() / rest.answers.energy_j);
+        rest.energy_j = solid.energy(state.t_s, x);
+        if (rest.energy_j > 0)
+            rest.estimated_error = std::sqrt(tissue::squared_error(solid, x).sum() / rest.energy_j);
         rest.answers.volume_change_percent = 100 * (solid.volume(x) / solid.rest_volume() - 1);
         const Points& still = solid.body().rest;
         const int axis = case_.watched_axis;
@@ -233,7 +232,7 @@ class Settler {
     double length_m_ = 1;
 };
 
-/// Strain proper at the vertices, for colour: from 0 at none to 1 at the greatest.
+/// Strain proper at the vertices, for colour: from 0 at none to 1 at the greatest, by its root to show weak strain too.
 std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
     const std::vector<Mat3> strain = tissue::smooth_strain(solid, x);
     std::vector<double> shade(strain.size(), 0.0);
@@ -246,7 +245,7 @@ std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
         }
     }
     const double most = *std::max_element(shade.begin(), shade.end());
-    for (double& value : shade) value = most > 0 ? value / most : 0.0;
+    for (double& value : shade) value = most > 0 ? std::sqrt(value / most) : 0.0;
     return shade;
 }
 
@@ -295,13 +294,14 @@ Series run_refined(const Case& one, const RefinedRun& refined,
             .shape = shape_of(one, *solid.solid(), state.x, one.name, one.caption)};
 }
 
+double difference_percent(double value, double reference) {
+    return reference != 0 ? 100 * std::abs(value / reference - 1) : 0;
+}
+
 /// The greatest of the answers' differences, each as a share of its reference; of volumes, as a share of the volume.
 double difference_percent(const Answers& a, const Answers& reference) {
-    const auto share = [](double value, double of) {
-        return of != 0 ? 100 * std::abs(value / of - 1) : 0.0;
-    };
-    return std::max({share(a.move_m, reference.move_m), share(a.push_n, reference.push_n),
-                     share(a.energy_j, reference.energy_j),
+    return std::max({difference_percent(a.move_m, reference.move_m),
+                     difference_percent(a.push_n, reference.push_n),
                      std::abs(a.volume_change_percent - reference.volume_change_percent)});
 }
 
@@ -333,8 +333,8 @@ void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answer
                 {static_cast<double>(rest.nodes), static_cast<double>(rest.cells),
                  static_cast<double>(rest.deepest), static_cast<double>(rest.solves),
                  rest.all.assembled_cells, 1e-6 * rest.all.multiplications, rest.answers.move_m,
-                 rest.answers.push_n, rest.answers.energy_j, rest.answers.volume_change_percent,
-                 error, 100 * rest.estimated_error});
+                 rest.answers.push_n, rest.energy_j, rest.answers.volume_change_percent, error,
+                 100 * rest.estimated_error});
         }
         chart.series.push_back(std::move(curve));
     }
@@ -350,6 +350,7 @@ void measure(const Case& one, const Series& uniform, const Series& refined, cons
     };
     add("converged", "", uniform.converged && refined.converged && reference.converged ? 1 : 0);
     add("difference_percent", "%", difference_percent(last.answers, finest.answers));
+    add("energy_difference_percent", "%", difference_percent(last.energy_j, finest.energy_j));
     add("work_share", "", last.all.share_of(finest.all));
     add("work_share_of_last", "", last.all.share_of(finest.own));
     add("uniform_error_percent", "%", difference_percent(finest.answers, truth));

@@ -74,16 +74,16 @@ TEST(Adaptive, WrongFilesAreNamedWithTheirPlace) {
         "experiment.json:/cases/1/reference/deepest_level: expected an integer in [0, 8], found 9");
     EXPECT_EQ(message("/cases/1/name", "cube"),
               "experiment.json:/cases/1/name: expected a name of its own, found \"cube\" again");
-    EXPECT_EQ(
-        message("/cases/1/watch", Json::object()),
-        "experiment.json:/cases/1/watch: expected one of \"a1\" \"a2\" \"a3\", found an object");
+    EXPECT_EQ(message("/cases/1/watch", Json::object()),
+              "experiment.json:/cases/1/watch: expected one of \"a1\" \"a2\" \"a3\", found an "
+              "object with 0 keys");
     EXPECT_EQ(message("/cases/1/push/nodes/a3", 4),
               "experiment.json:/cases/1/push/nodes/a3: expected an index in [-4, 3] of this grid, "
               "found 4");
     EXPECT_EQ(message("/cases/1/push/nodes/a3", {{"from", 0.5}, {"to", 0.6}}).substr(0, 75),
               "experiment.json:/cases/1/push/nodes: expected at least one node, found an o");
     EXPECT_EQ(message("/cases/1/push/move_m", {0, 0, 0}).substr(0, 55),
-              "experiment.json:/cases/1/push/move_m: expected a move, f");
+              "experiment.json:/cases/1/push/move_m: expected a move, ");
     EXPECT_EQ(message("/integrator/linear", "direct"),
               "experiment.json:/integrator/linear: expected \"conjugate\", whose work is counted, "
               "found \"direct\"");
