@@ -124,21 +124,28 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
     return changed;
 }
 
-RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
-                               solve::MotionState& state) {
+RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+                           const std::function<bool()>& refine) {
     RefineRounds done;
     // The last round's answer is not refined any more: it would no longer be an equilibrium
     while (done.meshes + 1 < rounds) {
-        if (!settle(solid.solid(), Settling::kOnTheWay, state)) return done;
+        if (!settle(Settling::kOnTheWay)) return done;
         ++done.meshes;
-        if (!solid.refine(state)) {
+        if (!refine()) {
             done.satisfied = true;
             break;
         }
     }
-    done.settled = settle(solid.solid(), Settling::kFinal, state);
+    done.settled = settle(Settling::kFinal);
     if (done.settled && !done.satisfied) ++done.meshes;
     return done;
+}
+
+RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
+                               solve::MotionState& state) {
+    return refine_rounds(
+        rounds, [&](Settling settling) { return settle(solid.solid(), settling, state); },
+        [&] { return solid.refine(state); });
 }
 
 }  // namespace risorius::tissue

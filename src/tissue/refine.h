@@ -77,6 +77,10 @@ struct RefineRounds {
     bool satisfied = false;  ///< nothing is left to refine; false when the rounds were over before
 };
 
+/// The rounds of settling and refining, of whatever body.
+RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+                           const std::function<bool()>& refine);
+
 /// Settles and refines in turn until nothing is refined any more, or `rounds` are over. The state left is the equilibrium
 /// of the last mesh.
 RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
