@@ -34,14 +34,6 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
         if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
 }
 
-// An experiment reads its file and builds its bodies before its first step, which is where it is stopped.
-void check_experiment(const JsonCursor& json) {
-    try {
-        experiment::run_figure(json, {.threads = 1, .stopped = [] { return true; }});
-    } catch (const experiment::Interrupted&) {
-    }
-}
-
 // Eyes and teeth may be open, intersecting pieces; the skin has to be a sound surface.
 void check_mesh_file(const fs::path& file, CheckResult& result) {
     const geom::PolygonMesh mesh = io::read_mesh(file);
@@ -65,7 +57,7 @@ void check(CheckResult& result) {
         {"risorius-script", "risorius-rig", "risorius-landmarks", "risorius-experiment"});
     result.format = format.substr(std::string("risorius-").size());
     if (result.format == "script") check_script(result.file);
-    if (result.format == "experiment") check_experiment(json);
+    if (result.format == "experiment") experiment::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") {
         const rig::Head head = check_rig(result.file);

@@ -67,7 +67,8 @@ render::Object object_of(const experiment::Shape& shape) {
             .surface = shape.surface,
             .wires = shape.wires,
             .fixed = shape.fixed,
-            .shade = shape.shade};
+            .shade = shape.shade,
+            .outline = shape.outline};
 }
 
 bool is_flat(const render::Object& object) {
@@ -149,7 +150,11 @@ FigureFiles write_figure(const experiment::FigureResult& figure, const fs::path&
         std::vector<render::Object> row;
         for (; i < figure.shapes.size() && figure.shapes[i].name == name; ++i) {
             row.push_back(object_of(figure.shapes[i]));
-            picture.captions.push_back(figure.shapes[i].caption);
+            const experiment::Shape& shape = figure.shapes[i];
+            picture.captions.push_back(shape.caption);
+            picture.held = picture.held || !shape.fixed.empty();
+            picture.outlined = picture.outlined || shape.outline.rows() > 0;
+            if (picture.shade_ends[0].empty()) picture.shade_ends = shape.shade_ends;
         }
         media::write_png(picture_of(row), folder / picture.file);
         files.pictures.push_back(picture);

@@ -3,6 +3,7 @@
 // The same result gives the same bytes; nothing here knows the time.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ std::string csv_of(const experiment::Table& table);
 struct FigurePicture {
     std::string file;
     std::vector<std::string> captions;  ///< one per object, from left to right
+    // For the legend
+    bool held = false, outlined = false;               ///< some object
+    std::array<std::string, 2> shade_ends = {"", ""};  ///< of the first object that has them
 };
 
 struct FigureFiles {

@@ -88,6 +88,23 @@ void write_image(HtmlWriter& html, const std::string& file, const std::string& d
         .close();
 }
 
+void write_legend(HtmlWriter& html, const FigurePicture& picture) {
+    const bool shaded = !picture.shade_ends[0].empty();
+    if (!picture.held && !picture.outlined && !shaded) return;
+    html.open("span", {{"class", "legend"}});
+    if (picture.held)
+        html.open("span").element("i", "", {{"class", "held"}}).text("held nodes").close();
+    if (picture.outlined)
+        html.open("span").element("i", "", {{"class", "outline"}}).text("outline at rest").close();
+    if (shaded)
+        html.open("span")
+            .text(picture.shade_ends[0])
+            .element("i", "", {{"class", "shade"}})
+            .text(picture.shade_ends[1])
+            .close();
+    html.close();
+}
+
 void write_pictures(HtmlWriter& html, const ShownFigure& figure) {
     if (figure.published.empty() && figure.files.charts.empty() && figure.files.pictures.empty())
         return;
@@ -105,7 +122,9 @@ void write_pictures(HtmlWriter& html, const ShownFigure& figure) {
                                                         : HtmlWriter::Attributes{});
         write_image(html, figure.folder + picture.file,
                     caption.empty() ? figure.result.title : caption);
-        html.element("figcaption", caption).close();
+        html.open("figcaption").text(caption);
+        write_legend(html, picture);
+        html.close().close();
     }
     for (std::size_t i = 0; i < figure.files.charts.size(); ++i) {
         const std::string file = figure.folder + figure.files.charts[i];

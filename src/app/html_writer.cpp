@@ -26,6 +26,11 @@ section { background: #fff; border: 1px solid var(--line); border-radius: 8px; p
 figure { margin: 0; }
 figure img { width: 100%; height: auto; display: block; border: 1px solid var(--line); border-radius: 4px; background: #fff; }
 figcaption { font-size: .87rem; color: var(--soft); margin-top: .35rem; }
+.legend { display: flex; flex-wrap: wrap; gap: .1rem 1.3rem; margin-top: .2rem; }
+.legend i { display: inline-block; margin: 0 .4rem .1rem 0; vertical-align: middle; }
+.legend .held { width: .7rem; height: .7rem; border-radius: 50%; background: #ce4a24; }
+.legend .outline { width: 1.6rem; border-top: 2px solid #b8bbbf; }
+.legend .shade { width: 5rem; height: .7rem; margin-left: .4rem; background: linear-gradient(90deg, #82b5f0, #e6e8e4, #f3a56e); }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .9rem; min-width: 60%; }
 th, td { text-align: left; vertical-align: top; padding: .35rem .8rem .35rem 0; border-bottom: 1px solid var(--line); }
@@ -39,7 +44,8 @@ details { margin-top: .8rem; } summary { cursor: pointer; color: var(--soft); }
 )";
 
 bool is_inline(const std::string& tag) {
-    static const std::vector<std::string> tags = {"a", "b", "em", "strong", "code", "span", "br"};
+    static const std::vector<std::string> tags = {"a",      "b",    "em",   "i",
+                                                  "strong", "code", "span", "br"};
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 

@@ -1,8 +1,11 @@
 #include "app/run_figure.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <numeric>
 #include <set>
 
 #include "app/figure_files.h"
@@ -12,6 +15,7 @@
 #include "app/stopwatch.h"
 #include "app/version.h"
 #include "core/error.h"
+#include "experiment/experiment_kind.h"
 #include "experiment/registry.h"
 
 namespace risorius::app {
@@ -117,33 +121,44 @@ Json results_of_all(const std::vector<ShownFigure>& figures) {
     return json;
 }
 
-/// Runs one after the other, each on all threads.
+/// Several at a time, the longest first; when there are fewer left than threads, those go to the work within them.
 class Run {
   public:
     Run(const FigureOptions& options, const Watch& watch, const std::vector<Job>& jobs)
-        : options_(options), watch_(watch), jobs_(jobs) {
-        for (const Job& job : jobs) total_s_ += expected_s(job);
-    }
+        : options_(options),
+          watch_(watch),
+          jobs_(jobs),
+          shares_(jobs.size(), 0),
+          spare_(experiment::ThreadLimit(options.threads).count() - 1),
+          shared_(&spare_) {}
 
-    experiment::FigureResult operator()(const Job& job) {
-        const JsonCursor file = JsonCursor::read_file(job.file);
-        const double begin = done_s_ / total_s_, share = expected_s(job) / total_s_;
-        const std::string name = job.folder.substr(0, job.folder.find('/'));
-        experiment::RunOptions run_options{.threads = options_.threads};
-        run_options.shared = &shared_;
-        run_options.stopped = watch_.stopped;
-        if (watch_.progress)
-            run_options.progress = [=, this](double part, const std::string& what) {
-                watch_.progress(begin + share * part, name.empty() ? what : name + ": " + what);
-            };
-        watch_.tell(begin, name);
-        done_s_ += expected_s(job);
-        try {
-            return options_.run ? options_.run(file, run_options)
-                                : experiment::run_figure(file, run_options);
-        } catch (const experiment::Interrupted&) {
-            throw Interrupted();
-        }
+    struct Done {
+        ShownFigure shown;
+        double run_s = 0, write_s = 0;
+    };
+
+    /// In the order of the jobs, written below `top`.
+    std::vector<Done> all(const fs::path& top) {
+        std::vector<std::size_t> order(jobs_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return expected_s(jobs_[a]) > expected_s(jobs_[b]);
+        });
+        std::vector<Done> done(jobs_.size());
+        experiment::parallel_for(static_cast<int>(jobs_.size()), {options_.threads, &spare_},
+                                 [&](int i) {
+                                     const std::size_t job = order[static_cast<std::size_t>(i)];
+                                     try {
+                                         done[job] = one(job, top);
+                                     } catch (const experiment::Interrupted&) {
+                                         // Either by who watches, or because another has failed, whose error is the one to tell.
+                                         if (!failed_) throw Interrupted();
+                                     } catch (...) {
+                                         failed_ = true;
+                                         throw;
+                                     }
+                                 });
+        return done;
     }
 
   private:
@@ -151,11 +166,49 @@ class Run {
         return job.run_time_s > 0 ? job.run_time_s : kUnknownTime_s;
     }
 
+    Done one(std::size_t job, const fs::path& top) {
+        const JsonCursor file = JsonCursor::read_file(jobs_[job].file);
+        const std::string name = jobs_[job].folder.substr(0, jobs_[job].folder.find('/'));
+        experiment::RunOptions run_options{.threads = {options_.threads, &spare_}};
+        run_options.shared = &shared_;
+        run_options.stopped = [this] { return failed_ || (watch_.stopped && watch_.stopped()); };
+        run_options.progress = [&](double share, const std::string& what) {
+            tell(job, share, name.empty() ? what : name + ": " + what);
+        };
+        run_options.tell(0, name);
+        const Stopwatch running;
+        Done done;
+        experiment::FigureResult result = options_.run ? options_.run(file, run_options)
+                                                       : experiment::run_figure(file, run_options);
+        done.run_s = running.seconds();
+        // Pictures and charts one figure at a time: the renderer uses all threads by itself.
+        const std::lock_guard<std::mutex> lock(writing_);
+        const Stopwatch writing;
+        done.shown = write_results(jobs_[job], std::move(result), top, options_.charts);
+        done.write_s = writing.seconds();
+        tell(job, 1, name);
+        return done;
+    }
+
+    void tell(std::size_t job, double share, const std::string& what) {
+        const std::lock_guard<std::mutex> lock(telling_);
+        shares_[job] = std::max(shares_[job], share);
+        double done_s = 0, total_s = 0;
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            done_s += shares_[i] * expected_s(jobs_[i]);
+            total_s += expected_s(jobs_[i]);
+        }
+        if (watch_.progress) watch_.progress(done_s / total_s, what);
+    }
+
     const FigureOptions& options_;
     const Watch& watch_;
     const std::vector<Job>& jobs_;
+    std::vector<double> shares_;  ///< of each job, done
+    experiment::SpareThreads spare_;
     experiment::SharedRuns shared_;
-    double total_s_ = 0, done_s_ = 0;
+    std::atomic<bool> failed_{false};
+    std::mutex telling_, writing_;
 };
 
 }  // namespace
@@ -188,22 +241,20 @@ std::vector<FigureEntry> list_figures(const fs::path& from) {
 FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
     // What is asked for, refused before anything is run
     const std::vector<Job> jobs = jobs_of(options);
-    for (const Job& job : jobs) JsonCursor::read_file(job.file);
+    for (const Job& job : jobs) {
+        const JsonCursor file = JsonCursor::read_file(job.file);
+        if (!options.run) experiment::check_experiment(file);
+    }
     StagedFolder staged(options.out);
 
     // Each figure
     const Stopwatch total;
     Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
-    Run run(options, watch, jobs);
     std::vector<ShownFigure> figures;
-    for (const Job& job : jobs) {
-        const Stopwatch running;
-        experiment::FigureResult result = run(job);
-        const double run_s = running.seconds();
-        const Stopwatch writing;
-        figures.push_back(write_results(job, std::move(result), staged.partial(), options.charts));
+    for (Run::Done& done : Run(options, watch, jobs).all(staged.partial())) {
         timing["figures"].push_back(
-            {{"id", figures.back().result.id}, {"run_s", run_s}, {"write_s", writing.seconds()}});
+            {{"id", done.shown.result.id}, {"run_s", done.run_s}, {"write_s", done.write_s}});
+        figures.push_back(std::move(done.shown));
     }
 
     // What holds them together

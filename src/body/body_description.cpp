@@ -26,27 +26,37 @@ const std::vector<Quantity>& quantities_of(Kind kind) {
                                                   {"bending", "bending_n_per_m", 2},
                                                   {"mass", "mass_kg", 0},
                                                   {"drag", "drag_ns_per_m", 0}};
-    return kind == Kind::kSolid ? solid : surface;
+    static const std::vector<Quantity> curve = {{"elastic", "elastic_n_per_m3", 0},
+                                                {"damping", "damping_ns_per_m3", 0},
+                                                {"bending", "bending_n_per_m", 0},
+                                                {"mass", "mass_kg", 0},
+                                                {"drag", "drag_ns_per_m", 0}};
+    return kind == Kind::kSolid ? solid : kind == Kind::kCurve ? curve : surface;
 }
 
-int axes_of(Kind kind) { return kind == Kind::kSolid ? 3 : 2; }
+int axes_of(Kind kind) { return kind == Kind::kSolid ? 3 : kind == Kind::kCurve ? 1 : 2; }
 
 Kind read_kind(const JsonCursor& json) {
-    const std::string name = json.one_of({"solid", "surface", "cylinder"});
-    return name == "solid" ? Kind::kSolid : name == "surface" ? Kind::kSurface : Kind::kCylinder;
+    const std::string name = json.one_of({"solid", "surface", "cylinder", "curve"});
+    return name == "solid"     ? Kind::kSolid
+           : name == "surface" ? Kind::kSurface
+           : name == "curve"   ? Kind::kCurve
+                               : Kind::kCylinder;
 }
 
 tissue::GridShape read_grid(const JsonCursor& json, Kind kind) {
     const auto counts = json.items();
     const int axes = axes_of(kind);
     if (static_cast<int>(counts.size()) != axes)
-        json.fail(std::string(axes == 3 ? "three" : "two") + " numbers of nodes, one per axis");
+        json.fail(axes == 1 ? "one number of nodes"
+                            : std::string(axes == 3 ? "three" : "two") +
+                                  " numbers of nodes, one per axis");
     const auto count = [&](std::size_t axis) {
         // Round a tube two nodes would lie on one line.
         const int least = kind == Kind::kCylinder && axis == 1 ? 3 : 2;
         return counts[axis].integer(least, kMostNodesPerAxis);
     };
-    return {.m = count(0), .n = count(1), .o = axes == 3 ? count(2) : 1};
+    return {.m = count(0), .n = axes > 1 ? count(1) : 1, .o = axes > 2 ? count(2) : 1};
 }
 
 tissue::Parameters read_parameters(const JsonCursor& material, std::string_view key) {
@@ -89,6 +99,36 @@ void read_surface_material(const JsonCursor& json, BodyDescription& body) {
     material.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
     body.parameters = read_parameters(json, "parameters");
     body.bending_parameters = read_parameters(json, "bending_parameters");
+}
+
+void read_curve_material(const JsonCursor& json, BodyDescription& body) {
+    json.allow_keys({"mass_kg", "elastic_n_per_m3", "damping_ns_per_m3", "bending_n_per_m",
+                     "drag_ns_per_m", "parameters"});
+    body.curve.mass_kg = positive(json.at("mass_kg"));
+    body.curve.elastic_n_per_m3 = not_negative(json.at("elastic_n_per_m3"));
+    body.curve.damping_ns_per_m3 = not_negative(json, "damping_ns_per_m3", 0);
+    body.curve.bending_n_per_m = not_negative(json, "bending_n_per_m", 0);
+    body.curve.drag_ns_per_m = not_negative(json, "drag_ns_per_m", 0);
+    body.parameters = read_parameters(json, "parameters");
+}
+
+Discretisation read_discretisation(const JsonCursor& json, Kind kind) {
+    if (kind == Kind::kSolid)
+        return json.one_of({"differences", "cells"}) == "cells" ? Discretisation::kCells
+                                                                : Discretisation::kDifferences;
+    return json.one_of({"differences", "triangles"}) == "triangles" ? Discretisation::kTriangles
+                                                                    : Discretisation::kDifferences;
+}
+
+void read_irregular(const JsonCursor& json, BodyDescription& body) {
+    json.allow_keys({"share", "seed"});
+    if (body.discretisation != Discretisation::kTriangles)
+        json.fail("\"triangles\" for its discretisation", "another");
+    IrregularDescription irregular;
+    irregular.share = json.at("share").number({0, 0.45});
+    if (const auto seed = json.find("seed"))
+        irregular.seed = static_cast<unsigned>(seed->integer(0, 1000000));
+    body.irregular = irregular;
 }
 
 bool has_moduli(const JsonCursor& material) {
@@ -140,13 +180,17 @@ void change_tensor(Mat3& tensor, const MaterialChange& change, double share) {
     tensor = changed(tensor, change, share);
 }
 
+void change_tensor(double& number, const MaterialChange& change, double share) {
+    number = changed(number, change, share);
+}
+
 void change_tensor(tissue::Mat2& tensor, const MaterialChange& change, double share) {
     Mat3 whole = Mat3::Zero();
     whole.topLeftCorner<2, 2>() = tensor;
     tensor = changed(whole, change, share).topLeftCorner<2, 2>();
 }
 
-/// What solids and surfaces have in common.
+/// What all kinds have in common.
 template <typename Material>
 void change_shared(Material& material, const MaterialChange& change, double share) {
     if (change.quantity == "elastic") change_tensor(material.elastic_n_per_m3, change, share);
@@ -163,6 +207,10 @@ void change_own(tissue::SolidMaterial& material, const MaterialChange& change, d
 }
 
 void change_own(tissue::SurfaceMaterial& material, const MaterialChange& change, double share) {
+    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, share);
+}
+
+void change_own(tissue::CurveMaterial& material, const MaterialChange& change, double share) {
     if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, share);
 }
 
@@ -189,18 +237,20 @@ BodyDescription read_body(const JsonCursor& json) {
     std::vector<std::string_view> known = {
         "kind",    "grid",   "rest",     "material", "regions", "fixed", "gravity_m_per_s2",
         "springs", "pulses", "obstacles"};
-    if (body.kind == Kind::kSolid) known.push_back("discretisation");
+    if (body.kind != Kind::kCurve) known.push_back("discretisation");
+    if (axes_of(body.kind) == 2) known.push_back("irregular");
     json.allow_keys(known);
 
     body.grid = read_grid(json.at("grid"), body.kind);
     body.rest = read_rest(json.at("rest"), body.kind);
     if (const auto discretisation = json.find("discretisation"))
-        body.discretisation = discretisation->one_of({"differences", "cells"}) == "cells"
-                                  ? Discretisation::kCells
-                                  : Discretisation::kDifferences;
+        body.discretisation = read_discretisation(*discretisation, body.kind);
+    if (const auto irregular = json.find("irregular")) read_irregular(*irregular, body);
 
     const JsonCursor material = json.at("material");
-    if (body.kind != Kind::kSolid) {
+    if (body.kind == Kind::kCurve) {
+        read_curve_material(material, body);
+    } else if (body.kind != Kind::kSolid) {
         read_surface_material(material, body);
     } else if (has_moduli(material)) {
         if (body.rest.form != RestDescription::Form::kBlock)
@@ -219,13 +269,20 @@ BodyDescription read_body(const JsonCursor& json) {
     if (const auto gravity = json.find("gravity_m_per_s2")) body.gravity_m_per_s2 = gravity->vec3();
     if (const auto springs = json.find("springs")) body.springs = read_springs(*springs, axes);
     if (const auto pulses = json.find("pulses")) body.pulses = read_pulses(*pulses, axes);
+    // Their places are found by the grid.
+    for (const char* key : {"springs", "pulses"})
+        if (body.irregular && json.has(key)) json.at(key).fail("none on irregular triangles");
     if (const auto obstacles = json.find("obstacles")) body.obstacles = read_obstacles(*obstacles);
 
     // What only the whole shows: a folded rest shape, a plane the grid does not have.
     if (body.kind == Kind::kSolid)
         tissue::check(grid_solid(body), body.place);
+    else if (body.kind == Kind::kCurve)
+        tissue::check(grid_curve(body), body.place);
     else
         tissue::check(grid_surface(body), body.place);
+    if (body.discretisation == Discretisation::kTriangles)
+        tissue::check(triangle_surface(body), body.place);
     fixed_flags(body);
     return body;
 }
@@ -255,6 +312,22 @@ tissue::GridSurface grid_surface(const BodyDescription& description) {
     return surface;
 }
 
+tissue::TriangleSurface triangle_surface(const BodyDescription& description) {
+    const tissue::GridSurface surface = grid_surface(description);
+    return description.irregular
+               ? tissue::irregularly_triangulated(surface, description.irregular->share,
+                                                  description.irregular->seed)
+               : tissue::triangulated(surface);
+}
+
+tissue::GridCurve grid_curve(const BodyDescription& description) {
+    tissue::GridCurve curve;
+    curve.parameters = description.parameters;
+    curve.rest = rest_points(description.rest, description.grid);
+    curve.material = material_field(description, description.curve);
+    return curve;
+}
+
 std::vector<double> relative_stiffness(const BodyDescription& description) {
     std::vector<double> stiffness;
     if (description.regions.empty()) return stiffness;
@@ -264,6 +337,7 @@ std::vector<double> relative_stiffness(const BodyDescription& description) {
             stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), kLeast)));
         return stiffness;
     }
+    if (description.kind == Kind::kCurve) return stiffness;
     bool bending = false;
     for (const MaterialRegion& region : description.regions)
         for (const MaterialChange& change : region.changes)

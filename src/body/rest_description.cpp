@@ -21,6 +21,7 @@ std::vector<NamedForm> forms_of(Kind kind) {
         return {
             {"block_m", Form::kBlock}, {"cylinder", Form::kCylinder}, {"points_m", Form::kPoints}};
     if (kind == Kind::kSurface) return {{"sheet_m", Form::kSheet}, {"points_m", Form::kPoints}};
+    if (kind == Kind::kCurve) return {{"path_m", Form::kPath}, {"points_m", Form::kPoints}};
     return {{"tube", Form::kTube}, {"points_m", Form::kPoints}};
 }
 
@@ -42,6 +43,32 @@ void read_points(const JsonCursor& json, Points& points_m) {
     points_m.resize(static_cast<long>(rows.size()), 3);
     for (std::size_t i = 0; i < rows.size(); ++i)
         points_m.row(static_cast<long>(i)) = rows[i].vec3().transpose();
+}
+
+void read_path(const JsonCursor& json, Points& points_m) {
+    if (json.items().size() < 2)
+        json.fail("at least 2 points", std::to_string(json.items().size()));
+    read_points(json, points_m);
+    for (long i = 1; i < points_m.rows(); ++i)
+        if (!((points_m.row(i) - points_m.row(i - 1)).norm() > 0))
+            json.items()[static_cast<std::size_t>(i)].fail("a point apart from the one before");
+}
+
+/// Evenly spaced by length.
+Points along_path(const Points& corners, int nodes) {
+    std::vector<double> length{0};
+    for (long i = 1; i < corners.rows(); ++i)
+        length.push_back(length.back() + (corners.row(i) - corners.row(i - 1)).norm());
+    Points points(nodes, 3);
+    std::size_t side = 1;
+    for (int node = 0; node < nodes; ++node) {
+        const double s = length.back() * node / (nodes - 1);
+        while (side + 1 < length.size() && s > length[side]) ++side;
+        const double share = (s - length[side - 1]) / (length[side] - length[side - 1]);
+        const long end = static_cast<long>(side);
+        points.row(node) = (1 - share) * corners.row(end - 1) + share * corners.row(end);
+    }
+    return points;
 }
 
 }  // namespace
@@ -83,6 +110,9 @@ RestDescription read_rest(const JsonCursor& json, Kind kind) {
         case Form::kTube:
             read_round(json.at("tube"), rest);
             break;
+        case Form::kPath:
+            read_path(json.at("path_m"), rest.points_m);
+            break;
         case Form::kPoints:
             read_points(json.at("points_m"), rest.points_m);
             break;
@@ -112,14 +142,16 @@ Points rest_points(const RestDescription& rest, const tissue::GridShape& grid) {
         case Form::kTube:
             return tissue::tube_rest({.m = grid.m, .n = grid.n, .closed = true}, rest.radius_m,
                                      rest.length_m, rest.placed);
+        case Form::kPath:
         case Form::kPoints:
             break;
     }
-    if (rest.points_m.rows() != grid.size())
+    const bool path = rest.form == Form::kPath;
+    if (!path && rest.points_m.rows() != grid.size())
         throw Error(rest.place + "/points_m",
                     std::to_string(grid.size()) + " points, one per node of the grid",
                     std::to_string(rest.points_m.rows()));
-    Points points = rest.points_m;
+    Points points = path ? along_path(rest.points_m, grid.m) : rest.points_m;
     for (long i = 0; i < points.rows(); ++i)
         points.row(i) = (rest.placed * Vec3(points.row(i).transpose())).transpose();
     return points;

@@ -3,6 +3,7 @@
 //   {"block_m": [3, 3, 3]}                              solid; edges along x, y, z, which are a1, a2, a3
 //   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x, a square of a2, a3 pressed into the disc
 //   {"sheet_m": [3, 3]}                                 surface; edges along x, y, which are a1, a2
+//   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, nodes evenly along it
 //   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
 //   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; holds for one grid only
 //
@@ -18,18 +19,19 @@
 namespace risorius::body {
 
 enum class Kind {
-    kSolid,    ///< a grid over three material axes
-    kSurface,  ///< over two
-    kCylinder  ///< a surface closed along a2
+    kSolid,     ///< a grid over three material axes
+    kSurface,   ///< over two
+    kCylinder,  ///< a surface closed along a2
+    kCurve      ///< over one
 };
 
 struct RestDescription {
-    enum class Form { kBlock, kCylinder, kSheet, kTube, kPoints };
+    enum class Form { kBlock, kCylinder, kSheet, kTube, kPath, kPoints };
     Form form = Form::kBlock;
     std::string place;      ///< where it was written
     Vec3 edges_m{1, 1, 1};  ///< of a block; of a sheet the first two
     double radius_m = 1, length_m = 1;
-    Points points_m;
+    Points points_m;  ///< of a path its corners, else every node
     Rigid placed = Rigid::Identity();
 };
 

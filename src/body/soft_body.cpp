@@ -1,5 +1,6 @@
 #include "body/soft_body.h"
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 
@@ -10,9 +11,11 @@
 #include "tissue/difference_solid.h"
 #include "tissue/drag.h"
 #include "tissue/gravity.h"
+#include "tissue/grid_curve.h"
 #include "tissue/grid_point.h"
 #include "tissue/grid_shape.h"
 #include "tissue/grid_surface.h"
+#include "tissue/triangle_sheet.h"
 
 namespace risorius::body {
 namespace {
@@ -55,10 +58,87 @@ Matter matter_of_surface(const BodyDescription& description) {
     return matter;
 }
 
+Matter matter_of_triangles(const BodyDescription& description) {
+    const tissue::TriangleSurface surface = triangle_surface(description);
+    tissue::check(surface, description.place);
+    Matter matter;
+    matter.rest = surface.rest;
+    matter.mass_kg = tissue::node_mass(surface);
+    matter.drag_ns_per_m = tissue::node_drag(grid_surface(description));
+    matter.inner = std::make_shared<tissue::TriangleSheetTerm>(surface);
+    matter.surface = surface.triangles;
+    for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const auto [a, b] =
+                std::minmax({surface.triangles(t, k), surface.triangles(t, (k + 1) % 3)});
+            matter.wires.push_back({a, b});
+        }
+    std::sort(matter.wires.begin(), matter.wires.end());
+    matter.wires.erase(std::unique(matter.wires.begin(), matter.wires.end()), matter.wires.end());
+    return matter;
+}
+
+Matter matter_of_curve(const BodyDescription& description) {
+    const tissue::GridCurve curve = grid_curve(description);
+    tissue::check(curve, description.place);
+    Matter matter;
+    matter.rest = curve.rest;
+    matter.mass_kg = tissue::node_mass(curve);
+    matter.drag_ns_per_m = tissue::node_drag(curve);
+    matter.inner = std::make_shared<tissue::GridCurveTerm>(curve);
+    for (int i = 0; i + 1 < description.grid.m; ++i) matter.wires.push_back({i, i + 1});
+    return matter;
+}
+
+Matter matter_of(const BodyDescription& description) {
+    if (description.kind == Kind::kSolid) return matter_of_solid(description);
+    if (description.kind == Kind::kCurve) return matter_of_curve(description);
+    return description.discretisation == Discretisation::kTriangles
+               ? matter_of_triangles(description)
+               : matter_of_surface(description);
+}
+
+/// Wires of the grid that lie on the border of all of its axes but one.
+std::vector<std::array<int, 2>> edges_of(const BodyDescription& description) {
+    const tissue::GridShape& grid = description.grid;
+    std::vector<std::array<int, 2>> edges;
+    const auto add = [&](std::array<int, 3> at, int axis) {
+        for (int other = 0; other < 3; ++other) {
+            if (other == axis || grid.along(other) == 1) continue;
+            // A tube goes on from its last row to its first.
+            if (description.kind == Kind::kCylinder && other == 1) return;
+            if (at[static_cast<std::size_t>(other)] != 0 &&
+                at[static_cast<std::size_t>(other)] != grid.along(other) - 1)
+                return;
+        }
+        const int from = grid.index(at[0], at[1], at[2]);
+        auto& step = at[static_cast<std::size_t>(axis)];
+        step = (step + 1) % grid.along(axis);
+        edges.push_back({from, grid.index(at[0], at[1], at[2])});
+    };
+    for (int i = 0; i < grid.m; ++i)
+        for (int j = 0; j < grid.n; ++j)
+            for (int k = 0; k < grid.o; ++k) {
+                if (i + 1 < grid.m) add({i, j, k}, 0);
+                if (j + 1 < grid.n || (description.kind == Kind::kCylinder && grid.n > 1))
+                    add({i, j, k}, 1);
+                if (k + 1 < grid.o) add({i, j, k}, 2);
+            }
+    return edges;
+}
+
 /// A point by its material coordinates. A grid of one layer has no third axis, and a tube goes on from its last row of
 /// nodes to the first.
 solve::NodeBlend point_of(const BodyDescription& description, const Vec3& a) {
     if (description.kind == Kind::kSolid) return tissue::point_of_grid(description.grid, a);
+    if (description.kind == Kind::kCurve) {
+        const int links = description.grid.m - 1;
+        const int first = std::min(static_cast<int>(a[0] * links), links - 1);
+        solve::NodeBlend point;
+        point.add(first, 1 - (a[0] * links - first));
+        point.add(first + 1, a[0] * links - first);
+        return point;
+    }
     const tissue::SurfaceGrid grid{.m = description.grid.m,
                                    .n = description.grid.n,
                                    .closed = description.kind == Kind::kCylinder};
@@ -101,8 +181,7 @@ void add_actions(const BodyDescription& description, const Matter& matter,
 }  // namespace
 
 SoftBody build_body(const BodyDescription& description) {
-    const Matter matter = description.kind == Kind::kSolid ? matter_of_solid(description)
-                                                           : matter_of_surface(description);
+    const Matter matter = matter_of(description);
     const std::vector<char> fixed = fixed_flags(description);
 
     solve::MotionSystem system(matter.mass_kg, fixed);
@@ -117,7 +196,8 @@ SoftBody build_body(const BodyDescription& description) {
                   .rest = matter.rest,
                   .system = std::move(system),
                   .surface = matter.surface,
-                  .wires = matter.wires};
+                  .wires = matter.wires,
+                  .edges = edges_of(description)};
     body.length_scale_m =
         (body.rest.colwise().maxCoeff() - body.rest.colwise().minCoeff()).maxCoeff();
     body.weight_n = matter.mass_kg.sum() * description.gravity_m_per_s2.norm();

@@ -13,7 +13,7 @@ namespace risorius::body {
 
 struct SoftBody {
     Kind kind = Kind::kSolid;
-    tissue::GridShape grid;  ///< one layer thick for surfaces
+    tissue::GridShape grid;  ///< one layer thick for surfaces, one line of nodes for curves
     Points rest;             ///< MNO x 3, m
     solve::MotionSystem
         system;  ///< its terms are shared with copies of this body: one thread at a time
@@ -23,6 +23,7 @@ struct SoftBody {
 
     Triangles surface = {};                      ///< boundary, outward
     std::vector<std::array<int, 2>> wires = {};  ///< pairs of neighbouring nodes
+    std::vector<std::array<int, 2>> edges = {};  ///< those along the edges of the rest shape
     std::vector<int> fixed = {};                 ///< rows
 
     /// At rest, not moving, t = 0.

@@ -32,7 +32,8 @@ struct BodyRun {
     solve::IntegratorOptions integrator;
 };
 
-/// "runs": [{"name": "cells", "label": "B", "change": {...}, "grids": [3, 5], "integrator": {...}}], grid by grid.
+/// "runs": [{"name": "cells", "label": "B", "change": {...}, "grids": [3, 5], "integrator": {...}}], grid by grid;
+/// "steps_s" may give each grid a step of its own in place of the integrator's.
 std::vector<BodyRun> read_runs(const JsonCursor& experiment);
 
 /// The order in which to run them, the most work first, and the work of each: about the time it takes, in any unit.
@@ -46,6 +47,9 @@ Workload workload_of(const std::vector<BodyRun>& runs);
 /// The body at x for drawing; where the material varies, shade goes from 0 at its softest node to 1 at its stiffest.
 Shape shape_of(const body::BodyDescription& description, const body::SoftBody& body,
                const Points& x, const std::string& name, const std::string& caption);
+
+/// The edges of a body's rest shape, as Shape::outline.
+Points rest_outline(const body::SoftBody& body);
 
 /// Lengths between the first and the last plane of nodes across one axis.
 struct Extent {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Case {
-    std::string name, caption;
+    std::string name, caption, picture;
     body::BodyDescription body;
     bool settles = true;
 };
@@ -29,13 +29,14 @@ void check_axis(const JsonCursor& experiment, const body::BodyDescription& body)
 std::vector<Case> read_cases(const JsonCursor& experiment) {
     std::vector<Case> cases;
     for (const JsonCursor& json : experiment.at("cases").items()) {
-        json.allow_keys({"name", "caption", "change", "at"});
+        json.allow_keys({"name", "caption", "picture", "change", "at"});
         Case one;
         one.name = json.at("name").string();
         for (const Case& other : cases)
             if (other.name == one.name)
                 json.at("name").fail("a name of its own", "\"" + one.name + "\" again");
         one.caption = json.at("caption").string();
+        one.picture = json.has("picture") ? json.at("picture").string() : one.name;
         one.body = changed_body(experiment.at("body"), json.find("change"), one.name);
         check_axis(experiment, one.body);
         if (const auto at = json.find("at"))
@@ -75,7 +76,8 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         result.settled.x = body.rest;
         if (one.settles) result.settled = settle(body, integrator, duration_s, options);
         const Points& x = result.settled.x;
-        result.shape = shape_of(one.body, body, x, one.name, one.caption);
+        result.shape = shape_of(one.body, body, x, one.picture, one.caption);
+        if (one.settles) result.shape.outline = rest_outline(body);
         if (body.kind == body::Kind::kSolid)
             result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
         result.greatest_move_m = (x - body.rest).rowwise().norm().maxCoeff();

@@ -25,7 +25,7 @@ using RunExperiment = void (*)(const JsonCursor& experiment, const RunOptions& o
 void allow_experiment_keys(const JsonCursor& experiment, std::vector<std::string_view> own);
 
 /// Calls body(i) for i in [0, count) on several threads, lowest i first; each call must only write what is its own. The
-/// first exception (by i) is thrown again after all have ended. 0 threads = as many as the machine has.
-void parallel_for(int count, int threads, const std::function<void(int)>& body);
+/// first exception (by i) is thrown again after all have ended. Calls may nest when they share their spare threads.
+void parallel_for(int count, const ThreadLimit& threads, const std::function<void(int)>& body);
 
 }  // namespace risorius::experiment

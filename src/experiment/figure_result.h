@@ -41,6 +41,8 @@ struct Shape {
     std::vector<int> fixed;                 ///< vertices drawn as balls
     std::vector<double> shade =
         {};  ///< empty, or one value 0..1 per vertex for colour (softness, strain)
+    std::array<std::string, 2> shade_ends = {};  ///< what 0 and 1 mean: "softest", "stiffest"
+    Points outline = {};  ///< 2S x 3, m: ends of lines that show where it was at rest
 };
 
 struct FigureResult {

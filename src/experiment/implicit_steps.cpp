@@ -48,8 +48,10 @@ Plan read_plan(const JsonCursor& experiment) {
         Json body = experiment.at("body").json();
         body["grid"] = grid.json();
         std::string name;
-        for (const JsonCursor& count : grid.items())
-            name += (name.empty() ? "" : "x") + std::to_string(count.integer(2, 1000));
+        for (const JsonCursor& count : grid.items()) {
+            if (!name.empty()) name += 'x';
+            name += std::to_string(count.integer(2, 1000));
+        }
         plan.bodies.push_back(
             JsonCursor::from_json(Json{{"body", body}},
                                   experiment.file().string() + " (grid " + name + ")")
@@ -235,9 +237,11 @@ void run_implicit_steps(const JsonCursor& experiment, const RunOptions& options,
         settled.rows.push_back({rest[g].force_ratio, rest[g].speed_ratio});
         outcome.measured.add("rest_force_ratio/" + plan.grids[g], "", rest[g].force_ratio);
         const body::BodyDescription description = body::read_body(plan.bodies[g]);
-        outcome.figure.shapes.push_back(shape_of(description, body::build_body(description),
-                                                 rest[g].x, "rest-" + plan.grids[g],
+        const body::SoftBody body = body::build_body(description);
+        // One row, to be compared
+        outcome.figure.shapes.push_back(shape_of(description, body, rest[g].x, "at-rest",
                                                  "At rest, " + plan.grids[g] + " nodes"));
+        outcome.figure.shapes.back().outline = rest_outline(body);
     }
     outcome.figure.tables.push_back(std::move(steps));
     outcome.figure.tables.push_back(std::move(cost));

@@ -32,4 +32,7 @@ std::vector<std::string_view> kinds();
 /// `experiment` is the top of an experiment file. Throws Error for a wrong file, Interrupted when asked to stop.
 FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options = {});
 
+/// Reads the whole file and builds its bodies, but runs nothing of it. Throws Error for a wrong one.
+void check_experiment(const JsonCursor& experiment);
+
 }  // namespace risorius::experiment

@@ -27,10 +27,15 @@ ObjectViewOptions checked(const ObjectViewOptions& options) {
 
 ObjectRow framed(const std::vector<Object>& objects, const ObjectViewOptions& options) {
     if (objects.empty()) throw Error("objects", "at least one", "none");
+    std::vector<Points> all(objects.size());
     std::vector<const Points*> positions;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         check_object(objects[i], "objects/" + std::to_string(i));
-        positions.push_back(&objects[i].positions);
+        const Points &x = objects[i].positions, &outline = objects[i].outline;
+        all[i].resize(x.rows() + outline.rows(), 3);
+        all[i].topRows(x.rows()) = x;
+        all[i].bottomRows(outline.rows()) = outline;
+        positions.push_back(&all[i]);
     }
     return frame_objects(positions, object_axes(options.azimuth_deg, options.elevation_deg),
                          options.width_px, options.height_px);

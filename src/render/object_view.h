@@ -22,6 +22,7 @@ struct Object {
         wires;                  ///< pairs of vertices; those inside of a solid are drawn finer
     std::vector<int> fixed;     ///< vertices drawn as balls
     std::vector<double> shade;  ///< empty, or per vertex: 0 blue, 0.5 pale, 1 orange; clamped
+    Points outline = {};  ///< 2S x 3, m: ends of thin pale lines, such as the undeformed outline
 };
 
 struct ObjectViewOptions {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <random>
 
 #include "core/error.h"
 
@@ -17,30 +18,42 @@ Vec3 point(const Points& x, int node) { return x.row(node).transpose(); }
 
 }  // namespace
 
-TriangleSurface triangulated(const GridSurface& surface) {
+namespace {
+
+using Coordinates =
+    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< a of each node, MN x 2
+
+Coordinates grid_coordinates(const SurfaceGrid& grid) {
+    Coordinates a(grid.size(), 2);
+    for (int i = 0; i < grid.m; ++i)
+        for (int j = 0; j < grid.n; ++j)
+            a.row(grid.index(i, j)) << i * grid.spacing(0), j * grid.spacing(1);
+    return a;
+}
+
+/// The grid's material on `triangles` over its nodes, wherever those lie now.
+TriangleSurface with_material(const GridSurface& surface, const Triangles& triangles,
+                              const Points& rest, const Coordinates& a) {
     const SurfaceGrid& grid = surface.grid;
-    TriangleSurface out{.triangles = surface_triangles(grid),
-                        .rest = surface.rest,
-                        .coordinates = {},
-                        .material = {}};
-    out.coordinates.resize(out.triangles.rows(), 6);
+    TriangleSurface out{.triangles = triangles, .rest = rest, .coordinates = {}, .material = {}};
+    out.coordinates.resize(triangles.rows(), 6);
     const Mat2 metric =
         metric_weights(grid, surface.parameters)
             .cwiseQuotient(metric_weights(grid, Parameters::kResolutionIndependent));
     const Mat2 bending =
         bending_weights(grid, surface.bending)
             .cwiseQuotient(bending_weights(grid, Parameters::kResolutionIndependent));
-    for (Eigen::Index t = 0; t < out.triangles.rows(); ++t) {
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
         SurfaceMaterial mean;
         mean.mass_kg = 0;
         // Across the seam of a tube a2 goes on beyond 1.
         int most = 0;
-        for (int k = 0; k < 3; ++k) most = std::max(most, out.triangles(t, k) % grid.n);
+        for (int k = 0; k < 3; ++k) most = std::max(most, triangles(t, k) % grid.n);
         for (int k = 0; k < 3; ++k) {
-            const int node = out.triangles(t, k), i = node / grid.n, j = node % grid.n;
-            const bool beyond = grid.closed && j == 0 && most == grid.n - 1;
-            out.coordinates(t, 2 * k) = i * grid.spacing(0);
-            out.coordinates(t, 2 * k + 1) = (beyond ? grid.n : j) * grid.spacing(1);
+            const int node = triangles(t, k);
+            const bool beyond = grid.closed && node % grid.n == 0 && most == grid.n - 1;
+            out.coordinates(t, 2 * k) = a(node, 0);
+            out.coordinates(t, 2 * k + 1) = a(node, 1) + (beyond ? 1 : 0);
             const SurfaceMaterial& material = material_of(surface, node);
             mean.elastic_n_per_m3 += material.elastic_n_per_m3.cwiseProduct(metric) / 3;
             mean.damping_ns_per_m3 += material.damping_ns_per_m3.cwiseProduct(metric) / 3;
@@ -51,6 +64,66 @@ TriangleSurface triangulated(const GridSurface& surface) {
         out.material.push_back(mean);
     }
     return out;
+}
+
+/// Moves inner nodes by up to `share` of the spacing, over the cell that they move into.
+void shake(const GridSurface& surface, double share, unsigned seed, Points& rest, Coordinates& a) {
+    const SurfaceGrid& grid = surface.grid;
+    std::mt19937 random(seed);
+    // Not std::uniform_real_distribution, whose numbers are the library's own affair
+    const auto part = [&] { return share * (2 * (random() / 4294967295.0) - 1); };
+    const auto at = [&](int i, int j) {
+        return point(surface.rest, grid.index(i, (j + grid.n) % grid.n));
+    };
+    for (int i = 1; i + 1 < grid.m; ++i)
+        for (int j = grid.closed ? 0 : 1; j < (grid.closed ? grid.n : grid.n - 1); ++j) {
+            const double u = part(), v = part();
+            const int node = grid.index(i, j), di = u < 0 ? -1 : 1, dj = v < 0 ? -1 : 1;
+            const double s = std::abs(u), t = std::abs(v);
+            a.row(node) += Eigen::RowVector2d(u * grid.spacing(0), v * grid.spacing(1));
+            rest.row(node) = ((1 - s) * ((1 - t) * at(i, j) + t * at(i, j + dj)) +
+                              s * ((1 - t) * at(i + di, j) + t * at(i + di, j + dj)))
+                                 .transpose();
+        }
+}
+
+double angle_at(const Vec3& p, const Vec3& q, const Vec3& r) {
+    const Vec3 e = q - p, f = r - p;
+    return std::atan2(e.cross(f).norm(), e.dot(f));
+}
+
+/// The two triangles of each cell over its other diagonal, where the angles opposite to that are smaller together.
+void cut_by_angles(const Points& rest, Triangles& triangles) {
+    for (Eigen::Index t = 0; t + 1 < triangles.rows(); t += 2) {
+        // The cell's corners in turn: (w, x, y) and (w, y, z), in either order
+        const bool in_order = triangles(t, 2) == triangles(t + 1, 1);
+        const Eigen::Index first = in_order ? t : t + 1, second = in_order ? t + 1 : t;
+        const int w = triangles(first, 0), x = triangles(first, 1), y = triangles(first, 2),
+                  z = triangles(second, 2);
+        const Vec3 pw = point(rest, w), px = point(rest, x), py = point(rest, y),
+                   pz = point(rest, z);
+        if (angle_at(px, pw, py) + angle_at(pz, pw, py) <=
+            angle_at(pw, px, pz) + angle_at(py, px, pz))
+            continue;
+        triangles.row(first) << w, x, z;
+        triangles.row(second) << x, y, z;
+    }
+}
+
+}  // namespace
+
+TriangleSurface triangulated(const GridSurface& surface) {
+    return with_material(surface, surface_triangles(surface.grid), surface.rest,
+                         grid_coordinates(surface.grid));
+}
+
+TriangleSurface irregularly_triangulated(const GridSurface& surface, double share, unsigned seed) {
+    Points rest = surface.rest;
+    Coordinates a = grid_coordinates(surface.grid);
+    shake(surface, share, seed, rest, a);
+    Triangles triangles = surface_triangles(surface.grid);
+    cut_by_angles(rest, triangles);
+    return with_material(surface, triangles, rest, a);
 }
 
 CornerCoordinates fibre_coordinates(const Triangles& triangles, const Points& rest,

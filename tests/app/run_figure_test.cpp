@@ -268,7 +268,9 @@ TEST_F(Figures, ProgressGrowsToTheEnd) {
     add("x1");
     add("x2");
     std::vector<double> shares;
-    run_figures(options("all"),
+    FigureOptions given = options("all");
+    given.threads = 1;
+    run_figures(given,
                 {.progress = [&](double share, const std::string&) { shares.push_back(share); },
                  .stopped = {}});
     ASSERT_GE(shares.size(), 5u);

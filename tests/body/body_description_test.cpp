@@ -79,7 +79,8 @@ TEST(BodyDescription, BadNumbersAreNamedWithTheirPlace) {
               "cube.json:/body/gravity_m_per_s2/1: expected a number, found \"down\"");
     EXPECT_EQ(
         message_with("/kind", "\"gas\""),
-        "cube.json:/body/kind: expected one of \"solid\" \"surface\" \"cylinder\", found \"gas\"");
+        "cube.json:/body/kind: expected one of \"solid\" \"surface\" \"cylinder\" \"curve\", found "
+        "\"gas\"");
 }
 
 TEST(BodyDescription, UnknownAndMissingKeysAreNamed) {
@@ -196,6 +197,95 @@ TEST(BodyDescription, TensorsTakeTheMeanOfTheirDiagonals) {
               "found 2");
 }
 
+Json sheet() {
+    return Json::parse(R"({
+        "kind": "surface", "grid": [5, 5], "rest": {"sheet_m": [3, 3]},
+        "material": {"mass_kg": 4, "elastic_n_per_m3": 2, "bending_n_per_m": 0.01},
+        "fixed": [{"a2": "first"}]})");
+}
+
+TEST(BodyDescription, ASurfaceOnTrianglesKeepsItsNodesItsMassAndWhatHoldsIt) {
+    Json json = sheet();
+    const SoftBody grid = build_body(read(json));
+    json["discretisation"] = "triangles";
+    const SoftBody regular = build_body(read(json));
+    EXPECT_EQ(regular.rest, grid.rest);
+    json["irregular"] = {{"share", 0.4}, {"seed", 7}};
+    const SoftBody irregular = build_body(read(json));
+    EXPECT_NE(irregular.rest, grid.rest);
+    for (const SoftBody* body : {&regular, &irregular}) {
+        EXPECT_EQ(body->fixed, grid.fixed);
+        EXPECT_EQ(body->edges, grid.edges);
+        EXPECT_NEAR(body->weight_n, grid.weight_n, 1e-12);
+        EXPECT_EQ(body->surface.rows(), 32);
+        EXPECT_EQ(body->wires.size(), 56u) << "V - E + F = 1 for a disc";
+    }
+    EXPECT_EQ(grid.edges.size(), 16u) << "the border of a sheet";
+    EXPECT_EQ(build_body(read(cube())).edges.size(), 36u) << "12 edges of 3 links";
+}
+
+TEST(BodyDescription, WhatTrianglesDoNotKnowIsRefused) {
+    Json json = sheet();
+    json["irregular"] = {{"share", 0.4}};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/irregular: expected \"triangles\" for its discretisation, found "
+              "another");
+    json["discretisation"] = "triangles";
+    json["irregular"]["share"] = 0.6;
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/irregular/share: expected a number in [0, 0.45], found 0.6");
+    json["irregular"]["share"] = 0.4;
+    json["springs"] = Json::array();
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/springs: expected none on irregular triangles, found []");
+    json = sheet();
+    json["discretisation"] = "cells";
+    EXPECT_EQ(
+        message_of([&] { read(json); }),
+        "cube.json:/body/discretisation: expected one of \"differences\" \"triangles\", found "
+        "\"cells\"");
+}
+
+TEST(BodyDescription, ACurveLiesEvenlyAlongItsPath) {
+    Json json = Json::parse(R"({
+        "kind": "curve", "grid": [6], "rest": {"path_m": [[0, 0, 0], [0.3, 0, -0.4], [0.6, 0, 0]]},
+        "material": {"mass_kg": 2, "elastic_n_per_m3": 100, "bending_n_per_m": 0.5},
+        "regions": [{"nodes": {"a1": "last"}, "factors": {"bending": 0.1, "mass": 2}}],
+        "fixed": [{"a1": "first"}],
+        "springs": [{"at": [0.5], "tied_to_m": [0, 0, 1], "stiffness_n_per_m": 10}]})");
+    const SoftBody body = build_body(read(json));
+    EXPECT_NEAR((body.rest.row(1) - Eigen::RowVector3d(0.12, 0, -0.16)).norm(), 0, 1e-15);
+    EXPECT_NEAR((body.rest.row(5) - Eigen::RowVector3d(0.6, 0, 0)).norm(), 0, 1e-15);
+    EXPECT_NEAR(body.weight_n, 9.81 * (2 + 2.0 / 6), 1e-12);
+    EXPECT_EQ(body.fixed, std::vector<int>{0});
+    EXPECT_EQ(body.wires.size(), 5u);
+    EXPECT_EQ(body.edges, body.wires);
+    // The spring pulls on the two nodes beside the middle alike: 10 N/m, from where it is to (0, 0, 1).
+    Points with, without;
+    body.system.force(0, body.rest, Points::Zero(6, 3), with);
+    json.erase("springs");
+    build_body(read(json)).system.force(0, body.rest, Points::Zero(6, 3), without);
+    const Points pull = with - without;
+    const Vec3 middle = 0.5 * (body.rest.row(2) + body.rest.row(3)).transpose();
+    for (const int node : {2, 3})
+        EXPECT_NEAR((pull.row(node).transpose() - 5 * (Vec3(0, 0, 1) - middle)).norm(), 0, 1e-9);
+    EXPECT_NEAR(pull.row(1).norm() + pull.row(4).norm(), 0, 1e-12);
+
+    json["grid"] = {6, 6};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/grid: expected one number of nodes, found [6,6]");
+    json["grid"] = {6};
+    json["rest"] = Json::parse(R"({"path_m": [[0, 0, 0], [1, 0, 0], [1, 0, 0]]})");
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/rest/path_m/2: expected a point apart from the one before, found "
+              "[1,0,0]");
+    json["rest"] = Json::parse(R"({"path_m": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]})");
+    EXPECT_EQ(
+        message_of([&] { read(json); }),
+        "cube.json:/body/rest/3: expected a shape without folds, found a link turning back on "
+        "the one before");
+}
+
 TEST(BodyDescription, ModuliBecomeTheParametersOfTheBlock) {
     Json json = cube();
     json["rest"]["block_m"] = {1, 2, 3};
@@ -260,6 +350,41 @@ TEST(BodyDescription, SurfacesAndTubesHaveTwoAxes) {
               "cube.json:/body/material/incompressibility_n_per_m5: expected ");
 }
 
+TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
+    const auto message = [](const char* pointer, const char* value) {
+        Json json = Json::parse(R"({
+            "kind": "surface", "grid": [3, 3], "rest": {"sheet_m": [1, 1]},
+            "material": {"mass_kg": 1, "elastic_n_per_m3": 1, "damping_ns_per_m3": 0.1,
+                         "bending_n_per_m": 0.01, "drag_ns_per_m": 0.1}})");
+        json[Json::json_pointer(pointer)] = Json::parse(value);
+        return message_of([&] { read(json); });
+    };
+    EXPECT_EQ(message("/material/mass_kg", "-1"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -1");
+    EXPECT_EQ(message("/material/elastic_n_per_m3", "{\"11\": 1, \"22\": -1}"),
+              "cube.json:/body/material/elastic_n_per_m3/22: expected [0, inf), found -1");
+    EXPECT_EQ(message("/material/damping_ns_per_m3", "-0.1"),
+              "cube.json:/body/material/damping_ns_per_m3: expected [0, inf), found -0.1");
+    EXPECT_EQ(message("/material/bending_n_per_m", "-0.01"),
+              "cube.json:/body/material/bending_n_per_m: expected [0, inf), found -0.01");
+    EXPECT_EQ(message("/material/drag_ns_per_m", "null"),
+              "cube.json:/body/material/drag_ns_per_m: expected a number, found null");
+    EXPECT_EQ(message("/grid/0", "1"),
+              "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/grid", "[3, 3, 3]"),
+              "cube.json:/body/grid: expected two numbers of nodes, one per axis, found [3,3,3]");
+    // Its last row of cells lies on the one before
+    EXPECT_EQ(
+        message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, 0],
+                                   [1, 2, 0], [0, 0, 1e-3], [0, 1, 1e-3], [0, 2, 1e-3]]})"),
+        "cube.json:/body/rest: expected a shape without folds, found cell [0, 0] lying on "
+        "the next along m");
+    EXPECT_EQ(
+        message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, null],
+                                   [1, 2, 0], [2, 0, 0], [2, 1, 0], [2, 2, 0]]})"),
+        "cube.json:/body/rest/points_m/4/2: expected a number, found null");
+}
+
 TEST(BodyDescription, SpringsPullAndPulsesPushWhereTheySay) {
     Json json = cube();
     json["gravity_m_per_s2"] = {0, 0, 0};
@@ -294,6 +419,14 @@ TEST(BodyDescription, ObstaclesPushBackAndAreChecked) {
     EXPECT_EQ(message_of([&] { read(json); }),
               "cube.json:/body/obstacles/0: expected one of \"plane\", \"sphere\" and "
               "\"capsule\", found several");
+    json["obstacles"][0].erase("sphere");
+    json["obstacles"][0]["contact"]["friction"] = -0.5;
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/obstacles/0/contact/friction: expected [0, inf), found -0.5");
+    json["obstacles"][0]["contact"] = {{"thickness_m", 0}};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/obstacles/0/contact/thickness_m: expected a number in (0, inf), "
+              "found 0");
 }
 
 TEST(BodyDescription, RestShapesAreTurnedThenMoved) {

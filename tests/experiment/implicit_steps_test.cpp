@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "paths.h"
 
 namespace risorius::experiment {
 namespace {

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "experiment/experiment_kind.h"
 #include "experiment/samples.h"
@@ -90,6 +93,43 @@ TEST(Registry, ParallelWorkEndsWithItsFirstFailure) {
                               }),
                  std::out_of_range);
     parallel_for(0, 2, [](int) { FAIL() << "nothing to do"; });
+}
+
+TEST(Registry, NestedWorkSharesItsThreads) {
+    // Three threads between four outer pieces of five inner ones each: never more at work at once, all done.
+    SpareThreads spare(2);
+    const ThreadLimit limit(3, &spare);
+    std::atomic<int> at_work{0}, most{0};
+    std::vector<int> done(20, 0);
+    parallel_for(4, limit, [&](int outer) {
+        parallel_for(5, limit, [&](int inner) {
+            const int now = ++at_work;
+            for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ++done[static_cast<std::size_t>(5 * outer + inner)];
+            --at_work;
+        });
+    });
+    EXPECT_EQ(done, std::vector<int>(20, 1));
+    EXPECT_GT(most, 1);
+    EXPECT_LE(most, 5) << "three, and two more while lent threads come back";
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(spare.take());
+    EXPECT_FALSE(spare.take()) << "all are given back, and no more than there were";
+}
+
+TEST(Registry, EqualRunsRunOnce) {
+    SpareThreads spare(3);
+    SharedRuns shared(&spare);
+    std::atomic<int> runs{0};
+    const std::function<int()> run = [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        return ++runs;
+    };
+    parallel_for(8, {4, &spare},
+                 [&](int i) { EXPECT_GT(*shared.get<int>(i % 2 ? "odd" : "even", run), 0); });
+    EXPECT_EQ(runs, 2);
+    EXPECT_EQ(shared.get<int>("odd", run), shared.get<int>("odd", run));
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "core/error.h"
@@ -49,6 +51,46 @@ TriangleSurface curved_sheet() {
     return surface;
 }
 
+TriangleSurface irregular_sheet() {
+    const SurfaceGrid grid{5, 5};
+    return irregularly_triangulated(grid_of(grid, sheet_rest(grid, Vec2(1.2, 0.9)), anisotropic()),
+                                    0.4, 3);
+}
+/// An octahedron cut once and blown up: closed, four or six triangles at a point, a fibre direction of its own in each.
+TriangleSurface ball() {
+    TriangleSurface surface;
+    surface.rest.resize(18, 3);
+    surface.rest.topRows(6) << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
+    int points = 6;
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+        const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), points);
+        if (is_new)
+            surface.rest.row(points++) = (surface.rest.row(a) + surface.rest.row(b)).normalized();
+        return at->second;
+    };
+    surface.triangles.resize(32, 3);
+    Eigen::Index t = 0;
+    for (const auto& [a, b, c] : {std::array{0, 2, 4},
+                                  {2, 1, 4},
+                                  {1, 3, 4},
+                                  {3, 0, 4},
+                                  {2, 0, 5},
+                                  {1, 2, 5},
+                                  {3, 1, 5},
+                                  {0, 3, 5}}) {
+        const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        for (const auto& [p, q, r] :
+             {std::array{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
+            surface.triangles.row(t++) << p, q, r;
+    }
+    surface.rest *= 0.4;
+    surface.material = {anisotropic()};
+    surface.coordinates = fibre_coordinates(surface.triangles, surface.rest,
+                                            Vec3(1, 0.3, 0.2).transpose().replicate(t, 1));
+    return surface;
+}
+
 class AnyTriangleSheet : public testing::TestWithParam<TriangleSurface (*)()> {
   protected:
     TriangleSurface surface = GetParam()();
@@ -74,10 +116,12 @@ TEST_P(AnyTriangleSheet, DampingTakesEnergyOut) { expect_damping_dissipates(term
 TEST_P(AnyTriangleSheet, SecantIsTheForce) { expect_secant_is_the_force(term, shape); }
 
 std::string name_of_rest(const testing::TestParamInfo<TriangleSurface (*)()>& which) {
-    static const char* const kNames[] = {"Flat", "Tube", "Curved"};
+    static const char* const kNames[] = {"Flat", "Tube", "Curved", "Irregular", "Ball"};
     return kNames[which.index];
 }
-INSTANTIATE_TEST_SUITE_P(Rest, AnyTriangleSheet, testing::Values(&flat_sheet, &tube, &curved_sheet),
+INSTANTIATE_TEST_SUITE_P(Rest, AnyTriangleSheet,
+                         testing::Values(&flat_sheet, &tube, &curved_sheet, &irregular_sheet,
+                                         &ball),
                          name_of_rest);
 
 TEST(TriangleSheet, MetricBoundsTheStiffnessOfAFlatSheet) {
@@ -238,6 +282,48 @@ TEST(TriangleSheet, AHammockOfTheSameMaterialSagsAsTheGridDoes) {
         EXPECT_LT(difference, before) << nodes;
         before = 0.7 * difference;
     }
+}
+
+TEST(TriangleSheet, IrregularTrianglesSagAsRegularOnesDo) {
+    const SurfaceGrid grid{13, 13};
+    const GridSurface surface =
+        grid_of(grid, sheet_rest(grid, Vec2(3, 3)), isotropic_surface(2, 0.1, 0.01, 4, 0.1));
+    std::vector<char> fixed(static_cast<std::size_t>(grid.size()), 0);
+    for (int i = 0; i < 13; ++i)
+        fixed[static_cast<std::size_t>(grid.index(i, 0))] =
+            fixed[static_cast<std::size_t>(grid.index(i, 12))] = 1;
+    const auto sag = [&](const TriangleSurface& sheet) {
+        Points x = sheet.rest, load = Points::Zero(grid.size(), 3);
+        load.col(2) = -9.81 * node_mass(sheet);
+        EXPECT_TRUE(settle(TriangleSheetTerm(sheet), fixed, load, x));
+        return -x.col(2).minCoeff();
+    };
+    const double regular = sag(triangulated(surface));
+    EXPECT_GT(regular, 0.5);
+    for (const unsigned seed : {1u, 2u})
+        EXPECT_NEAR(sag(irregularly_triangulated(surface, 0.4, seed)), regular, 0.01 * regular)
+            << seed;
+}
+
+TEST(TriangleSheet, IrregularTrianglesCoverTheSheetOnce) {
+    const SurfaceGrid grid{6, 5};
+    const GridSurface surface = grid_of(grid, sheet_rest(grid, Vec2(3, 2)), anisotropic());
+    const TriangleSurface sheet = irregularly_triangulated(surface, 0.45, 5);
+    double in_space = 0, in_a = 0;
+    for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
+        const Vec3 p = sheet.rest.row(sheet.triangles(t, 0)),
+                   q = sheet.rest.row(sheet.triangles(t, 1)),
+                   r = sheet.rest.row(sheet.triangles(t, 2));
+        EXPECT_GT((q - p).cross(r - p).z(), 0) << "upwards, like the grid";
+        in_space += 0.5 * (q - p).cross(r - p).norm();
+        in_a += area_of(coordinates_of(sheet, t));
+    }
+    EXPECT_NEAR(in_space, 6, 1e-12);
+    EXPECT_NEAR(in_a, 1, 1e-12);
+    EXPECT_GT((sheet.rest - surface.rest).rowwise().norm().maxCoeff(), 0.1);
+    EXPECT_EQ(irregularly_triangulated(surface, 0.45, 5).rest, sheet.rest) << "same seed";
+    EXPECT_NE(irregularly_triangulated(surface, 0.45, 6).rest, sheet.rest);
+    EXPECT_EQ(irregularly_triangulated(surface, 0, 5).rest, surface.rest);
 }
 
 TEST(TriangleSheet, AClothHungByThreeCornersSagsAsTheGridDoes) {

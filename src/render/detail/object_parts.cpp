@@ -16,10 +16,12 @@ namespace {
 const Vec3 kBlue(0.22, 0.46, 0.86), kPale(0.80, 0.82, 0.78), kOrange(0.90, 0.36, 0.06);
 const Vec3 kWire(0.012, 0.028, 0.075), kWireFarAway(0.36, 0.43, 0.52);
 const Vec3 kInnerWire(0.10, 0.16, 0.28), kInnerWireFarAway(0.55, 0.60, 0.66);
+const Vec3 kOutline(0.48, 0.50, 0.53);
 const Vec3 kHeld(0.62, 0.075, 0.02);
 
 constexpr double kWire_px = 2.0;
-constexpr double kInnerWireShare = 0.55;    ///< of the width of a wire on the surface
+constexpr double kInnerWireShare = 0.55;  ///< of the width of a wire on the surface
+constexpr double kOutline_px = 1.4;
 constexpr double kWidestWirePerCell = 0.1;  ///< so that fine grids stay grids
 constexpr double kBallPerCell = 0.13;       ///< radius
 constexpr double kLeastBall_px = 3.5, kMostBall_px = 9.0;
@@ -42,6 +44,7 @@ class Parts {
 
     std::vector<PartVertex> in_order() {
         add_surface();
+        add_outline();
         add_wires();
         add_balls();
         // Equal depths keep the order they were made in.
@@ -131,26 +134,34 @@ class Parts {
             // Without a surface there is no inside.
             const bool strong = outside || edges.empty();
             const double half = width / 2 * (strong ? 1 : kInnerWireShare);
-            Vec3 a = at(i), b = at(j);
-            const Vec3 middle = (a + b) / 2;
-            const Vec3 along = (b - a).normalized();
-            Vec3 across = along.cross(camera_.position - middle);
-            if (across.norm() < 1e-9 * row_.distance_m) continue;  // seen end on, or of no length
-            across *= half / across.norm();
-            // A little longer, so that wires meet in a filled corner
-            a -= half * along;
-            b += half * along;
-            const Vec3 at_a =
-                paled(a, strong ? kWire : kInnerWire, strong ? kWireFarAway : kInnerWireFarAway);
-            const Vec3 at_b =
-                paled(b, strong ? kWire : kInnerWire, strong ? kWireFarAway : kInnerWireFarAway);
-            for (const auto& [p, colour] :
-                 {std::pair(Vec3(a - across), at_a), std::pair(Vec3(b - across), at_b),
-                  std::pair(Vec3(b + across), at_b), std::pair(Vec3(a - across), at_a),
-                  std::pair(Vec3(b + across), at_b), std::pair(Vec3(a + across), at_a)})
-                push(p, Vec3::Zero(), colour, PartKind::kWire);
-            end_part(depth(middle) - kNearerPerCell * cell_);
+            const auto& near = strong ? kWire : kInnerWire;
+            const auto& far = strong ? kWireFarAway : kInnerWireFarAway;
+            add_line(at(i), at(j), half, paled(at(i), near, far), paled(at(j), near, far),
+                     kNearerPerCell * cell_);
         }
+    }
+
+    void add_outline() {
+        for (Eigen::Index s = 0; s + 1 < object_.outline.rows(); s += 2)
+            add_line(object_.outline.row(s).transpose(), object_.outline.row(s + 1).transpose(),
+                     kOutline_px / 2 * row_.pixel_m, kOutline, kOutline, 0);
+    }
+
+    void add_line(Vec3 a, Vec3 b, double half, const Vec3& at_a, const Vec3& at_b, double nearer) {
+        const Vec3 middle = (a + b) / 2;
+        const Vec3 along = (b - a).normalized();
+        Vec3 across = along.cross(camera_.position - middle);
+        if (across.norm() < 1e-9 * row_.distance_m) return;  // seen end on, or of no length
+        across *= half / across.norm();
+        // A little longer, so that lines meet in a filled corner
+        a -= half * along;
+        b += half * along;
+        for (const auto& [p, colour] :
+             {std::pair(Vec3(a - across), at_a), std::pair(Vec3(b - across), at_b),
+              std::pair(Vec3(b + across), at_b), std::pair(Vec3(a - across), at_a),
+              std::pair(Vec3(b + across), at_b), std::pair(Vec3(a + across), at_a)})
+            push(p, Vec3::Zero(), colour, PartKind::kWire);
+        end_part(depth(middle) - nearer);
     }
 
     void add_balls() {
@@ -193,6 +204,8 @@ void check_object(const Object& object, const std::string& place) {
     for (const auto& wire : object.wires)
         for (const int v : wire) check_index(v, vertices, place + "/wires");
     for (const int v : object.fixed) check_index(v, vertices, place + "/fixed");
+    if (!object.outline.allFinite())
+        throw Error(place + "/outline", "finite coordinates", "one that is not");
     if (!object.shade.empty() && static_cast<Eigen::Index>(object.shade.size()) != vertices)
         throw Error(place + "/shade", std::to_string(vertices) + " values",
                     std::to_string(object.shade.size()));
