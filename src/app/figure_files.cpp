@@ -116,13 +116,14 @@ std::string csv_of(const experiment::Table& table) {
     const bool named = !table.row_names.empty();
     if (named) text += table.columns.empty() ? "name" : "name,";
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-        text += (c ? "," : "") + csv_cell(table.columns[c]);
+        text.append(c ? "," : "").append(csv_cell(table.columns[c]));
     text += "\n";
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         if (named) text += csv_cell(table.row_names[r]);
         for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
             const double value = table.rows[r][c];
-            text += (c || named ? "," : "") + (std::isnan(value) ? "nan" : format_number(value));
+            text.append(c || named ? "," : "");
+            text += std::isnan(value) ? "nan" : format_number(value);
         }
         text += "\n";
     }

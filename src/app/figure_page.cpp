@@ -44,7 +44,8 @@ void write_summary(HtmlWriter& html, const std::vector<ShownFigure>& figures) {
     for (const ShownFigure& figure : figures) {
         html.open("tr");
         html.open("td")
-            .element("a", figure.result.id, {{"href", "#" + anchor(figure.result)}})
+            .element("a", figure.result.id,
+                     {{"href", std::string("#").append(anchor(figure.result))}})
             .close();
         html.element("td", figure.result.title);
         html.element("td", count_text(figure.result) + (figure.result.passes() ? " ✓" : " ✗"),

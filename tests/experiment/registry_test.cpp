@@ -53,7 +53,7 @@ TEST(Registry, WrongFilesAreNamedWithTheirPlace) {
     EXPECT_EQ(message("/format", "risorius-script"),
               "mine.json:/format: expected \"risorius-experiment\", found \"risorius-script\"");
     EXPECT_EQ(message("/version", 2), "mine.json:/version: expected an integer in [1, 1], found 2");
-    EXPECT_EQ(message("/kind", "equilibria").substr(0, 50),
+    EXPECT_EQ(message("/kind", "equilibria").substr(0, 51),
               "mine.json:/kind: expected one of \"equilibrium\" \"vol");
     EXPECT_EQ(message("/body/material/mass_kg", -1),
               "mine.json (rest):/body/material/mass_kg: expected a number in (0, inf), found -1");
