@@ -108,6 +108,7 @@ ShownFigure write_results(const Job& job, experiment::FigureResult result, const
     fs::create_directories(folder);
     ShownFigure shown;
     shown.folder = job.folder;
+    shown.run_time_s = job.run_time_s;
     shown.files = write_figure(result, folder, charts);
     shown.readme = text_of(job.file.parent_path() / "README.md");
     shown.published = published_picture(job.file.parent_path());

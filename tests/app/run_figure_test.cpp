@@ -144,6 +144,7 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
          {"src=\"x1/curve.svg\"", "src=\"x2/row.png\"", "href=\"x2/results.json\"", "up to ~10 %",
           "10.82 %", "8 to 13 %", "at most 0.0001", "2.5 m", "1 to 2 m", "✗ outside", "✓ inside",
           "3 of 3", "href=\"#figure-x2\"", "id=\"figure-x2\"", "<p>It is <em>longer</em>.</p>",
+
           "low | high"})
         EXPECT_TRUE(contains(page, part)) << part;
 }
