@@ -104,6 +104,7 @@ inline void expect_hessian_of_potential(const solve::ForceTerm& term,
 /// The projected second derivative has no negative part, and is the exact one where that has none.
 inline void expect_projection(const solve::ForceTerm& term, const solve::ImplicitStep& step,
                               const Points& x) {
+    ASSERT_EQ(step.start.rows(), x.rows()) << "a step of other points";
     const Eigen::MatrixXd positive = hessian(term, step, x, solve::Curvature::kPositive);
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(positive).eigenvalues();

@@ -44,7 +44,8 @@ details { margin-top: .8rem; } summary { cursor: pointer; color: var(--soft); }
 )";
 
 bool is_inline(const std::string& tag) {
-    static const std::vector<std::string> tags = {"a", "b", "em", "i", "strong", "code", "span", "br"};
+    static const std::vector<std::string> tags = {"a",      "b",    "em",   "i",
+                                                  "strong", "code", "span", "br"};
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 

@@ -1,10 +1,10 @@
 #include "body/muscle_body.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "body/detail/read_numbers.h"
 #include "tissue/cell_solid.h"
 #include "tissue/difference_solid.h"
 #include "tissue/gravity.h"
@@ -15,17 +15,10 @@ namespace risorius::body {
 
 namespace {
 
+using detail::not_negative;
+using detail::positive;
+
 constexpr int kMostNodesPerAxis = 1000;
-
-double positive(const JsonCursor& json) {
-    const double value = json.number();
-    if (!(value > 0)) json.fail("(0, inf)");
-    return value;
-}
-
-double not_negative(const JsonCursor& json) {
-    return json.number({0, std::numeric_limits<double>::infinity()});
-}
 
 tissue::GridShape read_grid(const JsonCursor& json) {
     const std::vector<JsonCursor> counts = json.items();

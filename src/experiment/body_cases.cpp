@@ -64,7 +64,7 @@ std::vector<tissue::GridShape> read_grids(const JsonCursor& json) {
 std::vector<BodyRun> read_runs(const JsonCursor& experiment) {
     std::vector<BodyRun> runs;
     for (const JsonCursor& json : experiment.at("runs").items()) {
-        json.allow_keys({"name", "label", "change", "grids", "integrator"});
+        json.allow_keys({"name", "label", "change", "grids", "integrator", "steps_s"});
         const std::string name = json.at("name").string();
         for (const BodyRun& other : runs)
             if (other.name == name)
@@ -75,8 +75,19 @@ std::vector<BodyRun> read_runs(const JsonCursor& experiment) {
                     .integrator = body::read_integrator(json.at("integrator"))};
         if (run.body.kind != body::Kind::kSolid)
             experiment.at("body").fail("a body of kind \"solid\"", "a surface");
-        for (const tissue::GridShape& grid : read_grids(json.at("grids"))) {
-            run.body.grid = grid;
+        const std::vector<tissue::GridShape> grids = read_grids(json.at("grids"));
+        std::vector<double> steps_s(grids.size(), run.integrator.step_s);
+        if (const auto own = json.find("steps_s")) {
+            const std::vector<JsonCursor> items = own->items();
+            if (items.size() != grids.size())
+                own->fail("as many steps as \"grids\", " + std::to_string(grids.size()),
+                          std::to_string(items.size()));
+            for (std::size_t i = 0; i < items.size(); ++i)
+                steps_s[i] = items[i].number({1e-12, 1e6});
+        }
+        for (std::size_t i = 0; i < grids.size(); ++i) {
+            run.body.grid = grids[i];
+            run.integrator.step_s = steps_s[i];
             tissue::check(body::grid_solid(run.body), run.body.place);
             runs.push_back(run);
         }

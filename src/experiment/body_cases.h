@@ -32,7 +32,8 @@ struct BodyRun {
     solve::IntegratorOptions integrator;
 };
 
-/// "runs": [{"name": "cells", "label": "B", "change": {...}, "grids": [3, 5], "integrator": {...}}], grid by grid.
+/// "runs": [{"name": "cells", "label": "B", "change": {...}, "grids": [3, 5], "integrator": {...}}], grid by grid;
+/// "steps_s" may give each grid a step of its own in place of the integrator's.
 std::vector<BodyRun> read_runs(const JsonCursor& experiment);
 
 /// The order in which to run them, the most work first, and the work of each: about the time it takes, in any unit.

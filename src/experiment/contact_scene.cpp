@@ -75,9 +75,13 @@ std::vector<SceneObstacle> read_scene_obstacles(const JsonCursor& json) {
         if (const auto ring = entry.find("torus")) {
             entry.allow_keys({"torus"});
             ring->allow_keys({"centre_m", "radius_m", "tube_m"});
-            const double radius = ring->at("radius_m").number({0, kInfinity});
-            drawn =
-                torus(ring->at("centre_m").vec3(), radius, ring->at("tube_m").number({0, radius}));
+            const double radius = ring->at("radius_m").number();
+            const double tube = ring->at("tube_m").number();
+            if (!(radius > 0)) ring->at("radius_m").fail("a number in (0, inf)");
+            if (!(tube > 0 && tube < radius))
+                ring->at("tube_m").fail("a number in (0, " + format_number(radius) +
+                                        "), less than radius_m");
+            drawn = torus(ring->at("centre_m").vec3(), radius, tube);
             one.obstacle = std::make_shared<contact::Obstacle>(
                 contact::make_mesh(drawn.positions, drawn.triangles, {.cells = 64}, ring->place()));
         } else {
@@ -106,7 +110,7 @@ ContactSceneDescription read_contact_scene(const JsonCursor& json) {
     ContactSceneDescription scene;
     scene.name = json.at("name").string();
     scene.caption = json.at("caption").string();
-    scene.duration_s = json.at("duration_s").number({0, kInfinity});
+    scene.duration_s = json.at("duration_s").number({1e-9, 1e6});
     if (const auto parts = json.find("parts_per_side"))
         scene.parts_per_side = parts->integer(1, 16);
     for (const JsonCursor& body : json.at("bodies").items())
@@ -155,7 +159,6 @@ ContactScene::ContactScene(const ContactSceneDescription& description) {
             between_.push_back(std::make_shared<contact::SurfaceContact>(
                 state_.x, surfaces[i], surfaces[j], description.contact,
                 contact::SurfaceContactOptions{.per_side = description.parts_per_side}));
-            between_bodies_.push_back({static_cast<int>(i), static_cast<int>(j)});
         }
     for (const auto& term : on_obstacles_) system_->add(term);
     for (const auto& term : between_) system_->add(term);
@@ -189,10 +192,9 @@ Vec3 ContactScene::support_n() const {
 }
 
 Vec3 ContactScene::load_on_first_n() const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < between_.size(); ++i)
-        if (between_bodies_[i].first == 0) sum += between_[i]->force_on_first(state_.x);
-    return sum;
+    Points force = Points::Zero(state_.x.rows(), 3);
+    for (const auto& term : between_) term->add_force(state_.t_s, state_.x, state_.v, force);
+    return force.topRows(bodies_.front().system.size()).colwise().sum().transpose();
 }
 
 double ContactScene::least_gap_m() const {

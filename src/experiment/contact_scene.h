@@ -54,10 +54,9 @@ class ContactScene {
     double weight_n(int body) const { return bodies_[static_cast<std::size_t>(body)].weight_n; }
     Vec3 velocity(int body) const;  ///< of the centre of mass, m/s
 
-    Vec3 support_n() const;  ///< of all obstacles on all bodies, friction included
-    /// Of the other bodies on body 0.
-    Vec3 load_on_first_n() const;
-    double least_gap_m() const;  ///< of all contacts, negative: penetration
+    Vec3 support_n() const;        ///< of all obstacles on all bodies, friction included
+    Vec3 load_on_first_n() const;  ///< of the other bodies on body 0, friction included
+    double least_gap_m() const;    ///< of all contacts, negative: penetration
     double greatest_speed_m_per_s() const { return state_.v.rowwise().norm().maxCoeff(); }
 
     Shape shape(const ContactSceneDescription& description) const;
@@ -68,7 +67,6 @@ class ContactScene {
     Eigen::VectorXd mass_kg_;
     std::vector<std::shared_ptr<contact::ObstacleContact>> on_obstacles_;
     std::vector<std::shared_ptr<contact::SurfaceContact>> between_;
-    std::vector<std::pair<int, int>> between_bodies_;
     std::unique_ptr<solve::MotionSystem> system_;
     solve::MotionState state_;
     double length_scale_m_ = 0;

@@ -30,7 +30,8 @@ std::vector<body::BodyDescription> read_bodies(const JsonCursor& experiment,
         const Json change = {{"grid", grid.json()}};
         const std::string name = grid.json().dump();
         bodies.push_back(changed_body(experiment.at("body"),
-                                      JsonCursor::from_json(change, experiment.file().string()), name));
+                                      JsonCursor::from_json(change, experiment.file().string()),
+                                      name));
         const body::BodyDescription& body = bodies.back();
         if (body.kind != body::Kind::kCurve)
             experiment.at("body").at("kind").fail("\"curve\", which is what hangs here");

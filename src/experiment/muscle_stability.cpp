@@ -30,7 +30,7 @@ struct Plan {
     std::vector<int> linear_edges;
     std::optional<int> tension_edge;
     solve::Method tension_method = solve::Method::kRungeKutta4;
-    double tension_shortest_s = 0;
+    double tension_shortest_s = 0, tension_duration_s = 0;
 
     body::MuscleBody build(int edge) const {
         body::MuscleDescription at = muscle;
@@ -86,12 +86,13 @@ Plan read_plan(const JsonCursor& experiment) {
         plan.linear_edges = read_edges(v->at("nodes_per_edge"));
     }
     if (const auto v = experiment.find("tension")) {
-        v->allow_keys({"nodes_per_edge", "method", "shortest_s"});
+        v->allow_keys({"nodes_per_edge", "method", "shortest_s", "duration_s"});
         plan.tension_edge = v->at("nodes_per_edge").integer(kFewestNodes, kMostNodes);
         std::vector<std::string_view> names;
         for (const solve::Method method : plan.methods) names.push_back(solve::name_of(method));
         plan.tension_method = solve::method_named(v->at("method").one_of(names));
         plan.tension_shortest_s = v->at("shortest_s").number({0, plan.search.steps_s.front()});
+        plan.tension_duration_s = v->at("duration_s").number({1e-9, 1e6});
     }
     return plan;
 }
@@ -108,7 +109,7 @@ double mean_tension(const Plan& plan, double step_s, const RunOptions& options) 
     double sum = 0;
     for (int i = 0; i < kSamples; ++i) {
         options.stop_if_asked();
-        const double until_s = plan.search.duration_s * (kSamples + i) / (2.0 * kSamples);
+        const double until_s = plan.tension_duration_s * (kSamples + i) / (2.0 * kSamples);
         if (steps->advance(muscle.body.system, state, until_s).diverged)
             return std::numeric_limits<double>::quiet_NaN();
         sum += muscle.tension(state.t_s, state.x);
@@ -174,7 +175,7 @@ Results run_all(const Plan& plan, const RunOptions& options) {
     add_searches(plan.edges, plan.search.duration_s, results.stable);
     add_searches(plan.longer_edges, plan.longer_s, results.longer);
     for (std::size_t i = 0; i < results.tension.size(); ++i)
-        tasks.push_back({work(*plan.tension_edge, plan.search.duration_s), "tension", [&, i] {
+        tasks.push_back({work(*plan.tension_edge, plan.tension_duration_s), "tension", [&, i] {
                              results.tension[i] =
                                  mean_tension(plan, results.tension_steps_s[i], options);
                          }});

@@ -6,7 +6,7 @@
 //   "methods": ["euler", "rk4"], "steps": {"longest_s": 1e-2, "shortest_s": 1e-6, "per_decade": 12}, "diverged_at": 1,
 //   "longer": {"nodes_per_edge": [3], "duration_s": 7.5},
 //   "linear_theory": {"nodes_per_edge": [3, 4]},
-//   "tension": {"nodes_per_edge": 3, "method": "rk4", "shortest_s": 1e-6}
+//   "tension": {"nodes_per_edge": 3, "method": "rk4", "shortest_s": 1e-6, "duration_s": 0.1}
 //
 // The muscle starts at rest, with that activation from t = 0 and its plates "lengthening_m" farther apart than at rest.
 // Measured: step_s/<method>/<nodes>; exponent/<method> of step ~ nodes^exponent by least squares of the logarithms; and

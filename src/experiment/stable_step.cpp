@@ -79,7 +79,7 @@ void show(const Sweep& sweep, const std::vector<Found>& found, Outcome& outcome)
         const std::string name{solve::name_of(sweep.methods[m])};
         for (Table* table : {&steps, &predicted}) table->columns.push_back(name + "_s");
         cost.columns.push_back(name);
-        plot::Series measured{.label = name,
+        plot::Series measured{.label = label_of(sweep.methods[m]),
                               .x = {},
                               .y = {},
                               .mark = plot::Mark::kLinePoints,

@@ -51,6 +51,27 @@ std::vector<solve::Method> read_fixed_step_methods(const JsonCursor& json) {
     return methods;
 }
 
+std::string label_of(solve::Method method) {
+    switch (method) {
+        case solve::Method::kEuler:
+            return "Euler";
+        case solve::Method::kVerlet:
+            return "Verlet";
+        case solve::Method::kRungeKutta2:
+            return "RK2";
+        case solve::Method::kRungeKutta4:
+            return "RK4";
+        case solve::Method::kCashKarp:
+            return "RKCK";
+        case solve::Method::kAdamsBashforth:
+            return "A-B";
+        case solve::Method::kAdamsMoulton:
+            return "A-M";
+        default:
+            return std::string(solve::name_of(method));
+    }
+}
+
 StableStep longest_stable_step(const body::SoftBody& body, solve::Method method,
                                const StepSearch& search, const RunOptions& options) {
     solve::IntegratorOptions integrator;

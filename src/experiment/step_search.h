@@ -2,6 +2,7 @@
 // longest down and the first with which the motion does not diverge counts.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "body/soft_body.h"
@@ -16,6 +17,9 @@ std::vector<double> read_step_table(const JsonCursor& json);
 
 /// Names of explicit methods with a fixed step, at least one.
 std::vector<solve::Method> read_fixed_step_methods(const JsonCursor& json);
+
+/// As the thesis' figure 12 calls it: "RK4", "A-B".
+std::string label_of(solve::Method method);
 
 struct StepSearch {
     std::vector<double> steps_s;  ///< longest first

@@ -11,6 +11,9 @@
 namespace risorius::experiment {
 namespace {
 
+/// Of the charts' palette; curves beyond it repeat its colours and are dashed.
+constexpr std::size_t kColours = 8;
+
 struct History {
     std::vector<double> volume_percent, sum_percent;  ///< one per sample, from t = 0
     solve::IntegratorReport report;
@@ -107,6 +110,7 @@ void show(const std::vector<BodyRun>& runs, const Histories& histories, const Ti
                               .title = "Change of " + quantity + ": " + run.label,
                               .x = {.label = "time (s)"},
                               .y = {.label = "change of " + quantity + " (%)"}});
+        if (charts.back().series.size() >= kColours) series.mark = plot::Mark::kDashed;
         charts.back().series.push_back(std::move(series));
     }
     figure.tables.push_back(std::move(table));

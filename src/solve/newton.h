@@ -30,6 +30,8 @@ struct NewtonReport {
     long evaluations = 0;
     long halvings = 0;  ///< of the line search; equilibria: moves refused
     long linear_solves = 0;
+    /// Of conjugate gradients: matrix products and preconditioning, the bulk of the work; the same on any machine.
+    double multiplications = 0;
     double potential_j = 0;  ///< Phi where it stopped
     double last_move_m = 0;  ///< of the node that moved most, by the whole of Newton's last move
     bool converged = false;

@@ -1,6 +1,7 @@
 #include "solve/real_time_step.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,13 @@ StepReport RealTimeStep::advance(MotionState& state) {
     start_ = state.x;
     inertial_ = state.x + h * state.v;
     x_ = inertial_;
+    static const int mode = getenv("PRED") ? atoi(getenv("PRED")) : 1;
+    const bool known = left_.size() == state.x.size() && left_ == state.x;
+    if (!known) history_ = 0;
+    if (mode >= 1 && history_ == 1) x_ += h * h * acceleration_;
+    if (mode >= 2 && history_ >= 2) x_ += h * h * (2 * acceleration_ - before_);
+    else if (mode == 1 && history_ >= 2) x_ += h * h * acceleration_;
+    const Points v_before = state.v;
     // Fixed nodes go where they are led
     Points& v = state.v;
     system_.place_fixed(state.t_s + h, x_, v);
@@ -60,6 +68,10 @@ StepReport RealTimeStep::advance(MotionState& state) {
         if (!system_.fixed()[static_cast<std::size_t>(i)])
             state.v.row(i) = (x_.row(i) - start_.row(i)) * rate_hz;
     state.x.swap(x_);
+    left_ = state.x;
+    before_ = acceleration_;
+    acceleration_ = (state.v - v_before) * rate_hz;
+    ++history_;
     state.t_s += h;
     return report;
 }

@@ -38,7 +38,8 @@ class RealTimeStep {
     std::shared_ptr<Preconditioner> preconditioner_;
     RealTimeOptions options_;
     QuasiNewton solver_;
-    Points start_, inertial_, x_;
+    Points start_, inertial_, x_, left_, acceleration_, before_;
+    int history_ = 0;
 };
 
 }  // namespace risorius::solve

@@ -350,6 +350,41 @@ TEST(BodyDescription, SurfacesAndTubesHaveTwoAxes) {
               "cube.json:/body/material/incompressibility_n_per_m5: expected ");
 }
 
+TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
+    const auto message = [](const char* pointer, const char* value) {
+        Json json = Json::parse(R"({
+            "kind": "surface", "grid": [3, 3], "rest": {"sheet_m": [1, 1]},
+            "material": {"mass_kg": 1, "elastic_n_per_m3": 1, "damping_ns_per_m3": 0.1,
+                         "bending_n_per_m": 0.01, "drag_ns_per_m": 0.1}})");
+        json[Json::json_pointer(pointer)] = Json::parse(value);
+        return message_of([&] { read(json); });
+    };
+    EXPECT_EQ(message("/material/mass_kg", "-1"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -1");
+    EXPECT_EQ(message("/material/elastic_n_per_m3", "{\"11\": 1, \"22\": -1}"),
+              "cube.json:/body/material/elastic_n_per_m3/22: expected [0, inf), found -1");
+    EXPECT_EQ(message("/material/damping_ns_per_m3", "-0.1"),
+              "cube.json:/body/material/damping_ns_per_m3: expected [0, inf), found -0.1");
+    EXPECT_EQ(message("/material/bending_n_per_m", "-0.01"),
+              "cube.json:/body/material/bending_n_per_m: expected [0, inf), found -0.01");
+    EXPECT_EQ(message("/material/drag_ns_per_m", "null"),
+              "cube.json:/body/material/drag_ns_per_m: expected a number, found null");
+    EXPECT_EQ(message("/grid/0", "1"),
+              "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/grid", "[3, 3, 3]"),
+              "cube.json:/body/grid: expected two numbers of nodes, one per axis, found [3,3,3]");
+    // Its last row of cells lies on the one before
+    EXPECT_EQ(
+        message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, 0],
+                                   [1, 2, 0], [0, 0, 1e-3], [0, 1, 1e-3], [0, 2, 1e-3]]})"),
+        "cube.json:/body/rest: expected a shape without folds, found cell [0, 0] lying on "
+        "the next along m");
+    EXPECT_EQ(
+        message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, null],
+                                   [1, 2, 0], [2, 0, 0], [2, 1, 0], [2, 2, 0]]})"),
+        "cube.json:/body/rest/points_m/4/2: expected a number, found null");
+}
+
 TEST(BodyDescription, SpringsPullAndPulsesPushWhereTheySay) {
     Json json = cube();
     json["gravity_m_per_s2"] = {0, 0, 0};
@@ -384,6 +419,14 @@ TEST(BodyDescription, ObstaclesPushBackAndAreChecked) {
     EXPECT_EQ(message_of([&] { read(json); }),
               "cube.json:/body/obstacles/0: expected one of \"plane\", \"sphere\" and "
               "\"capsule\", found several");
+    json["obstacles"][0].erase("sphere");
+    json["obstacles"][0]["contact"]["friction"] = -0.5;
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/obstacles/0/contact/friction: expected [0, inf), found -0.5");
+    json["obstacles"][0]["contact"] = {{"thickness_m", 0}};
+    EXPECT_EQ(message_of([&] { read(json); }),
+              "cube.json:/body/obstacles/0/contact/thickness_m: expected a number in (0, inf), "
+              "found 0");
 }
 
 TEST(BodyDescription, RestShapesAreTurnedThenMoved) {

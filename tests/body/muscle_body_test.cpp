@@ -142,22 +142,41 @@ TEST(MuscleBody, AShortenedActiveMuscleBulgesAndKeepsItsVolume) {
     EXPECT_NEAR(muscle.body.volume(state.x) / muscle.body.volume(muscle.body.rest), 1, 0.003);
 }
 
-TEST(MuscleBody, RungeKutta4GetsThroughWithTheStepOfTheTableAndNotWithOneAndAHalfTimesIt) {
-    // Published limit of the prototype: 3.2e-5 s with 27 nodes; the next steps of the table are 3.8e-5 and 4.6e-5 s.
-    const auto diverges = [](double step_s) {
-        const MuscleBody muscle = build_muscle(prototype(Discretisation::kDifferences, {3, 3, 3}),
-                                               {.activation = [](double) { return 1.0; },
-                                                .lengthening_m = [](double) { return 0.002; }});
-        const auto integrator =
-            solve::make_integrator({.method = solve::Method::kRungeKutta4,
-                                    .step_s = step_s,
-                                    .length_scale_m = muscle.body.length_scale_m,
-                                    .diverged_at = 1});
-        solve::MotionState state = muscle.body.start();
-        return integrator->advance(muscle.body.system, state, 0.1).diverged;
-    };
-    EXPECT_FALSE(diverges(3.2e-5));
-    EXPECT_TRUE(diverges(4.6e-5));
+/// Whether Zajac's experiment (full activation, plates 2 mm apart from rest) is lost within 0.1 s.
+bool diverges(solve::Method method, int nodes_per_edge, double step_s) {
+    const int n = nodes_per_edge;
+    const MuscleBody muscle = build_muscle(
+        prototype(Discretisation::kDifferences, {n, n, n}),
+        {.activation = [](double) { return 1.0; }, .lengthening_m = [](double) { return 0.002; }});
+    const auto integrator = solve::make_integrator({.method = method,
+                                                    .step_s = step_s,
+                                                    .length_scale_m = muscle.body.length_scale_m,
+                                                    .diverged_at = 1});
+    solve::MotionState state = muscle.body.start();
+    return integrator->advance(muscle.body.system, state, 0.1).diverged;
+}
+
+// Cells of the table in samples/figures/12b, twelve steps to a decade: a method gets through below its longest stable step
+// and is lost two steps of the table above it.
+TEST(MuscleBody, ExplicitMethodsGetThroughWithTheStepsOfTheTableAndNotWithHalfAsMuchMore) {
+    const double down = std::pow(10, -1.0 / 12), up = 1.01 / (down * down);
+    const struct {
+        solve::Method method;
+        double longest_s;
+    } cells[] = {{solve::Method::kCashKarp, 3.8e-5},     {solve::Method::kRungeKutta4, 3.2e-5},
+                 {solve::Method::kVerlet, 3.2e-5},       {solve::Method::kRungeKutta2, 2.6e-5},
+                 {solve::Method::kAdamsMoulton, 1.5e-5}, {solve::Method::kAdamsBashforth, 3.8e-6}};
+    for (const auto& [method, longest_s] : cells) {
+        EXPECT_FALSE(diverges(method, 3, longest_s * down)) << solve::name_of(method);
+        EXPECT_TRUE(diverges(method, 3, longest_s * up)) << solve::name_of(method);
+    }
+}
+
+// h ~ nodes^-0.75 puts the limit of 125 nodes between 0.25 and 0.4 times that of 27, for an exponent of -0.6 to -0.9.
+TEST(MuscleBody, TheLongestStableStepOfRungeKutta4FallsAsTheNodesGrow) {
+    constexpr double kLongest27_s = 3.2e-5;
+    EXPECT_FALSE(diverges(solve::Method::kRungeKutta4, 5, 0.25 * kLongest27_s));
+    EXPECT_TRUE(diverges(solve::Method::kRungeKutta4, 5, 0.4 * kLongest27_s));
 }
 
 Json described() {
@@ -202,7 +221,21 @@ TEST(MuscleBody, WhatIsWrongInADescriptionIsNamed) {
               "head.json:/muscle/musculotendon/optimal_length_m: expected (0, inf), found 0");
     EXPECT_EQ(message("/musculotendon/pennation_deg", 90),
               "head.json:/muscle/musculotendon/pennation_deg: expected [0, 90), found 90");
-    EXPECT_EQ(message("/length_m", 0), "head.json:/muscle/length_m: expected (0, inf), found 0");
+    EXPECT_EQ(message("/length_m", 0),
+              "head.json:/muscle/length_m: expected a number in (0, inf), found 0");
+    EXPECT_EQ(message("/thickness_m", nullptr),
+              "head.json:/muscle/thickness_m: expected a number in (0, inf), found null");
+    EXPECT_EQ(message("/grid/1", 1),
+              "head.json:/muscle/grid/1: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/moduli/shear_pa", -2000),
+              "head.json:/muscle/moduli/shear_pa: expected a number in (0, inf), found -2000");
+    EXPECT_EQ(message("/moduli/bulk_pa", -1),
+              "head.json:/muscle/moduli/bulk_pa: expected [0, inf), found -1");
+    EXPECT_EQ(message("/moduli/viscosity_pa_s", -1),
+              "head.json:/muscle/moduli/viscosity_pa_s: expected [0, inf), found -1");
+    EXPECT_EQ(message("/moduli/density_kg_per_m3", -1060),
+              "head.json:/muscle/moduli/density_kg_per_m3: expected a number in (0, inf), found "
+              "-1060");
     EXPECT_EQ(message("/section", "oval"),
               "head.json:/muscle/section: expected one of \"block\" \"round\", found \"oval\"");
 }

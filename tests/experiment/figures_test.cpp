@@ -41,11 +41,19 @@ TEST(Figure5, RawParametersHangByTheClosedFormAtEveryResolution) {
     EXPECT_LT(figure.shapes[1].positions.col(2).minCoeff(), -2);
 }
 
+/// The first grids of a run, each with its own step.
+void use_grids(Json& entry, const std::vector<int>& grids) {
+    Json steps = Json::array();
+    for (std::size_t i = 0; i < grids.size(); ++i) steps.push_back(entry["steps_s"][i]);
+    entry["grids"] = grids;
+    entry["steps_s"] = steps;
+}
+
 /// Figure 9 with coarse grids only.
 Json short_volume_history(const char* id) {
     Json json = sample(id);
     json["runs"] = Json::array({json["runs"][0]});
-    json["runs"][0]["grids"] = {3, 4};
+    use_grids(json["runs"][0], {3, 4});
     json["checks"] = Json::array();
     return json;
 }
@@ -77,7 +85,7 @@ TEST(Figure9, BothHalvesShareOneRun) {
     Json a = short_volume_history("9a"), b = short_volume_history("9b");
     for (Json* json : {&a, &b}) {
         (*json)["duration_s"] = 0.1;
-        (*json)["runs"][0]["grids"] = {3};
+        use_grids((*json)["runs"][0], {3});
     }
     SharedRuns shared;
     RunOptions options;
@@ -93,7 +101,8 @@ TEST(Figure9, BothHalvesShareOneRun) {
 TEST(Figure9, ResultsDoNotDependOnTheNumberOfThreads) {
     Json json = short_volume_history("9b");
     json["duration_s"] = 0.5;
-    json["runs"][0]["grids"] = {3, 4, 5};
+    json["runs"] = Json::array({sample("9b")["runs"][0]});
+    use_grids(json["runs"][0], {3, 4, 5});
     const FigureResult one = run(json, {.threads = 1}), three = run(json, {.threads = 3});
     ASSERT_EQ(one.tables.size(), three.tables.size());
     for (std::size_t i = 0; i < one.tables.size(); ++i)

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "paths.h"
 
 namespace risorius::experiment {
 namespace {

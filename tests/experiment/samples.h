@@ -11,6 +11,7 @@
 
 #include "core/json_cursor.h"
 #include "experiment/registry.h"
+#include "paths.h"
 
 namespace risorius::experiment {
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "geom/mesh_checks.h"
 #include "io/read_mesh.h"
+#include "paths.h"
 
 namespace risorius::io {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "geom/weld.h"
 #include "io/read_mesh.h"
+#include "paths.h"
 
 namespace risorius::io {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "geom/mesh_checks.h"
 #include "io/detail/obj_reader.h"
+#include "paths.h"
 
 namespace risorius::io {
 namespace {

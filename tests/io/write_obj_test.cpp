@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "io/read_mesh.h"
+#include "paths.h"
 
 namespace risorius::io {
 namespace {

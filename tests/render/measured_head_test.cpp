@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/json_cursor.h"
+#include "paths.h"
 #include "render/offscreen_view.h"
 
 namespace risorius::render {

@@ -9,6 +9,7 @@
 
 #include "geom/polygon_mesh.h"
 #include "io/read_mesh.h"
+#include "paths.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
 

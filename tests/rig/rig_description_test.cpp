@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "paths.h"
 #include "rig/head.h"
 #include "rig/heads.h"
 

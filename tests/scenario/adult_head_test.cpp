@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/types.h"
+#include "paths.h"
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/json_cursor.h"
+#include "paths.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -63,6 +64,15 @@ TEST(BrokenInput, EveryLandmarkFileIsRefusedByFit) {
         expect_refused("fit ../../heads/plain_head.obj --landmarks " + file + " -o " +
                            (out / "rig.json").string(),
                        kBroken / "landmarks", message, out);
+}
+
+TEST(BrokenInput, EveryExperimentIsRefusedByFigure) {
+    const Json expected = expected_in("experiments");
+    expect_complete("experiments", expected);
+    const Folder out;
+    for (const auto& [file, message] : expected.items())
+        expect_refused("figure " + file + " -o " + (out / "figure").string(),
+                       kBroken / "experiments", message, out);
 }
 
 TEST(BrokenInput, EveryMeshIsRefusedByTheRigThatNamesIt) {

@@ -7,6 +7,7 @@
 #include "app/fit_rig.h"
 #include "app/landmark_points.h"
 #include "app/rig_files.h"
+#include "paths.h"
 #include "scenario/run_program.h"
 #include "track/facs.h"
 

@@ -9,6 +9,7 @@
 #include "media/image_file.h"
 #include "media/sha256.h"
 #include "media/video_reader.h"
+#include "paths.h"
 #include "scenario/run_program.h"
 #include "track/channels.h"
 

@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "paths.h"
 #include "temporary_folder.h"
 
 namespace risorius::scenario {

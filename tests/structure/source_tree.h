@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "paths.h"
+
 namespace risorius::structure {
 
 inline std::filesystem::path source_dir() { return RISORIUS_SOURCE_DIR; }

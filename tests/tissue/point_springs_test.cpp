@@ -75,7 +75,8 @@ TEST(PointSprings, APressedSpringIsProjectedToAPositiveMatrix) {
     EXPECT_LT(hessian(springs, step, x, solve::Curvature::kExact)(0, 0), 0);
     EXPECT_NEAR(hessian(springs, step, x, solve::Curvature::kPositive)(1, 1), 2.0, 1e-14);
     expect_projection(springs, step, x);
-    expect_projection(PointSprings(mixed_springs()), step, random_points(4, 1.0, 3));
+    const Points mixed = random_points(4, 1.0, 3);
+    expect_projection(PointSprings(mixed_springs()), {0.1, 0.1, mixed}, mixed);
 }
 
 TEST(PointSprings, SecantMatrixAndLoadMakeUpTheForce) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "paths.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "paths.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {

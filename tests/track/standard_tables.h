@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "paths.h"
 #include "track/facs.h"
 
 namespace risorius::track {

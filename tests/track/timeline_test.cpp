@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "paths.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {
