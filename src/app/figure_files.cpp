@@ -18,6 +18,7 @@ namespace {
 // Of pictures, px: one object, and each of several in a row
 constexpr int kWidth_px = 1200, kHeight_px = 900;
 constexpr int kRowWidth_px = 640, kRowHeight_px = 760, kWidestRow_px = 3200;
+constexpr int kMargin_px = 36;
 constexpr double kFlat = 0.35;  ///< height over width of what is better seen from above
 constexpr double kFlatElevation_deg = 34;
 
@@ -77,6 +78,22 @@ bool is_flat(const render::Object& object) {
     return size.z() < kFlat * std::max(size.x(), size.y());
 }
 
+/// Without the rows above and below that have nothing in them, but for a margin.
+Image trimmed(const Image& image) {
+    const auto is_empty = [&](int y) {
+        const std::uint8_t* row = image.pixel(0, y);
+        return std::all_of(row, row + 4 * image.width_px, [](std::uint8_t b) { return b == 255; });
+    };
+    int first = 0, last = image.height_px - 1;
+    while (first < last && is_empty(first)) ++first;
+    while (last > first && is_empty(last)) --last;
+    first = std::max(0, first - kMargin_px);
+    last = std::min(image.height_px - 1, last + kMargin_px);
+    Image part(image.width_px, last - first + 1);
+    std::copy_n(image.pixel(0, first), part.rgba.size(), part.rgba.begin());
+    return part;
+}
+
 Image picture_of(const std::vector<render::Object>& objects) {
     render::ObjectViewOptions options{.width_px = kWidth_px, .height_px = kHeight_px};
     const int count = static_cast<int>(objects.size());
@@ -89,7 +106,7 @@ Image picture_of(const std::vector<render::Object>& objects) {
     });
     if (has_vertices && std::all_of(objects.begin(), objects.end(), is_flat))
         options.elevation_deg = kFlatElevation_deg;
-    return render::ObjectView(objects, options).draw();
+    return trimmed(render::ObjectView(objects, options).draw());
 }
 
 // JSON has no infinity: an open end is null, and so is what was not measured.
@@ -116,13 +133,14 @@ std::string csv_of(const experiment::Table& table) {
     const bool named = !table.row_names.empty();
     if (named) text += table.columns.empty() ? "name" : "name,";
     for (std::size_t c = 0; c < table.columns.size(); ++c)
-        text += (c ? "," : "") + csv_cell(table.columns[c]);
+        text.append(c ? "," : "").append(csv_cell(table.columns[c]));
     text += "\n";
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         if (named) text += csv_cell(table.row_names[r]);
         for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
             const double value = table.rows[r][c];
-            text += (c || named ? "," : "") + (std::isnan(value) ? "nan" : format_number(value));
+            text.append(c || named ? "," : "");
+            text += std::isnan(value) ? "nan" : format_number(value);
         }
         text += "\n";
     }

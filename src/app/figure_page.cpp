@@ -40,15 +40,22 @@ void write_summary(HtmlWriter& html, const std::vector<ShownFigure>& figures) {
     html.open("div", {{"class", "scroll"}}).open("table").open("tr");
     for (const char* head : {"Figure", "What it shows", "Numbers inside their accepted range"})
         html.element("th", head);
+    html.element("th", "Takes about", {{"class", "number"}});
     html.close();
     for (const ShownFigure& figure : figures) {
         html.open("tr");
         html.open("td")
-            .element("a", figure.result.id, {{"href", "#" + anchor(figure.result)}})
+            .element("a", figure.result.id,
+                     {{"href", std::string("#").append(anchor(figure.result))}})
             .close();
         html.element("td", figure.result.title);
-        html.element("td", count_text(figure.result) + (figure.result.passes() ? " ✓" : " ✗"),
-                     {{"class", figure.result.passes() ? "good" : "bad"}});
+        if (figure.result.checks.empty())
+            html.element("td", "none given", {{"class", "soft"}});
+        else
+            html.element("td", count_text(figure.result) + (figure.result.passes() ? " ✓" : " ✗"),
+                         {{"class", figure.result.passes() ? "good" : "bad"}});
+        html.element("td", figure.run_time_s > 0 ? short_number(figure.run_time_s) + " s" : "",
+                     {{"class", "number"}});
         html.close();
     }
     html.close().close().close();
@@ -156,13 +163,20 @@ void write_record(HtmlWriter& html, const FigureResult& figure) {
     html.close();
 }
 
+/// The section has its own.
+std::string without_title(const std::string& markdown) {
+    if (!markdown.starts_with("# ")) return markdown;
+    const std::size_t end = markdown.find('\n');
+    return end == std::string::npos ? "" : markdown.substr(end + 1);
+}
+
 void write_figure_section(HtmlWriter& html, const ShownFigure& figure) {
     const FigureResult& result = figure.result;
     html.open("section", {{"id", anchor(result)}});
     html.element("h2", "Figure " + result.id + ": " + result.title);
     write_pictures(html, figure);
     write_checks(html, result);
-    if (!figure.readme.empty()) write_markdown(html, figure.readme, 3);
+    write_markdown(html, without_title(figure.readme), 3);
     write_tables(html, figure);
     write_record(html, result);
     html.close();

@@ -14,8 +14,9 @@ namespace risorius::app {
 struct ShownFigure {
     experiment::FigureResult result;
     FigureFiles files;
-    std::string folder;  ///< of its files from the page, "" or "9b/"
-    std::string readme;  ///< Markdown; empty when there is none
+    std::string folder;     ///< of its files from the page, "" or "9b/"
+    std::string readme;     ///< Markdown; empty when there is none
+    double run_time_s = 0;  ///< about, as the list of figures says; 0 when it says nothing
     std::string
         published;  ///< file name of a picture of the published figure; empty when there is none
 };

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "app/figure_files.h"
 #include "app/figure_page.h"
@@ -44,28 +45,51 @@ struct Job {
     double run_time_s = 0;
 };
 
-std::vector<Job> jobs_of(const FigureOptions& options) {
-    const fs::path from = folder_of_figures(options.from);
-    // A path is told from an id by its ending, so that a mistyped id is not taken for a missing file.
-    if (options.figure.ends_with(".json"))
-        return {{.file = options.figure, .folder = "", .run_time_s = 0}};
-    std::vector<Job> jobs;
-    const std::vector<FigureEntry> entries = list_figures(options.from);
-    for (const FigureEntry& entry : entries)
-        if (options.figure == "all" || options.figure == entry.id)
-            jobs.push_back({.file = from / entry.id / kExperimentFile,
-                            .folder = options.figure == "all" ? entry.id + "/" : "",
-                            .run_time_s = entry.run_time_s});
-    if (!jobs.empty()) return jobs;
+/// Whether each figure has a folder of its own, and there is a page of all.
+bool is_several(const FigureOptions& options) {
+    return options.figure == "all" ||
+           (!options.figure.ends_with(".json") && options.figure.find(',') != std::string::npos);
+}
+
+[[noreturn]] void fail_unknown(const std::string& id, const std::vector<FigureEntry>& entries) {
     std::string expected = "all, a file that ends in .json, or one of";
     std::vector<std::string_view> known{"all"};
     for (const FigureEntry& entry : entries) {
         expected += " " + entry.id;
         known.push_back(entry.id);
     }
-    const std::string near = nearest_name(options.figure, known);
+    const std::string near = nearest_name(id, known);
     if (!near.empty()) expected += " (did you mean \"" + near + "\"?)";
-    throw Error("figure", expected, "\"" + options.figure + "\"");
+    throw Error("figure", expected, "\"" + id + "\"");
+}
+
+std::vector<Job> jobs_of(const FigureOptions& options) {
+    const fs::path from = folder_of_figures(options.from);
+    // A path is told from an id by its ending, so that a mistyped id is not taken for a missing file.
+    if (options.figure.ends_with(".json"))
+        return {{.file = options.figure, .folder = "", .run_time_s = 0}};
+    const std::vector<FigureEntry> entries = list_figures(options.from);
+    const bool together = is_several(options);
+    std::vector<Job> jobs;
+    const auto add = [&](const FigureEntry& entry) {
+        jobs.push_back({.file = from / entry.id / kExperimentFile,
+                        .folder = together ? entry.id + "/" : "",
+                        .run_time_s = entry.run_time_s});
+    };
+    if (options.figure == "all") {
+        for (const FigureEntry& entry : entries) add(entry);
+        return jobs;
+    }
+    std::set<std::string> seen;
+    std::istringstream ids(options.figure);
+    for (std::string id; std::getline(ids, id, ',');) {
+        if (!seen.insert(id).second) throw Error("figure", "each id once", "\"" + id + "\" again");
+        const auto entry = std::find_if(entries.begin(), entries.end(),
+                                        [&](const FigureEntry& one) { return one.id == id; });
+        if (entry == entries.end()) fail_unknown(id, entries);
+        add(*entry);
+    }
+    return jobs;
 }
 
 /// A picture of the figure as published, which a reader may have put beside the experiment.
@@ -84,6 +108,7 @@ ShownFigure write_results(const Job& job, experiment::FigureResult result, const
     fs::create_directories(folder);
     ShownFigure shown;
     shown.folder = job.folder;
+    shown.run_time_s = job.run_time_s;
     shown.files = write_figure(result, folder, charts);
     shown.readme = text_of(job.file.parent_path() / "README.md");
     shown.published = published_picture(job.file.parent_path());
@@ -259,7 +284,7 @@ FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
 
     // What holds them together
     FigureReport report;
-    const bool together = options.figure == "all";
+    const bool together = is_several(options);
     for (const ShownFigure& figure : figures) {
         for (const experiment::Check& check : figure.result.checks)
             if (!check.passes()) report.failed.push_back({figure.result.id, check});

@@ -26,7 +26,7 @@ using FigureRunner = std::function<experiment::FigureResult(const JsonCursor& ex
                                                             const experiment::RunOptions& options)>;
 
 struct FigureOptions {
-    std::string figure;         ///< an id, "all", or the path of an experiment.json
+    std::string figure;  ///< an id, several ("8a,8b"), "all", or the path of an experiment.json
     std::filesystem::path out;  ///< a folder, new, empty or with former results, which are replaced
     std::filesystem::path
         from;         ///< where the ids are folders; empty: samples/figures of this toolkit

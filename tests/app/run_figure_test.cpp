@@ -144,8 +144,20 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
          {"src=\"x1/curve.svg\"", "src=\"x2/row.png\"", "href=\"x2/results.json\"", "up to ~10 %",
           "10.82 %", "8 to 13 %", "at most 0.0001", "2.5 m", "1 to 2 m", "✗ outside", "✓ inside",
           "3 of 3", "href=\"#figure-x2\"", "id=\"figure-x2\"", "<p>It is <em>longer</em>.</p>",
+
           "low | high"})
         EXPECT_TRUE(contains(page, part)) << part;
+}
+
+TEST_F(Figures, SeveralLeaveOnePageInTheOrderAskedFor) {
+    for (const char* id : {"x1", "x2", "x3"}) add(id);
+    const FigureReport report = run_figures(options("x3,x1"));
+    ASSERT_EQ(report.results["figures"].size(), 2u);
+    EXPECT_EQ(report.results["figures"][0]["id"], "x3");
+    EXPECT_TRUE(fs::exists(out() / "x1/results.json"));
+    EXPECT_FALSE(fs::exists(out() / "x2"));
+    EXPECT_EQ(message(options("x1,x1")), "figure: expected each id once, found \"x1\" again");
+    EXPECT_TRUE(contains(message(options("x1,x9")), "found \"x9\""));
 }
 
 TEST_F(Figures, ThePageShowsTextAsText) {
@@ -250,6 +262,47 @@ TEST_F(Figures, NothingIsLeftWhenOneFails) {
         message(given),
         "run: no-such-gnuplot: not found; charts are drawn by it (Debian package gnuplot-nox)");
     EXPECT_TRUE(nothing_written());
+}
+
+TEST_F(Figures, AFailureStopsTheOthersAndIsTheOneTold) {
+    add("x1");
+    add("x2");
+    FigureOptions given = options("all");
+    given.threads = 2;
+    given.run = [](const JsonCursor& json, const experiment::RunOptions& run_options) {
+        if (json.at("figure").string() == "x2") throw Error("x", "y", "z");
+        for (;;) run_options.stop_if_asked();  // until the other has failed
+        return FigureResult{};
+    };
+    EXPECT_EQ(message(given), "x: expected y, found z");
+    EXPECT_TRUE(nothing_written());
+}
+
+TEST_F(Figures, AWrongExperimentIsFoundBeforeAnyIsRun) {
+    add("x1");
+    FigureOptions given = options("x1");
+    given.run = {};  // the experiments of the program
+    EXPECT_TRUE(contains(message(given), "x1/experiment.json: expected the key \"kind\""))
+        << message(given);
+    EXPECT_TRUE(nothing_written());
+}
+
+TEST_F(Figures, ThePageSaysWhatPicturesShow) {
+    add("x1");
+    FigureOptions given = options("x1");
+    given.run = [](const JsonCursor& json, const experiment::RunOptions& run_options) {
+        FigureResult result = made_up(json, run_options);
+        result.shapes[0].shade = {0, 0, 0.5, 1, 1};
+        result.shapes[0].shade_ends = {"softest", "stiffest"};
+        result.shapes[0].outline.resize(2, 3);
+        result.shapes[0].outline << 0, 0, 0, 1, 0, 2;
+        return result;
+    };
+    run_figures(given);
+    const std::string page = bytes_of(out() / "index.html");
+    for (const char* part :
+         {"held nodes", "outline at rest", "softest<i class=\"shade\"></i>stiffest"})
+        EXPECT_TRUE(contains(page, part)) << part;
 }
 
 TEST_F(Figures, NothingIsLeftWhenStopped) {

@@ -1,4 +1,4 @@
-// risorius figure ID|all|EXPERIMENT.json -o DIR, risorius figure --list
+// risorius figure ID[,ID..]|all|EXPERIMENT.json -o DIR, risorius figure --list
 #include <cstdio>
 
 #include "app/figure_page.h"
@@ -96,10 +96,11 @@ void add_figure(CLI::App& app) {
         "figure", "Run an experiment of samples/figures against what was published");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("FIGURE", arguments->options.figure,
-                        "An id of --list, all, or the path of an experiment.json");
+                        "An id of --list, several (8a,8b), all, or the path of an experiment.json");
     command->add_option(
         "-o,--out", arguments->options.out,
-        "Folder of the results: new, empty, or with former results, which are replaced");
+        "Folder of the results: new, empty, or with former results, which are replaced; it appears "
+        "whole or not at all");
     command->add_flag("--list", arguments->list, "Ids, titles and about how long each takes");
     command->add_option("--from", arguments->options.from,
                         "Folder with a folder per id; samples/figures when not given");

@@ -41,9 +41,10 @@ std::vector<Tic> logarithmic_tics(double low, double high) {
         for (int k = 2; k <= 9; ++k) {
             const bool labelled = decades < 1.05 || (decades < 2.5 && (k == 2 || k == 5));
             // Rounded to its two digits, so that 3 * 0.1 is written 0.3
-            add(k * decade,
-                labelled ? format_number(std::stod(std::to_string(k) + "e" + std::to_string(e)))
-                         : "");
+            const std::string digit = std::to_string(k);
+            add(k * decade, !labelled ? ""
+                            : powers  ? digit + "×" + power_of_ten(e)
+                                      : format_number(std::stod(digit + "e" + std::to_string(e))));
         }
     }
     return tics;

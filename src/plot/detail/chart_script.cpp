@@ -101,7 +101,7 @@ std::string key_line(const Chart& chart) {
     if (longest <= kLongestLabelBeside || count > kMostLabelsBelow)
         return "set key outside right top vertical Left reverse samplen 2 spacing 1.25\n";
     return "set key outside below center horizontal Left reverse samplen 2 spacing 1.25 "
-           "maxcols 2\n";
+           "maxcols 2 height 0.8\n";
 }
 
 std::string curve(const Series& series, std::size_t index, int colour, std::size_t nth_marked) {

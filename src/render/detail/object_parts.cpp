@@ -21,6 +21,7 @@ const Vec3 kHeld(0.62, 0.075, 0.02);
 
 constexpr double kWire_px = 2.0;
 constexpr double kInnerWireShare = 0.55;  ///< of the width of a wire on the surface
+constexpr double kCurve_px = 4.5;         ///< where there is no surface
 constexpr double kOutline_px = 1.4;
 constexpr double kWidestWirePerCell = 0.1;  ///< so that fine grids stay grids
 constexpr double kBallPerCell = 0.13;       ///< radius
@@ -127,7 +128,9 @@ class Parts {
 
     void add_wires() {
         const std::vector<std::pair<int, int>> edges = surface_edges();
-        const double width = std::min(kWire_px * row_.pixel_m, kWidestWirePerCell * cell_);
+        const double width = edges.empty()
+                                 ? kCurve_px * row_.pixel_m
+                                 : std::min(kWire_px * row_.pixel_m, kWidestWirePerCell * cell_);
         for (const auto& [i, j] : object_.wires) {
             const bool outside = std::binary_search(edges.begin(), edges.end(),
                                                     std::pair(std::min(i, j), std::max(i, j)));
@@ -165,8 +168,10 @@ class Parts {
     }
 
     void add_balls() {
-        const double radius = std::clamp(kBallPerCell * cell_, kLeastBall_px * row_.pixel_m,
-                                         kMostBall_px * row_.pixel_m);
+        const double radius = object_.surface.rows() == 0
+                                  ? kMostBall_px * row_.pixel_m
+                                  : std::clamp(kBallPerCell * cell_, kLeastBall_px * row_.pixel_m,
+                                               kMostBall_px * row_.pixel_m);
         for (const int v : object_.fixed) {
             for (const Vec2& place :
                  {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, -1), Vec2(1, 1), Vec2(-1, 1)})
