@@ -3,8 +3,8 @@
 //
 //   Phi(x) = sum m |x - y|^2 / (2 h^2) + E(x) + h R(x; x_n, h),   y = x_n + h v_n,   v = (x - x_n) / h
 //
-// However short it is cut, a step ends with Phi(x) <= Phi(x_n) = E(x_n) + m v_n^2 / 2: no step adds energy. The count of
-// iterations is fixed or ends at a tolerance, never at a clock.
+// Every iteration lowers Phi, and however short it is cut, a step ends with Phi(x) <= Phi(x_n) = E(x_n) + m v_n^2 / 2: a bad
+// beginning does no harm. The count of iterations is fixed or ends at a tolerance, never at a clock.
 //
 // Liu, Bouaziz & Kavan 2017, ACM TOG 36(3).
 #pragma once
@@ -21,8 +21,8 @@ struct RealTimeOptions {
     double step_s = 1.0 / 60;  ///< h    (0, inf)
     int iterations = 5;        ///< at most, per step
     int memory = 5;            ///< pairs of L-BFGS
-    double accuracy = 0;       ///< stop when an iteration moves the nodes less than this share of the
-                               ///< step's motion (both RMS); 0 = never
+    double accuracy = 0;  ///< stop when an iteration moves the nodes less than this share of the
+                          ///< step's motion (both RMS); 0 = never
     double length_scale_m = 1;  ///< of the body: no iteration moves a node farther   (0, inf)
 };
 
