@@ -61,8 +61,9 @@ std::pair<double, double> eigenvalues(const Hanging& body, const Points& x,
     body.system.add_hessian(step, x, solve::Curvature::kPositive, builder);
     for (int i = 0; i < body.system.size(); ++i)
         builder.add_diagonal(i, body.system.mass_kg()[i] / (kStep * kStep));
-    const Eigen::MatrixXd whole = Eigen::MatrixXd(
-        Eigen::SparseMatrix<double>(builder.build()).selfadjointView<Eigen::Lower>());
+    const Eigen::SparseMatrix<double> symmetric =
+        builder.build().selfadjointView<Eigen::Lower>();
+    const Eigen::MatrixXd whole(symmetric);
     const Eigen::MatrixXd H = whole(free, free);
     Eigen::MatrixXd B(H.rows(), H.cols());
     Points load = Points::Zero(x.rows(), 3), answer;
