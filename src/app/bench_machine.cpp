@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/animate.h"
+#include "app/bench_solids.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/staged_file.h"
@@ -213,19 +214,28 @@ Json bench_rig(const fs::path& rig_file, const Watch& watch) {
 
 Json bench_machine(const BenchOptions& options, const Watch& watch) {
     std::vector<fs::path> rigs = options.rigs;
-    if (rigs.empty())
+    if (rigs.empty() && options.faces)
         rigs.push_back(fs::path(RISORIUS_STANDARD_FOLDER).parent_path() / "adult/rig.json");
     Json out;
     out["format"] = "risorius-bench";
     out["version"] = 1;
     out["toolkit"] = kVersion;
     out["machine"] = describe_machine();
+    // Solids take about as long as one rig
+    const double parts = 1 + static_cast<double>(rigs.size());
+    Watch solids = watch;
+    if (watch.progress)
+        solids.progress = [&](double share, const std::string& what) {
+            watch.progress(share / parts, what);
+        };
+    out["solids"] = {bench_solids({}, solids),
+                     bench_solids({.nodes_per_edge = {13, 22}, .psi_n_per_m5 = 10}, solids)};
     out["rigs"] = Json::array();
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         Watch one = watch;
         if (watch.progress)
             one.progress = [&, i](double share, const std::string& what) {
-                watch.progress((static_cast<double>(i) + share) / static_cast<double>(rigs.size()),
+                watch.progress((1 + static_cast<double>(i) + share) / parts,
                                rigs[i].string() + ", " + what);
             };
         out["rigs"].push_back(bench_rig(rigs[i], one));

@@ -1,4 +1,4 @@
-// How fast this machine simulates, draws and writes faces: medians, so that one slow moment does not count.
+// How fast this machine steps solids, and simulates, draws and writes faces: medians, so that one slow moment does not count.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,10 @@ namespace risorius::app {
 
 struct BenchOptions {
     std::vector<std::filesystem::path> rigs;  ///< empty: the adult of this toolkit
+    bool faces = true;                        ///< or only solids
 };
 
-/// The report: machine, and per rig the size of the model, ms per simulated step of 1/60 s at every quality, ms per
+/// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality, ms per
 /// picture, and the whole way from script to video against real time. Every rig plays the same four seconds.
 Json bench_machine(const BenchOptions& options, const Watch& watch = {});
 

@@ -1,5 +1,7 @@
-// Wall time since it was made, for reports only: nothing that is computed depends on it.
+// Wall time, and time on the core, since it was made, for reports only: nothing that is computed depends on it.
 #pragma once
+
+#include <time.h>
 
 #include <chrono>
 
@@ -13,6 +15,21 @@ class Stopwatch {
 
   private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// What this thread has spent on a core: other programs do not count.
+class CoreStopwatch {
+  public:
+    double seconds() const { return now() - begin_; }
+
+  private:
+    static double now() {
+        timespec time{};
+        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    double begin_ = now();
 };
 
 }  // namespace risorius::app

@@ -1,9 +1,11 @@
 #include "solve/real_time_step.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 #include <utility>
+
+#include "solve/point_sums.h"
 
 namespace risorius::solve {
 
@@ -16,19 +18,48 @@ RealTimeStep::RealTimeStep(const MotionSystem& system,
         throw std::invalid_argument("RealTimeStep: an option is outside its range");
 }
 
+// Phi
+double RealTimeStep::potential(const ImplicitStep& step, const Points& x, Points& gradient) const {
+    const double sum = system_.potential(step, x, gradient);
+    const double rate_hz = step.rate_hz();
+    double inertia = 0;
+    const double *const at = x.data(), *const target = inertial_.data();
+    double* const g = gradient.data();
+    for (int i = 0; i < system_.size(); ++i) {
+        if (system_.fixed()[static_cast<std::size_t>(i)]) continue;
+        const double k = system_.mass_kg()[i] * rate_hz * rate_hz;
+        for (int c = 3 * i; c < 3 * i + 3; ++c) {
+            const double d = at[c] - target[c];
+            inertia += k * d * d;
+            g[c] += k * d;
+        }
+    }
+    return sum + 0.5 * inertia;
+}
+
+StepReport RealTimeStep::minimise(const ImplicitStep& step, Points& x) {
+    preconditioner_->refresh(step, x);
+    const double nodes = std::max(system_.size(), 1);
+    QuasiNewtonOptions options;
+    options.iterations = options_.iterations;
+    options.memory = options_.memory;
+    options.step_cap_m = options_.length_scale_m;
+    options.tolerance_rms_m = options_.accuracy * std::sqrt((x - start_).squaredNorm() / nodes);
+    return solver_.minimise(
+        [&](const Points& at, Points& gradient) { return potential(step, at, gradient); },
+        [&](const Points& b, Points& y) { preconditioner_->apply(b, y); }, x, options);
+}
+
 StepReport RealTimeStep::advance(MotionState& state) {
     const double h = options_.step_s, rate_hz = 1.0 / h;
     const int n = system_.size();
     start_ = state.x;
     inertial_ = state.x + h * state.v;
+    const bool follows = left_x_.rows() == n && left_x_ == state.x && left_v_ == state.v;
     x_ = inertial_;
-    static const int mode = getenv("PRED") ? atoi(getenv("PRED")) : 1;
-    const bool known = left_.size() == state.x.size() && left_ == state.x;
-    if (!known) history_ = 0;
-    if (mode >= 1 && history_ == 1) x_ += h * h * acceleration_;
-    if (mode >= 2 && history_ >= 2) x_ += h * h * (2 * acceleration_ - before_);
-    else if (mode == 1 && history_ >= 2) x_ += h * h * acceleration_;
-    const Points v_before = state.v;
+    if (follows) x_ += (h * h) * acceleration_;
+    acceleration_ = -rate_hz * state.v;
+
     // Fixed nodes go where they are led
     Points& v = state.v;
     system_.place_fixed(state.t_s + h, x_, v);
@@ -37,42 +68,32 @@ StepReport RealTimeStep::advance(MotionState& state) {
     system_.begin_step(state.t_s, h, start_, v);
 
     const ImplicitStep step{state.t_s + h, h, start_};
-    const auto potential = [&](const Points& x, Points& gradient) {
-        double sum = system_.potential(step, x, gradient);
-        double inertia = 0;
-        const double* const at = x.data();
-        const double* const free = inertial_.data();
-        double* const g = gradient.data();
-        for (int i = 0; i < n; ++i) {
-            if (system_.fixed()[static_cast<std::size_t>(i)]) continue;
-            const double k = system_.mass_kg()[i] * rate_hz * rate_hz;
-            for (int c = 3 * i; c < 3 * i + 3; ++c) {
-                const double d = at[c] - free[c];
-                inertia += k * d * d;
-                g[c] += k * d;
-            }
-        }
-        return sum + 0.5 * inertia;
-    };
-    preconditioner_->refresh(step, x_);
-    QuasiNewtonOptions options;
-    options.iterations = options_.iterations;
-    options.memory = options_.memory;
-    options.step_cap_m = options_.length_scale_m;
-    options.tolerance_rms_m =
-        options_.accuracy * std::sqrt((x_ - start_).squaredNorm() / std::max(n, 1));
-    const StepReport report = solver_.minimise(
-        potential, [&](const Points& b, Points& x) { preconditioner_->apply(b, x); }, x_, options);
+    StepReport report = minimise(step, x_);
+
+    // Phi only falls from where the search began: if that was too far uphill, once more from rest
+    left_x_ = start_;
+    for (int i = 0; i < n; ++i)
+        if (system_.fixed()[static_cast<std::size_t>(i)]) left_x_.row(i) = x_.row(i);
+    const double at_rest = potential(step, left_x_, left_v_);
+    ++report.evaluations;
+    // Written so that a NaN is refused
+    if (!(report.energy_j <= at_rest)) {
+        x_ = left_x_;
+        const StepReport first = report;
+        report = minimise(step, x_);
+        report.iterations += first.iterations;
+        report.evaluations += first.evaluations;
+        report.backtracks += first.backtracks;
+    }
 
     for (int i = 0; i < n; ++i)
         if (!system_.fixed()[static_cast<std::size_t>(i)])
             state.v.row(i) = (x_.row(i) - start_.row(i)) * rate_hz;
+    acceleration_ += rate_hz * state.v;
     state.x.swap(x_);
-    left_ = state.x;
-    before_ = acceleration_;
-    acceleration_ = (state.v - v_before) * rate_hz;
-    ++history_;
     state.t_s += h;
+    left_x_ = state.x;
+    left_v_ = state.v;
     return report;
 }
 

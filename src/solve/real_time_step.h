@@ -1,8 +1,10 @@
-// Implicit Euler for real-time use: a few iterations of L-BFGS on the potential of the step, around a preconditioner.
-// Every iteration lowers the potential, so a step cut short is still stable; the count is fixed or ends at a tolerance,
-// never at a clock.
+// Implicit Euler for real-time use: a few iterations of L-BFGS on the potential of the step, around a preconditioner, from
+// where the last acceleration would lead.
 //
 //   Phi(x) = sum m |x - y|^2 / (2 h^2) + E(x) + h R(x; x_n, h),   y = x_n + h v_n,   v = (x - x_n) / h
+//
+// Every iteration lowers Phi, and however short it is cut, a step ends with Phi(x) <= Phi(x_n) = E(x_n) + m v_n^2 / 2: a bad
+// beginning does no harm. The count of iterations is fixed or ends at a tolerance, never at a clock.
 //
 // Liu, Bouaziz & Kavan 2017, ACM TOG 36(3).
 #pragma once
@@ -30,16 +32,20 @@ class RealTimeStep {
     RealTimeStep(const MotionSystem& system, std::shared_ptr<Preconditioner> preconditioner,
                  const RealTimeOptions& options);
 
-    /// One step of options.step_s. Not converging is a result.
+    /// One step of options.step_s. Not converging is a result. The acceleration of the step before is where the search
+    /// begins if `state` is as that step left it.
     StepReport advance(MotionState& state);
 
   private:
+    double potential(const ImplicitStep& step, const Points& x, Points& gradient) const;
+    StepReport minimise(const ImplicitStep& step, Points& x);
+
     const MotionSystem& system_;
     std::shared_ptr<Preconditioner> preconditioner_;
     RealTimeOptions options_;
     QuasiNewton solver_;
-    Points start_, inertial_, x_, left_, acceleration_, before_;
-    int history_ = 0;
+    Points start_, inertial_, x_;
+    Points left_x_, left_v_, acceleration_;  ///< of the step before
 };
 
 }  // namespace risorius::solve

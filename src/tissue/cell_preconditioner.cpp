@@ -53,8 +53,7 @@ void volume_gradient(const Rows8 (&x)[8], Rows8 (&gradient)[8]) {
     const Lanes8 third = Lanes8{} + 1.0f / 3.0f;
     const Rows8 da = cross(b, c) + third * cross(d, e), db = cross(c, a) + third * cross(f, d),
                 dc = cross(a, b) + third * cross(e, f);
-    const Rows8 dd = third * (cross(e, a) + cross(b, f)),
-                de = third * (cross(a, d) + cross(f, c)),
+    const Rows8 dd = third * (cross(e, a) + cross(b, f)), de = third * (cross(a, d) + cross(f, c)),
                 df = third * (cross(d, b) + cross(c, e));
     // Opposite corners differ in the sign of the odd modes a b c and agree in that of the even ones d e f
     const auto opposite = [&](int v, const Rows8& odd, const Rows8& even) {
@@ -71,8 +70,14 @@ void volume_gradient(const Rows8 (&x)[8], Rows8 (&gradient)[8]) {
 
 struct CellPreconditioner::Parts {
     Parts(const GridShape& nodes, const CellPreconditionerOptions& of)
-        : options(of), grid{nodes}, pressure(nodes, of.coarsest_cells), inverse(grid), exists(grid),
-          compliance(grid), t(grid), q(grid) {
+        : options(of),
+          grid{nodes},
+          pressure(nodes, of.coarsest_cells),
+          inverse(grid),
+          exists(grid),
+          compliance(grid),
+          t(grid),
+          q(grid) {
         const Field empty(grid);
         for (Fields3& corner : gradient) corner.fill(empty);
         positions.fill(empty);
@@ -82,26 +87,29 @@ struct CellPreconditioner::Parts {
     CellPreconditionerOptions options;
     PaddedGrid grid;
     detail::PressureMultigrid pressure;
-    Field inverse;            ///< d^-1 per node, 0 on fixed nodes
-    Field exists;             ///< 1 per cell that resists changes of volume
-    Field compliance;         ///< D^-1 per cell, in the scale of 64 V
-    Fields3 gradient[8];      ///< C: per corner and cell
+    Field inverse;        ///< d^-1 per node, 0 on fixed nodes
+    Field exists;         ///< 1 per cell that resists changes of volume
+    Field compliance;     ///< D^-1 per cell, in the scale of 64 V
+    Fields3 gradient[8];  ///< C: per corner and cell
     Fields3 positions, y;
     Field t, q;
 };
 
 CellPreconditioner::CellPreconditioner(const solve::MotionSystem& system,
-                                       const std::shared_ptr<const CellSolid>& solid,
-                                       double step_s, const CellPreconditionerOptions& options) {
+                                       const std::shared_ptr<const CellSolid>& solid, double step_s,
+                                       const CellPreconditionerOptions& options) {
     const CellBody& body = solid->body();
     const CellMesh& mesh = body.mesh;
-    if (!mesh.uniform() || mesh.deepest_level() > 0)
+    if (!mesh.uniform())
         throw std::invalid_argument("CellPreconditioner: the cells are not a uniform grid");
     if (system.size() != mesh.node_count())
         throw std::invalid_argument("CellPreconditioner: the nodes are not those of the solid");
     if (options.degree < 1)
         throw std::invalid_argument("CellPreconditioner: the degree is below 1");
-    parts_ = std::make_unique<Parts>(mesh.root(), options);
+    const auto along = [&](int axis) {
+        return ((mesh.root().along(axis) - 1) << mesh.deepest_level()) + 1;
+    };
+    parts_ = std::make_unique<Parts>(GridShape{along(0), along(1), along(2)}, options);
     Parts& p = *parts_;
     const double rate_hz = 1.0 / step_s;
 
@@ -197,7 +205,8 @@ void CellPreconditioner::apply(const Points& b, Points& x) const {
     for (int axis = 0; axis < 3; ++axis) {
         float* const to = p.y[static_cast<std::size_t>(axis)].data();
         const double* const from = b.data() + axis;
-        for (int i = 0; i < nodes; ++i) to[i] = inverse[i] * static_cast<float>(scale * from[3L * i]);
+        for (int i = 0; i < nodes; ++i)
+            to[i] = inverse[i] * static_cast<float>(scale * from[3L * i]);
     }
     int corner[8];
     for (int v = 0; v < 8; ++v) corner[v] = p.grid.corner(v);

@@ -18,7 +18,7 @@
 namespace risorius::tissue {
 
 struct CellPreconditionerOptions {
-    int degree = 3;           ///< of the smoothing polynomials, before and after   [1, ...)
+    int degree = 12;          ///< of the smoothing polynomials, before and after   [1, ...)
     int coarsest_cells = 64;  ///< so few are solved directly
 };
 

@@ -1,4 +1,4 @@
-// risorius bench [--rig RIG]... [-o FILE]
+// risorius bench [--rig RIG]... [--solids] [-o FILE]
 #include <cstdio>
 
 #include "app/bench_machine.h"
@@ -13,11 +13,33 @@ struct Arguments {
     Common common;
     app::BenchOptions options;
     std::filesystem::path out;
+    bool only_solids = false;
 };
+
+void print_solids(const Json& report) {
+    std::printf("solids of cells, hanging cube, psi_c = %g: steps of 1/60 s within %g %%\n",
+                report["psi_n_per_m5"].get<double>(), 100 * report["accuracy"].get<double>());
+    std::printf(
+        "    nodes  iterations  ms, median  least  error, median  worst  converged  growth\n");
+    for (std::size_t i = 0; i < report["cases"].size(); ++i) {
+        const Json& one = report["cases"][i];
+        std::printf("  %7d  %10d  %10.2f  %5.1f  %11.2f %%  %4.2f %%  %6.0f ms",
+                    one["nodes"].get<int>(), one["iterations"].get<int>(),
+                    one["step_ms"].get<double>(), one["least_step_ms"].get<double>(),
+                    100 * one["median_error"].get<double>(), 100 * one["worst_error"].get<double>(),
+                    one["converged_step_ms"].get<double>());
+        if (i > 0) std::printf("  n^%.2f", report["growth_exponents"][i - 1].get<double>());
+        std::printf("\n");
+        if (!one["newton_step_ms"].is_null())
+            std::printf("           by Newton's method with a direct solver, converged: %.0f ms\n",
+                        one["newton_step_ms"].get<double>());
+    }
+}
 
 void print(const Json& report) {
     std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
                 report["machine"]["cores"].get<int>());
+    for (const Json& solids : report["solids"]) print_solids(solids);
     for (const Json& rig : report["rigs"]) {
         std::printf("%s\n", rig["rig"].get<std::string>().c_str());
         for (const char* quality : {"preview", "video", "fine"})
@@ -38,9 +60,11 @@ void print(const Json& report) {
 
 void run(const Arguments& arguments) {
     Json report;
+    app::BenchOptions options = arguments.options;
+    options.faces = !arguments.only_solids;
     {
         ProgressBar bar(arguments.common);
-        report = app::bench_machine(arguments.options, bar.watch());
+        report = app::bench_machine(options, bar.watch());
     }
     const std::string text = report.dump(2) + "\n";
     if (!arguments.out.empty()) app::write_text(arguments.out, text);
@@ -56,6 +80,10 @@ void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "How fast this machine is");
     auto arguments = std::make_shared<Arguments>();
     command->add_option("--rig", arguments->options.rigs, "A rig to measure; the adult when none");
+    command
+        ->add_flag("--solids", arguments->only_solids,
+                   "Only deformable solids of 13^3, 22^3 and 46^3 nodes, no face")
+        ->excludes("--rig");
     command->add_option("-o,--out", arguments->out, "Write the report here, as JSON");
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");

@@ -49,8 +49,8 @@ class Field {
 };
 
 /// Thirteen of the 26 neighbours of a cell, those behind it in the numbering.
-constexpr int kBehind[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1},  {1, -1, -1},
-                                {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0},  {1, 0, 1},
+constexpr int kBehind[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
+                                {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                 {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
 
 }  // namespace risorius::tissue::detail

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace risorius::tissue::detail {
 
@@ -17,7 +16,14 @@ int index_behind(int i, int j, int k) {
 }  // namespace
 
 PressureMultigrid::Level::Level(const GridShape& nodes)
-    : grid{nodes}, diagonal(grid), compliance(grid), inverse(grid), b(grid), x(grid), z(grid), r(grid) {
+    : grid{nodes},
+      diagonal(grid),
+      compliance(grid),
+      inverse(grid),
+      b(grid),
+      x(grid),
+      z(grid),
+      r(grid) {
     behind.fill(Field(grid));
 }
 
@@ -137,8 +143,6 @@ void PressureMultigrid::refresh(const Field& compliance) {
         }
         level.largest = 0;
         for (int lane = 0; lane < 8; ++lane) level.largest = std::max(level.largest, largest[lane]);
-        static const float GE = getenv("GE") ? atof(getenv("GE")) : 1;
-        level.largest *= GE;
     }
     const Level& last = levels_.back();
     const auto count = static_cast<Eigen::Index>(coarsest_.size());
@@ -234,8 +238,7 @@ void PressureMultigrid::add_prolonged(Level& to, Level& from) const {
                   from.x.data() + from.grid.distance(beside(i, M), J, 0), O);
     for (int i = 0; i < m; ++i)
         for (int j = 0; j < n; ++j)
-            blend(to.along_k.data() + (i * n + j) * O,
-                  to.along_jk.data() + (i * N + j / 2) * O,
+            blend(to.along_k.data() + (i * n + j) * O, to.along_jk.data() + (i * N + j / 2) * O,
                   to.along_jk.data() + (i * N + beside(j, N)) * O, O);
     for (int ij = 0; ij < m * n; ++ij) {
         float* const x = to.x.data() + to.grid.distance(ij / n, ij % n, 0);

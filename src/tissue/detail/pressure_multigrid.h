@@ -23,7 +23,9 @@ class PressureMultigrid {
 
     /// S without its compliance, to be filled before refresh.
     Field& diagonal() { return levels_.front().diagonal; }
-    Field& behind(int neighbour) { return levels_.front().behind[static_cast<std::size_t>(neighbour)]; }
+    Field& behind(int neighbour) {
+        return levels_.front().behind[static_cast<std::size_t>(neighbour)];
+    }
     /// Zero where there is no cell.
     void refresh(const Field& compliance);
 
@@ -36,9 +38,10 @@ class PressureMultigrid {
     struct Level {
         explicit Level(const GridShape& nodes);
         PaddedGrid grid;
-        Field diagonal, compliance, inverse;  ///< inverse: of the diagonal with compliance, 0 beside the cells
-        std::array<Field, 13> behind;         ///< of S between a cell and those behind it
-        float largest = 1;                    ///< bound of the eigenvalues of D^-1 S
+        Field diagonal, compliance,
+            inverse;  ///< inverse: of the diagonal with compliance, 0 beside the cells
+        std::array<Field, 13> behind;  ///< of S between a cell and those behind it
+        float largest = 1;             ///< bound of the eigenvalues of D^-1 S
         Field b, x, z, r;
         std::vector<float> along_k, along_jk;  ///< scratch of restrict and prolong
     };
