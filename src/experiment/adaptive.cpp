@@ -15,6 +15,8 @@
 namespace risorius::experiment {
 namespace {
 
+/// On meshes that are refined again: Newton's last move, share of the body's length
+constexpr double kToleranceOnTheWay = 1e-3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Push {
@@ -37,12 +39,6 @@ struct Case {
     int uniform_levels = 0;
     RefinedRun refine, reference;
 };
-
-Vec3 read_vector(const JsonCursor& json) {
-    const auto parts = json.items();
-    if (parts.size() != 3) json.fail("three numbers");
-    return {parts[0].number(), parts[1].number(), parts[2].number()};
-}
 
 void read_watch(const JsonCursor& json, Case& one) {
     json.allow_keys({"a1", "a2", "a3"});
@@ -90,8 +86,10 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
         tissue::check(one.solid, one.body.place);
         if (const auto push = json.find("push")) {
             push->allow_keys({"nodes", "move_m"});
-            one.push = {body::read_node_selection(push->at("nodes"), 3),
-                        read_vector(push->at("move_m"))};
+            one.push = {body::read_node_selection(push->at("nodes"), 3), push->at("move_m").vec3()};
+            if (body::select(one.push->nodes, one.body.grid).empty())
+                push->at("nodes").fail("at least one node");
+            if (one.push->move_m.isZero(0)) push->at("move_m").fail("a move");
         }
         read_watch(json.at("watch"), one);
         one.uniform_levels = json.at("uniform_levels").integer(0, 5);
@@ -104,15 +102,33 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
 }
 
 struct Answers {
-    double move_m = 0, push_n = 0, energy_j = 0, volume_change_percent = 0;
+    double move_m = 0, push_n = 0, volume_change_percent = 0;
+};
+
+/// What a series costs, counted: the same on any machine.
+struct Work {
+    double assembled_cells = 0;  ///< second derivatives of a cell's energy
+    double multiplications = 0;  ///< of conjugate gradients
+
+    /// Both in one number for the charts: about as many multiplications take as long as the second derivative of a cell.
+    double total() const { return multiplications + 3e4 * assembled_cells; }
+    void add(const Work& other) {
+        assembled_cells += other.assembled_cells;
+        multiplications += other.multiplications;
+    }
+    /// The greater of both counts' shares: a cost of any weights is less.
+    double share_of(const Work& whole) const {
+        return std::max(assembled_cells / whole.assembled_cells,
+                        multiplications / whole.multiplications);
+    }
 };
 
 /// One equilibrium of a series of ever finer meshes.
 struct Rest {
     int nodes = 0, cells = 0, deepest = 0;
-    double own_work = 0, work = 0;  ///< multiplications; the second with all before it
     long solves = 0;
-    double estimated_error = 0, mass_kg = 0, last_move_m = 0;
+    Work own, all;  ///< of this mesh, and of all before it too
+    double energy_j = 0, estimated_error = 0, mass_kg = 0, last_move_m = 0;
     Answers answers;
 };
 
@@ -131,7 +147,8 @@ class Settler {
             (one.solid.rest.colwise().maxCoeff() - one.solid.rest.colwise().minCoeff()).maxCoeff();
     }
 
-    bool operator()(const std::shared_ptr<tissue::CellSolid>& solid, solve::MotionState& state) {
+    bool operator()(const std::shared_ptr<tissue::CellSolid>& solid, tissue::Settling settling,
+                    solve::MotionState& state) {
         run_.stop_if_asked();
         std::vector<body::NodeSelection> pushed;
         if (case_.push) pushed.push_back(case_.push->nodes);
@@ -143,7 +160,10 @@ class Settler {
 
         solve::NewtonOptions newton;
         newton.iterations = options_.newton_iterations;
-        newton.tolerance_m = options_.newton_tolerance * length_m_;
+        newton.tolerance_m =
+            length_m_ * (settling == tissue::Settling::kFinal
+                             ? options_.newton_tolerance
+                             : std::max(options_.newton_tolerance, kToleranceOnTheWay));
         newton.curvature = options_.curvature;
         newton.linear = solve::LinearSolver::kConjugate;
         newton.first_step_s = options_.step_s;
@@ -166,14 +186,24 @@ class Settler {
         rest.nodes = solid.mesh().node_count();
         rest.cells = static_cast<int>(solid.mesh().cells().size());
         rest.deepest = solid.mesh().deepest_level();
-        rest.own_work = report.multiplications;
-        rest.work = report.multiplications + (rests.empty() ? 0 : rests.back().work);
         rest.solves = report.linear_solves;
+        rest.own = {.assembled_cells =
+                        static_cast<double>(rest.cells) * static_cast<double>(report.linear_solves),
+                    .multiplications = report.multiplications};
+        rest.all = rest.own;
+        if (!rests.empty()) rest.all.add(rests.back().all);
+        // Settled further on the same mesh: one entry
+        if (&solid == noted_) {
+            rest.solves += rests.back().solves;
+            rest.own.add(rests.back().own);
+            rests.pop_back();
+        }
+        noted_ = &solid;
         rest.last_move_m = report.last_move_m;
         rest.mass_kg = solid.body().mass_kg.sum();
-        rest.answers.energy_j = solid.energy(state.t_s, x);
-        rest.estimated_error =
-            std::sqrt(tissue::squared_error(solid, x).sum() / rest.answers.energy_j);
+        rest.energy_j = solid.energy(state.t_s, x);
+        if (rest.energy_j > 0)
+            rest.estimated_error = std::sqrt(tissue::squared_error(solid, x).sum() / rest.energy_j);
         rest.answers.volume_change_percent = 100 * (solid.volume(x) / solid.rest_volume() - 1);
         const Points& still = solid.body().rest;
         const int axis = case_.watched_axis;
@@ -198,10 +228,11 @@ class Settler {
     const Case& case_;
     const solve::IntegratorOptions& options_;
     const RunOptions& run_;
+    const tissue::CellSolid* noted_ = nullptr;  ///< the solid of the last entry
     double length_m_ = 1;
 };
 
-/// Strain proper at the vertices, for colour: from 0 at none to 1 at the greatest.
+/// Strain proper at the vertices, for colour: from 0 at none to 1 at the greatest, by its root to show weak strain too.
 std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
     const std::vector<Mat3> strain = tissue::smooth_strain(solid, x);
     std::vector<double> shade(strain.size(), 0.0);
@@ -214,7 +245,7 @@ std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
         }
     }
     const double most = *std::max_element(shade.begin(), shade.end());
-    for (double& value : shade) value = most > 0 ? value / most : 0.0;
+    for (double& value : shade) value = most > 0 ? std::sqrt(value / most) : 0.0;
     return shade;
 }
 
@@ -243,7 +274,10 @@ Series run_uniform(const Case& one, const solve::IntegratorOptions& options,
     for (int level = 0; converged && level <= one.uniform_levels; ++level) {
         solid.refine_where(
             [&](const tissue::CellMesh::Cell& cell) { return cell.place.level < level; }, &state);
-        converged = settler(solid.solid(), state);
+        converged = settler(
+            solid.solid(),
+            level < one.uniform_levels ? tissue::Settling::kOnTheWay : tissue::Settling::kFinal,
+            state);
     }
     return {.rests = settler.rests, .converged = converged};
 }
@@ -256,17 +290,18 @@ Series run_refined(const Case& one, const RefinedRun& refined,
     const tissue::RefineRounds rounds =
         tissue::settle_and_refine(solid, std::ref(settler), refined.rounds, state);
     return {.rests = settler.rests,
-            .converged = rounds.settled == static_cast<int>(settler.rests.size()),
+            .converged = rounds.settled,
             .shape = shape_of(one, *solid.solid(), state.x, one.name, one.caption)};
+}
+
+double difference_percent(double value, double reference) {
+    return reference != 0 ? 100 * std::abs(value / reference - 1) : 0;
 }
 
 /// The greatest of the answers' differences, each as a share of its reference; of volumes, as a share of the volume.
 double difference_percent(const Answers& a, const Answers& reference) {
-    const auto share = [](double value, double of) {
-        return of != 0 ? 100 * std::abs(value / of - 1) : 0.0;
-    };
-    return std::max({share(a.move_m, reference.move_m), share(a.push_n, reference.push_n),
-                     share(a.energy_j, reference.energy_j),
+    return std::max({difference_percent(a.move_m, reference.move_m),
+                     difference_percent(a.push_n, reference.push_n),
                      std::abs(a.volume_change_percent - reference.volume_change_percent)});
 }
 
@@ -281,7 +316,7 @@ void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answer
     plot::Chart chart{
         .name = "error_over_work_" + one.name,
         .title = one.caption,
-        .x = {.label = "multiplications of all solves (millions)", .logarithmic = true},
+        .x = {.label = "work of all solves (million multiplications)", .logarithmic = true},
         .y = {.label = "error (%)", .logarithmic = true}};
     for (const NamedSeries& named : all) {
         plot::Series curve{.label = named.label, .mark = plot::Mark::kLinePoints};
@@ -290,36 +325,20 @@ void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answer
             const Rest& rest = rests[i];
             const double error = difference_percent(rest.answers, reference);
             if (named.to_the_end || i + 1 < rests.size()) {
-                curve.x.push_back(1e-6 * rest.work);
+                curve.x.push_back(1e-6 * rest.all.total());
                 curve.y.push_back(error);
             }
             table.row_names.push_back(one.name + "/" + named.name + "/" + std::to_string(i));
-            table.rows.push_back({static_cast<double>(rest.nodes), static_cast<double>(rest.cells),
-                                  static_cast<double>(rest.deepest), 1e-6 * rest.own_work,
-                                  1e-6 * rest.work, static_cast<double>(rest.solves),
-                                  rest.answers.move_m, rest.answers.push_n, rest.answers.energy_j,
-                                  rest.answers.volume_change_percent, error,
-                                  100 * rest.estimated_error});
+            table.rows.push_back(
+                {static_cast<double>(rest.nodes), static_cast<double>(rest.cells),
+                 static_cast<double>(rest.deepest), static_cast<double>(rest.solves),
+                 rest.all.assembled_cells, 1e-6 * rest.all.multiplications, rest.answers.move_m,
+                 rest.answers.push_n, rest.energy_j, rest.answers.volume_change_percent, error,
+                 100 * rest.estimated_error});
         }
         chart.series.push_back(std::move(curve));
     }
     figure.charts.push_back(std::move(chart));
-}
-
-/// Work at which a series first has an error no greater than `error`, in between by straight lines of the logarithms.
-double work_for(double error, const Series& series, const Answers& reference) {
-    double work_before = 0, error_before = 0;
-    for (const Rest& rest : series.rests) {
-        const double now = difference_percent(rest.answers, reference);
-        if (now <= error) {
-            if (work_before == 0 || now == 0) return rest.work;
-            const double part = std::log(error_before / error) / std::log(error_before / now);
-            return work_before * std::pow(rest.work / work_before, part);
-        }
-        work_before = rest.work;
-        error_before = now;
-    }
-    return kInfinity;
 }
 
 void measure(const Case& one, const Series& uniform, const Series& refined, const Series& reference,
@@ -331,13 +350,11 @@ void measure(const Case& one, const Series& uniform, const Series& refined, cons
     };
     add("converged", "", uniform.converged && refined.converged && reference.converged ? 1 : 0);
     add("difference_percent", "%", difference_percent(last.answers, finest.answers));
-    add("work_share", "", last.work / finest.work);
-    add("work_share_of_last", "", last.work / finest.own_work);
-    const double error = difference_percent(finest.answers, truth);
-    add("uniform_error_percent", "%", error);
+    add("energy_difference_percent", "%", difference_percent(last.energy_j, finest.energy_j));
+    add("work_share", "", last.all.share_of(finest.all));
+    add("work_share_of_last", "", last.all.share_of(finest.own));
+    add("uniform_error_percent", "%", difference_percent(finest.answers, truth));
     add("adaptive_error_percent", "%", difference_percent(last.answers, truth));
-    add("work_share_for_equal_error", "",
-        std::min(work_for(error, refined, truth), work_for(error, reference, truth)) / finest.work);
     add("mass_change_ratio", "", std::abs(last.mass_kg / finest.mass_kg - 1));
     add("uniform_nodes", "", finest.nodes);
     add("adaptive_nodes", "", last.nodes);
@@ -361,7 +378,7 @@ void run_adaptive(const JsonCursor& experiment, const RunOptions& options, Outco
     if (newton.method != solve::Method::kQuasiStatic)
         integrator.at("method").fail("\"quasi-static\", since bodies are brought to rest");
     if (newton.linear != solve::LinearSolver::kConjugate)
-        integrator.fail("\"linear\": \"conjugate\", whose work is counted");
+        integrator.at("linear").fail("\"conjugate\", whose work is counted");
 
     // Three series of each case, those that take longest first
     const int count = static_cast<int>(cases.size());
@@ -379,12 +396,11 @@ void run_adaptive(const JsonCursor& experiment, const RunOptions& options, Outco
         progress.done(1, one.name);
     });
 
-    Table table{
-        .name = "meshes",
-        .columns = {"nodes", "cells", "deepest_level", "own_million_multiplications",
-                    "million_multiplications", "linear_solves", "move_m", "push_n", "energy_j",
-                    "volume_change_percent", "error_percent", "estimated_error_percent"},
-        .rows = {}};
+    Table table{.name = "meshes",
+                .columns = {"nodes", "cells", "deepest_level", "linear_solves", "assembled_cells",
+                            "million_multiplications", "move_m", "push_n", "energy_j",
+                            "volume_change_percent", "error_percent", "estimated_error_percent"},
+                .rows = {}};
     for (std::size_t i = 0; i < cases.size(); ++i) {
         tabulate(cases[i],
                  {{"uniform", "uniform", uniform[i]},

@@ -8,14 +8,15 @@
 //              "refine": {"tolerance": 0.1, "merge_below": 0.02, "deepest_level": 2, "rounds": 4},
 //              "reference": {...}}]                                       as "refine"; its last answers are taken for true
 //
-// Answers: the end's mean move outwards, the force of the push (N), the stored energy (J) and the change of volume. The
-// error is the greatest of theirs, in per cent. Work is the multiplications of all linear solves so far, every coarser
-// mesh included: the same on any machine.
+// Answers: the end's mean move outwards, the force of the push (N) and the change of volume. The
+// error is the greatest of theirs, in per cent. Work is counted in second derivatives of cells and in multiplications of
+// conjugate gradients, every coarser mesh included, and so the same on any machine; its share is the greater one of both
+// counts. Meshes that are refined again are settled until Newton moves no node by 1/1000 of the body's length.
 //
-// Measures, per case: difference_percent (adaptive against the finest uniform, the greatest of the answers), work_share
+// Measures, per case: difference_percent (adaptive against the finest uniform, the greatest of the answers),
+// energy_difference_percent (of the stored energy), work_share
 // (all rounds against the finest uniform and those it started from), work_share_of_last (against the finest uniform's own
-// solve), work_share_for_equal_error (what an adaptive run needs to be as near the truth as the finest uniform),
-// uniform_error_percent, adaptive_error_percent, mass_change_ratio, converged, and the answers of both.
+// solve), uniform_error_percent, adaptive_error_percent, mass_change_ratio, converged, and the answers of both.
 #pragma once
 
 #include "experiment/experiment_kind.h"

@@ -124,20 +124,28 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
     return changed;
 }
 
-RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
-                               solve::MotionState& state) {
+RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+                           const std::function<bool()>& refine) {
     RefineRounds done;
-    while (done.settled < rounds) {
-        if (!settle(solid.solid(), state)) break;
-        ++done.settled;
-        // The last round's answer is not refined any more: it would no longer be an equilibrium
-        if (done.settled == rounds) break;
-        if (!solid.refine(state)) {
+    // The last round's answer is not refined any more: it would no longer be an equilibrium
+    while (done.meshes + 1 < rounds) {
+        if (!settle(Settling::kOnTheWay)) return done;
+        ++done.meshes;
+        if (!refine()) {
             done.satisfied = true;
             break;
         }
     }
+    done.settled = settle(Settling::kFinal);
+    if (done.settled && !done.satisfied) ++done.meshes;
     return done;
+}
+
+RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
+                               solve::MotionState& state) {
+    return refine_rounds(
+        rounds, [&](Settling settling) { return settle(solid.solid(), settling, state); },
+        [&] { return solid.refine(state); });
 }
 
 }  // namespace risorius::tissue

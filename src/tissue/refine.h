@@ -63,16 +63,23 @@ class AdaptiveSolid {
     double error_ = 0;
 };
 
+/// How well an equilibrium is needed: to see where the strain is, or to be the answer.
+enum class Settling { kOnTheWay, kFinal };
+
 /// Moves `state` to equilibrium under what acts on the solid; false where that fails. Systems, which differ from mesh to
 /// mesh, and the solver are of the caller's choice.
-using SettleSolid =
-    std::function<bool(const std::shared_ptr<CellSolid>& solid, solve::MotionState& state)>;
+using SettleSolid = std::function<bool(const std::shared_ptr<CellSolid>& solid, Settling settling,
+                                       solve::MotionState& state)>;
 
 struct RefineRounds {
-    int settled = 0;  ///< how often an equilibrium was found, each on a finer mesh
-    bool satisfied =
-        false;  ///< nothing is left to refine; false when the rounds were over or one could not be settled
+    int meshes = 0;          ///< on which an equilibrium was found
+    bool settled = false;    ///< every one was found, the final one too
+    bool satisfied = false;  ///< nothing is left to refine; false when the rounds were over before
 };
+
+/// The rounds of settling and refining, of whatever body.
+RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+                           const std::function<bool()>& refine);
 
 /// Settles and refines in turn until nothing is refined any more, or `rounds` are over. The state left is the equilibrium
 /// of the last mesh.

@@ -105,6 +105,7 @@ TriangleSheetTerm::TriangleSheetTerm(const TriangleSurface& surface) {
 
 void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
     const Triangles& triangles = surface.triangles;
+    triangle_count_ = static_cast<int>(triangles.rows());
     struct EdgeOf {
         int hinge = -1;
         double sign = 1;
@@ -158,6 +159,7 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
                        stiffness.cwiseMax(kLeastStiffness * stiffness.maxCoeff()).asDiagonal() * P;
 
         Bend bend;
+        bend.triangle = static_cast<int>(t);
         Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> B(0, 3);
         Vec3 signs = Vec3::Ones();
         for (int k = 0; k < 3; ++k) {
@@ -199,6 +201,11 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
                                   eigen.eigenvectors().transpose();
         for (int e = 0; e < bend.count; ++e)
             for (int f = 0; f < bend.count; ++f) bend.Q(e, f) = signs[e] * signs[f] * Q(e, f);
+        const Eigen::MatrixXd by_fold = P * C.inverse() * B.transpose() * Q;
+        for (int e = 0; e < bend.count; ++e) {
+            bend.curvature.col(e) = signs[e] * by_fold.col(e);
+            bend.curvature(2, e) /= std::numbers::sqrt2;
+        }
         bends_.push_back(bend);
     }
 }
@@ -218,6 +225,17 @@ double TriangleSheetTerm::fold(const Points& x, Eigen::VectorXd& moment) const {
             energy += 0.5 * change[bend.hinge[e]] * sum;
         }
     return energy;
+}
+
+std::vector<Vec3> TriangleSheetTerm::curvatures(const Points& x) const {
+    std::vector<Vec3> curvature(static_cast<std::size_t>(triangle_count_), Vec3::Zero());
+    for (const Bend& bend : bends_)
+        for (int e = 0; e < bend.count; ++e) {
+            const Hinge& hinge = hinges_[static_cast<std::size_t>(bend.hinge[e])];
+            curvature[static_cast<std::size_t>(bend.triangle)] +=
+                (hinge_angle(corners_of(hinge.node, x)) - hinge.rest) * bend.curvature.col(e);
+        }
+    return curvature;
 }
 
 double TriangleSheetTerm::bending_energy(const Points& x) const {

@@ -42,6 +42,9 @@ class TriangleSheetTerm : public solve::ForceTerm {
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;
 
+    /// b - b0 of every triangle, (b_11, b_22, b_12) by a, m; zero where nothing bends.
+    std::vector<Vec3> curvatures(const Points& x) const;
+
     int hinge_count() const { return static_cast<int>(hinges_.size()); }
 
   private:
@@ -53,9 +56,10 @@ class TriangleSheetTerm : public solve::ForceTerm {
     };
     /// Bending of one triangle: 1/2 sum Q_ef (theta_e - theta0_e) (theta_f - theta0_f), signs of the folds within Q.
     struct Bend {
-        int count = 0;
+        int triangle = 0, count = 0;
         int hinge[3] = {};
         Mat3 Q = Mat3::Zero();
+        Mat3 curvature = Mat3::Zero();  ///< (b_11, b_22, b_12) by each fold
     };
     void add_bends(const TriangleSurface& surface);
     /// theta - theta0 of every hinge, and the moments sum Q (theta - theta0); returns the energy.
@@ -68,6 +72,7 @@ class TriangleSheetTerm : public solve::ForceTerm {
     MetricElements metric_;
     std::vector<Hinge> hinges_;
     std::vector<Bend> bends_;
+    int triangle_count_ = 0;
 };
 
 }  // namespace risorius::tissue

@@ -233,7 +233,7 @@ TEST(BodyDescription, WhatTrianglesDoNotKnowIsRefused) {
     json["discretisation"] = "triangles";
     json["irregular"]["share"] = 0.6;
     EXPECT_EQ(message_of([&] { read(json); }),
-              "cube.json:/body/irregular/share: expected a number in [0, 0.45], found 0.6");
+              "cube.json:/body/irregular/share: expected [0, 0.45], found 0.6");
     json["irregular"]["share"] = 0.4;
     json["springs"] = Json::array();
     EXPECT_EQ(message_of([&] { read(json); }),
@@ -279,6 +279,7 @@ TEST(BodyDescription, ACurveLiesEvenlyAlongItsPath) {
     EXPECT_EQ(message_of([&] { read(json); }),
               "cube.json:/body/rest/path_m/2: expected a point apart from the one before, found "
               "[1,0,0]");
+    json["grid"] = {5};  // the third node at the end that the path comes back from
     json["rest"] = Json::parse(R"({"path_m": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]})");
     EXPECT_EQ(
         message_of([&] { read(json); }),
@@ -368,7 +369,7 @@ TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
     EXPECT_EQ(message("/material/bending_n_per_m", "-0.01"),
               "cube.json:/body/material/bending_n_per_m: expected [0, inf), found -0.01");
     EXPECT_EQ(message("/material/drag_ns_per_m", "null"),
-              "cube.json:/body/material/drag_ns_per_m: expected a number, found null");
+              "cube.json:/body/material/drag_ns_per_m: expected a number in [0, inf), found null");
     EXPECT_EQ(message("/grid/0", "1"),
               "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
     EXPECT_EQ(message("/grid", "[3, 3, 3]"),
@@ -383,6 +384,30 @@ TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
         message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, null],
                                    [1, 2, 0], [2, 0, 0], [2, 1, 0], [2, 2, 0]]})"),
         "cube.json:/body/rest/points_m/4/2: expected a number, found null");
+}
+
+TEST(BodyDescription, BadNumbersOfCurvesAreNamedWithTheirPlace) {
+    const auto message = [](const char* pointer, const char* value) {
+        Json json = Json::parse(R"({
+            "kind": "curve", "grid": [5], "rest": {"path_m": [[0, 0, 0], [1, 0, 0]]},
+            "material": {"mass_kg": 1, "elastic_n_per_m3": 100, "bending_n_per_m": 0.1}})");
+        json[Json::json_pointer(pointer)] = Json::parse(value);
+        return message_of([&] { read(json); });
+    };
+    EXPECT_EQ(message("/material/mass_kg", "-1"),
+              "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -1");
+    EXPECT_EQ(message("/material/elastic_n_per_m3", "-100"),
+              "cube.json:/body/material/elastic_n_per_m3: expected [0, inf), found -100");
+    EXPECT_EQ(message("/material/bending_n_per_m", "-0.1"),
+              "cube.json:/body/material/bending_n_per_m: expected [0, inf), found -0.1");
+    EXPECT_EQ(message("/grid/0", "1"),
+              "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/rest/path_m/1/1", "null"),
+              "cube.json:/body/rest/path_m/1/1: expected a number, found null");
+    EXPECT_EQ(
+        message("/rest/path_m", "[[0, 0, 0], [1, 0, 0], [0, 0, 0]]"),
+        "cube.json:/body/rest/3: expected a shape without folds, found a link turning back on "
+        "the one before");
 }
 
 TEST(BodyDescription, SpringsPullAndPulsesPushWhereTheySay) {
