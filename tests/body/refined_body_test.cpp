@@ -74,14 +74,15 @@ TEST(RefinedBody, WhatCannotBeRefinedIsNamed) {
             "rest": {"block_m": [1, 1, 1]}, "material": {"mass_kg": 1, "elastic_n_per_m3": 1}})");
         json[key] = value;
         try {
-            check_refinable(read_body(JsonCursor::from_json(json, "mine.json")));
+            check_refinable(
+                read_body(JsonCursor::from_json(Json{{"body", json}}, "mine.json").at("body")));
         } catch (const Error& error) {
             return error.what();
         }
         return "accepted";
     };
     EXPECT_EQ(message("discretisation", "differences"),
-              "mine.json:/discretisation: expected \"cells\", which can be refined, found "
+              "mine.json:/body/discretisation: expected \"cells\", which can be refined, found "
               "\"differences\"");
     EXPECT_EQ(message("discretisation", "cells"), "accepted");
 }
