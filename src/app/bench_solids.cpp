@@ -114,6 +114,7 @@ Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
     out["cases"] = Json::array();
     out["growth_exponents"] = Json::array();
     double nodes_before = 0, ms_before = 0;
+    int iterations = kFewest;  // finer grids need no fewer
     for (std::size_t i = 0; i < options.nodes_per_edge.size(); ++i) {
         const int edge = options.nodes_per_edge[i];
         const double share =
@@ -124,7 +125,6 @@ Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
         const auto preconditioner =
             std::make_shared<tissue::CellPreconditioner>(cube.system, cube.solid, kStep_s);
 
-        int iterations = kFewest;
         Run run = fall(cube, preconditioner, iterations, options);
         while (!(run.error.back() <= options.accuracy) && iterations < kMost) {
             watch.tell(share, name);

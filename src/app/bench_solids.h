@@ -13,7 +13,7 @@
 namespace risorius::app {
 
 struct SolidBenchOptions {
-    std::vector<int> nodes_per_edge = {13, 22, 46};
+    std::vector<int> nodes_per_edge = {13, 22, 46};  ///< ascending
     double psi_n_per_m5 = 100;  ///< volume parameter psi_c; K / mu = 2 psi_c L^2 / lambda = 1200
     double accuracy = 0.01;  ///< the fewest iterations are taken that keep every checked step below
     int first_step = 10, steps = 30;  ///< measured ones

@@ -61,8 +61,7 @@ std::pair<double, double> eigenvalues(const Hanging& body, const Points& x,
     body.system.add_hessian(step, x, solve::Curvature::kPositive, builder);
     for (int i = 0; i < body.system.size(); ++i)
         builder.add_diagonal(i, body.system.mass_kg()[i] / (kStep * kStep));
-    const Eigen::SparseMatrix<double> symmetric =
-        builder.build().selfadjointView<Eigen::Lower>();
+    const Eigen::SparseMatrix<double> symmetric = builder.build().selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd whole(symmetric);
     const Eigen::MatrixXd H = whole(free, free);
     Eigen::MatrixXd B(H.rows(), H.cols());
@@ -105,14 +104,14 @@ TEST(CellPreconditioner, IsNearTheInverseOfWhatIsStretchedAndTurned) {
 TEST(CellPreconditioner, IsNearTheInverseOnGridsThatDoNotHalve) {
     const GridShape grid{4, 7, 6};
     CellModuli tissue;
-    tissue.mu_pa = 3e3;
-    tissue.bulk_pa = 3e5;
-    tissue.viscosity_pa_s = 30;
+    tissue.mu_pa = 30;
+    tissue.bulk_pa = 3e4;
+    tissue.viscosity_pa_s = 0.3;
     const Hanging body(cell_body(
         uniform_cells(grid),
         [](const Vec3& a) { return Vec3(0.03 * a[0], 0.05 * a[1], 0.04 * a[2]); }, tissue, 1000));
     const auto [least, most] = eigenvalues(body, body.solid->body().rest, {.coarsest_cells = 8});
-    EXPECT_GT(least, 0.05);
+    EXPECT_GT(least, 0.2);
     EXPECT_LT(most, 3.0);
 }
 
