@@ -368,7 +368,7 @@ TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
     EXPECT_EQ(message("/material/bending_n_per_m", "-0.01"),
               "cube.json:/body/material/bending_n_per_m: expected [0, inf), found -0.01");
     EXPECT_EQ(message("/material/drag_ns_per_m", "null"),
-              "cube.json:/body/material/drag_ns_per_m: expected a number, found null");
+              "cube.json:/body/material/drag_ns_per_m: expected a number in [0, inf), found null");
     EXPECT_EQ(message("/grid/0", "1"),
               "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
     EXPECT_EQ(message("/grid", "[3, 3, 3]"),
