@@ -221,25 +221,28 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
     out["version"] = 1;
     out["toolkit"] = kVersion;
     out["machine"] = describe_machine();
-    // Solids take about as long as one rig
+    for (const fs::path& rig : rigs)
+        read_rig_files(rig);  // what is wrong is told before anything is measured
+
+    // Solids take about as long as one rig. They come last, since they raise the peak of the memory.
     const double parts = 1 + static_cast<double>(rigs.size());
-    Watch solids = watch;
-    if (watch.progress)
-        solids.progress = [&](double share, const std::string& what) {
-            watch.progress(share / parts, what);
-        };
-    out["solids"] = {bench_solids({}, solids),
-                     bench_solids({.nodes_per_edge = {13, 22}, .psi_n_per_m5 = 10}, solids)};
     out["rigs"] = Json::array();
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         Watch one = watch;
         if (watch.progress)
             one.progress = [&, i](double share, const std::string& what) {
-                watch.progress((1 + static_cast<double>(i) + share) / parts,
+                watch.progress((static_cast<double>(i) + share) / parts,
                                rigs[i].string() + ", " + what);
             };
         out["rigs"].push_back(bench_rig(rigs[i], one));
     }
+    Watch solids = watch;
+    if (watch.progress)
+        solids.progress = [&](double share, const std::string& what) {
+            watch.progress((parts - 1 + share) / parts, what);
+        };
+    out["solids"] = {bench_solids({}, solids),
+                     bench_solids({.nodes_per_edge = {13, 22}, .psi_n_per_m5 = 10}, solids)};
     return out;
 }
 

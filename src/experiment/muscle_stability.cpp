@@ -243,7 +243,8 @@ void show_limits(const Plan& plan, const Results& results, Outcome& outcome) {
         limits.columns.push_back(name + "_s");
         cost.columns.push_back(name);
         const std::vector<double> steps = steps_of(results.stable, m, methods);
-        plot::Series series{.label = name, .x = {}, .y = {}, .mark = plot::Mark::kLinePoints};
+        plot::Series series{
+            .label = label_of(plan.methods[m]), .x = {}, .y = {}, .mark = plot::Mark::kLinePoints};
         for (std::size_t e = 0; e < steps.size(); ++e) {
             outcome.measured.add(key("step_s", plan.methods[m], plan.edges[e]), "s", steps[e]);
             if (!(steps[e] > 0)) continue;
@@ -319,7 +320,7 @@ void show_tension(const Plan& plan, const Results& results, Outcome& outcome) {
     if (!plan.tension_edge) return;
     const std::vector<double>& steps = results.tension_steps_s;
     const double finest = results.tension.back();
-    const std::string of = std::string(solve::name_of(plan.tension_method)) + " at " +
+    const std::string of = label_of(plan.tension_method) + " at " +
                            std::to_string(node_count(*plan.tension_edge)) + " nodes";
     Table table{.name = "tension", .columns = {"step_s", "mean_tension_f0"}, .rows = {}};
     plot::Series series{.label = of, .x = {}, .y = {}, .mark = plot::Mark::kLinePoints};
