@@ -5,26 +5,15 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "core/error.h"
+#include "tissue/detail/material_checks.h"
 
 namespace risorius::tissue {
 
 namespace {
 
 constexpr double kRounding = 0.1;  ///< of the rest bend
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-void check_range(double value, bool zero_allowed, const std::string& place) {
-    if (std::isfinite(value) && (zero_allowed ? value >= 0 : value > 0)) return;
-    throw Error(place, zero_allowed ? "[0, inf)" : "(0, inf)", shown(value));
-}
 
 void check_material(const CurveMaterial& material, const std::string& place) {
     check_range(material.elastic_n_per_m3, /*zero_allowed=*/true, place + "/elastic_n_per_m3");
@@ -64,8 +53,7 @@ void check(const GridCurve& curve, const std::string& place) {
     for (Eigen::Index node = 0; node < nodes; ++node)
         if (!curve.rest.row(node).allFinite())
             throw Error(place + "/rest/" + std::to_string(node), "three finite numbers",
-                        "[" + shown(curve.rest(node, 0)) + ", " + shown(curve.rest(node, 1)) +
-                            ", " + shown(curve.rest(node, 2)) + "]");
+                        shown(Vec3(curve.rest.row(node))));
     Vec3 before = Vec3::Zero();
     for (Eigen::Index node = 0; node + 1 < nodes; ++node) {
         const Vec3 link = (curve.rest.row(node + 1) - curve.rest.row(node)).transpose();

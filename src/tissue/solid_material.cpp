@@ -2,39 +2,13 @@
 
 #include <cassert>
 #include <cmath>
-#include <sstream>
 
 #include "core/error.h"
+#include "tissue/detail/material_checks.h"
 
 namespace risorius::tissue {
 
 namespace {
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-void check_range(double value, bool zero_allowed, const std::string& place) {
-    if (std::isfinite(value) && (zero_allowed ? value >= 0 : value > 0)) return;
-    throw Error(place, zero_allowed ? "[0, inf)" : "(0, inf)", shown(value));
-}
-
-void check_tensor(const Mat3& tensor, const std::string& place) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            check_range(tensor(i, j), /*zero_allowed=*/true,
-                        place + "/" + std::to_string(i) + "/" + std::to_string(j));
-    // G is symmetric: parameters that are not would turn the body as a whole.
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < i; ++j)
-            if (tensor(i, j) != tensor(j, i))
-                throw Error(place + "/" + std::to_string(i) + "/" + std::to_string(j),
-                            "what stands at " + std::to_string(j) + "/" + std::to_string(i) + ", " +
-                                shown(tensor(j, i)) + ", since the tensor is symmetric",
-                            shown(tensor(i, j)));
-}
 
 void check_material(const SolidMaterial& material, const std::string& place) {
     check_tensor(material.elastic_n_per_m3, place + "/elastic_n_per_m3");
@@ -120,8 +94,7 @@ void check(const GridSolid& solid, const std::string& place) {
     for (int node = 0; node < grid.size(); ++node)
         if (!solid.rest.row(node).allFinite())
             throw Error(place + "/rest/" + std::to_string(node), "three finite numbers",
-                        "[" + shown(solid.rest(node, 0)) + ", " + shown(solid.rest(node, 1)) +
-                            ", " + shown(solid.rest(node, 2)) + "]");
+                        shown(Vec3(solid.rest.row(node))));
     check_not_folded(solid, place + "/rest");
 
     if (solid.material.size() == 1) {

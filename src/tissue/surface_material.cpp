@@ -4,36 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "core/error.h"
+#include "tissue/detail/material_checks.h"
 
 namespace risorius::tissue {
 
 namespace {
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-void check_range(double value, bool zero_allowed, const std::string& place) {
-    if (std::isfinite(value) && (zero_allowed ? value >= 0 : value > 0)) return;
-    throw Error(place, zero_allowed ? "[0, inf)" : "(0, inf)", shown(value));
-}
-
-void check_tensor(const Mat2& tensor, const std::string& place) {
-    for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j)
-            check_range(tensor(i, j), /*zero_allowed=*/true,
-                        place + "/" + std::to_string(i) + "/" + std::to_string(j));
-    if (tensor(1, 0) != tensor(0, 1))
-        throw Error(
-            place + "/1/0",
-            "what stands at 0/1, " + shown(tensor(0, 1)) + ", since the tensor is symmetric",
-            shown(tensor(1, 0)));
-}
 
 /// Four nodes of a cell, counter-clockwise in a.
 std::array<int, 4> cell_nodes(const SurfaceGrid& grid, int i, int j) {
@@ -177,8 +154,7 @@ void check(const GridSurface& surface, const std::string& place) {
     for (int node = 0; node < grid.size(); ++node)
         if (!surface.rest.row(node).allFinite())
             throw Error(place + "/rest/" + std::to_string(node), "three finite numbers",
-                        "[" + shown(surface.rest(node, 0)) + ", " + shown(surface.rest(node, 1)) +
-                            ", " + shown(surface.rest(node, 2)) + "]");
+                        shown(Vec3(surface.rest.row(node))));
     check_not_folded(surface, place + "/rest");
 
     if (surface.material.size() == 1) {
