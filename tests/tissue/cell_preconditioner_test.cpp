@@ -42,7 +42,7 @@ Hanging thesis(int nodes, double psi) {
 }
 
 Points random_loads(const Hanging& body, unsigned seed) {
-    Points b = testing::shaken(Points::Zero(body.system.size(), 3), 1.0, seed);
+    Points b = testing::jolted(Points::Zero(body.system.size(), 3), 1.0, seed);
     for (int i = 0; i < b.rows(); ++i)
         if (body.system.fixed()[static_cast<std::size_t>(i)]) b.row(i).setZero();
     return b;
@@ -92,7 +92,7 @@ TEST(CellPreconditioner, IsNearTheInverseHoweverStiffTheVolume) {
 
 TEST(CellPreconditioner, IsNearTheInverseOfWhatIsStretchedAndTurned) {
     const Hanging body = thesis(5, 100);
-    Points x = testing::shaken(body.solid->body().rest, 0.05, 3);
+    Points x = testing::jolted(body.solid->body().rest, 0.05, 3);
     x.col(2) *= 1.2;
     const Eigen::AngleAxisd turn(1.0, Vec3(1, 2, 2) / 3);
     x = (x * turn.toRotationMatrix().transpose()).eval();

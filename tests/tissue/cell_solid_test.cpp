@@ -23,7 +23,7 @@ struct Case {
     CellSolid solid;
     double amplitude;  ///< of the shaking, m
 
-    Points state(unsigned seed) const { return shaken(solid.body().rest, amplitude, seed); }
+    Points state(unsigned seed) const { return jolted(solid.body().rest, amplitude, seed); }
 };
 
 std::vector<std::unique_ptr<Case>> cases() {
@@ -108,7 +108,7 @@ TEST(CellSolid, ForceIsMinusTheDerivativeOfEnergy) {  // T1
         Points force = still;
         at->solid.add_force(0, x, still, force);
         for (unsigned seed = 3; seed < 8; ++seed) {
-            const Points along = shaken(still, 1.0, seed);
+            const Points along = jolted(still, 1.0, seed);
             // Fourth-order difference: the energy is of degree six in x
             const auto e = [&](double t) { return at->solid.energy(0, x + t * along); };
             const double h = 1e-3 * at->amplitude;
@@ -122,7 +122,7 @@ TEST(CellSolid, ForceIsMinusTheDerivativeOfEnergy) {  // T1
 TEST(CellSolid, InternalForcesHaveNoNetForceAndTorqueAndDampingBrakes) {  // T3
     for (const auto& at : cases()) {
         const Points x = at->state(4);
-        const Points v = shaken(Points::Zero(x.rows(), 3), 10 * at->amplitude, 5);
+        const Points v = jolted(Points::Zero(x.rows(), 3), 10 * at->amplitude, 5);
         Points elastic = Points::Zero(x.rows(), 3), damped = elastic;
         at->solid.add_force(0, x, Points::Zero(x.rows(), 3), elastic);
         at->solid.add_force(0, x, v, damped);
@@ -152,7 +152,7 @@ TEST(CellSolid, InternalForcesHaveNoNetForceAndTorqueAndDampingBrakes) {  // T3
 TEST(CellSolid, PotentialOfAStepHasTheDampingForceOfItsVelocityInTheLimit) {
     for (const auto& at : cases()) {
         const Points start = at->state(6);
-        const Points v = shaken(Points::Zero(start.rows(), 3), 10 * at->amplitude, 7);
+        const Points v = jolted(Points::Zero(start.rows(), 3), 10 * at->amplitude, 7);
         const double h = 1e-7;
         const Points x = start + h * v;
         Points force = Points::Zero(x.rows(), 3), gradient = force;
@@ -169,7 +169,7 @@ TEST(CellSolid, GradientOfAStepIsTheDerivativeOfItsPotential) {
             const ImplicitStep step{h, h, start};
             Points gradient = Points::Zero(x.rows(), 3), scratch = gradient;
             at->solid.add_potential(step, x, gradient);
-            const Points along = shaken(scratch, 1.0, 10);
+            const Points along = jolted(scratch, 1.0, 10);
             const auto e = [&](double t) {
                 return at->solid.add_potential(step, x + t * along, scratch);
             };
@@ -210,7 +210,7 @@ TEST(CellSolid, ExactStiffnessIsTheDerivativeOfTheGradient) {
         for (const double h : {0.01, kEver}) {
             const ImplicitStep step{h, h, start};
             const Eigen::MatrixXd H = full_hessian(at->solid, step, x, Curvature::kExact);
-            const Points along = shaken(Points::Zero(x.rows(), 3), 1.0, 13);
+            const Points along = jolted(Points::Zero(x.rows(), 3), 1.0, 13);
             const auto gradient = [&](double t) {
                 Points g = Points::Zero(x.rows(), 3);
                 at->solid.add_potential(step, x + t * along, g);
@@ -268,7 +268,7 @@ TEST(CellSolid, MetricBoundsTheStiffnessAtRest) {
 TEST(CellSolid, CellVolumesSumToTheVolumeWithinTheSurface) {
     const GridShape grid{4, 3, 5};
     const CellSolid solid(cell_body(varied_solid(grid)));
-    const Points x = shaken(solid.body().rest, 0.05, 15);
+    const Points x = jolted(solid.body().rest, 0.05, 15);
     const double hull = enclosed_volume(grid, x);
     EXPECT_NEAR(solid.volume(x), hull, 1e-13 * hull);
     EXPECT_EQ(solid.inverted_count(x), 0);
@@ -277,7 +277,7 @@ TEST(CellSolid, CellVolumesSumToTheVolumeWithinTheSurface) {
     const CellSolid refined(cell_body(thesis_cube(4, 10.0), refined_mesh(), MassShares::kCells));
     Points moved = refined.body().rest;
     const Points& a = refined.mesh().material_coordinates();
-    const Points shakes = shaken(Points::Zero(moved.rows(), 3), 0.1, 16);
+    const Points shakes = jolted(Points::Zero(moved.rows(), 3), 0.1, 16);
     for (Eigen::Index i = 0; i < moved.rows(); ++i)
         if (a.row(i).minCoeff() > 0 && a.row(i).maxCoeff() < 1) moved.row(i) += shakes.row(i);
     EXPECT_NEAR(refined.volume(moved), 27.0, 1e-12);
@@ -288,7 +288,7 @@ TEST(CellSolid, CellVolumesSumToTheVolumeWithinTheSurface) {
 TEST(CellSolid, SecantTimesPositionsIsTheForce) {
     for (const auto& at : cases()) {
         const Points x = at->state(17);
-        const Points v = shaken(Points::Zero(x.rows(), 3), 10 * at->amplitude, 18);
+        const Points v = jolted(Points::Zero(x.rows(), 3), 10 * at->amplitude, 18);
         Points force = Points::Zero(x.rows(), 3);
         at->solid.add_force(0, x, v, force);
         for (const bool lag : {false, true}) {
@@ -388,7 +388,7 @@ TEST(CellSolid, ParametersPerNodeAreThoseOfEquation10AtTheirResolution) {
     material.incompressibility_n_per_m5 /= 64;
     per_node.parameters = Parameters::kPerNode;
     const CellSolid a(cell_body(independent)), b(cell_body(per_node));
-    const Points x = shaken(a.body().rest, 0.2, 19);
+    const Points x = jolted(a.body().rest, 0.2, 19);
     EXPECT_NEAR(a.energy(0, x), b.energy(0, x), 1e-13 * a.energy(0, x));
 }
 

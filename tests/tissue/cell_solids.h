@@ -48,7 +48,7 @@ inline GridSolid varied_solid(const GridShape& grid) {
     return solid;
 }
 
-inline Points shaken(Points x, double amplitude, unsigned seed) {
+inline Points jolted(Points x, double amplitude, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> shake(-amplitude, amplitude);
     for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] += shake(random);
