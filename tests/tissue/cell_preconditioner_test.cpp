@@ -38,11 +38,11 @@ struct Hanging {
 };
 
 Hanging thesis(int nodes, double psi) {
-    return Hanging(cell_body(testing::thesis_cube(nodes, psi, 0.1)));
+    return Hanging(cell_body(cell_solids::thesis_cube(nodes, psi, 0.1)));
 }
 
 Points random_loads(const Hanging& body, unsigned seed) {
-    Points b = testing::jolted(Points::Zero(body.system.size(), 3), 1.0, seed);
+    Points b = cell_solids::jolted(Points::Zero(body.system.size(), 3), 1.0, seed);
     for (int i = 0; i < b.rows(); ++i)
         if (body.system.fixed()[static_cast<std::size_t>(i)]) b.row(i).setZero();
     return b;
@@ -92,7 +92,7 @@ TEST(CellPreconditioner, IsNearTheInverseHoweverStiffTheVolume) {
 
 TEST(CellPreconditioner, IsNearTheInverseOfWhatIsStretchedAndTurned) {
     const Hanging body = thesis(5, 100);
-    Points x = testing::jolted(body.solid->body().rest, 0.05, 3);
+    Points x = cell_solids::jolted(body.solid->body().rest, 0.05, 3);
     x.col(2) *= 1.2;
     const Eigen::AngleAxisd turn(1.0, Vec3(1, 2, 2) / 3);
     x = (x * turn.toRotationMatrix().transpose()).eval();
@@ -193,8 +193,8 @@ TEST(CellPreconditioner, TwoRunsGiveTheSameBits) {
 }
 
 TEST(CellPreconditioner, RefinedCellsAreRefused) {
-    const Hanging body(
-        cell_body(testing::thesis_cube(4, 100), testing::refined_mesh(), MassShares::kCells));
+    const Hanging body(cell_body(cell_solids::thesis_cube(4, 100), cell_solids::refined_mesh(),
+                                 MassShares::kCells));
     try {
         body.preconditioner();
         ADD_FAILURE() << "accepted";

@@ -11,7 +11,7 @@
 namespace risorius::tissue {
 namespace {
 
-using namespace testing;
+using namespace cell_solids;
 using solve::Curvature;
 using solve::ImplicitStep;
 

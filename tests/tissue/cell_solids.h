@@ -8,7 +8,7 @@
 #include "tissue/cell_solid.h"
 #include "tissue/grid_shape.h"
 
-namespace risorius::tissue::testing {
+namespace risorius::tissue::cell_solids {
 
 constexpr double kSide = 3.0;    // m, the thesis' cube
 constexpr double kMass = 4.0;    // kg
@@ -91,4 +91,4 @@ inline Vec3 bent(const Vec3& a) {
     return {radius * std::sin(angle), 0.08 - radius * std::cos(angle), 0.04 * a[2] + 0.004 * a[1]};
 }
 
-}  // namespace risorius::tissue::testing
+}  // namespace risorius::tissue::cell_solids

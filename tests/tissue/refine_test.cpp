@@ -14,7 +14,7 @@
 namespace risorius::tissue {
 namespace {
 
-using namespace testing;
+using namespace cell_solids;
 
 std::vector<CellPlace> places_of(const CellMesh& mesh) {
     std::vector<CellPlace> places;
