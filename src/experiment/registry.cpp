@@ -53,12 +53,21 @@ const std::vector<Figure>& figures() {
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
          "muscle-stability", 50},
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
-        {"cells", "Trilinear cells against finite differences", "static-resolution", 18},
-        {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2},
-        {"contact", "Soft bodies on rigid things and on each other", "contact", 30},
-        {"adaptive", "Resolution where the strain asks for it", "adaptive", 10},
+        {"cells", "Trilinear cells against finite differences", "static-resolution", 18,
+         Origin::kBeyond},
+        {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2,
+         Origin::kBeyond},
+        {"contact", "Soft bodies on rigid things and on each other", "contact", 30,
+         Origin::kBeyond},
+        {"adaptive", "Resolution where the strain asks for it", "adaptive", 10, Origin::kBeyond},
     };
     return list;
+}
+
+Origin origin_of(std::string_view id) {
+    for (const Figure& figure : figures())
+        if (figure.id == id) return figure.origin;
+    return Origin::kOwn;
 }
 
 std::vector<std::string_view> kinds() {
