@@ -78,6 +78,14 @@ bool is_flat(const render::Object& object) {
     return size.z() < kFlat * std::max(size.x(), size.y());
 }
 
+/// In a plane of x and z, which is seen from its front.
+bool is_upright_plane(const render::Object& object) {
+    constexpr double kThin = 1e-6;
+    const Vec3 size =
+        (object.positions.colwise().maxCoeff() - object.positions.colwise().minCoeff());
+    return size.y() < kThin * std::max(size.x(), size.z());
+}
+
 /// Without the rows above and below that have nothing in them, but for a margin.
 Image trimmed(const Image& image) {
     const auto is_empty = [&](int y) {
@@ -106,6 +114,10 @@ Image picture_of(const std::vector<render::Object>& objects) {
     });
     if (has_vertices && std::all_of(objects.begin(), objects.end(), is_flat))
         options.elevation_deg = kFlatElevation_deg;
+    if (has_vertices && std::all_of(objects.begin(), objects.end(), is_upright_plane)) {
+        options.azimuth_deg = -90;
+        options.elevation_deg = 0;
+    }
     return trimmed(render::ObjectView(objects, options).draw());
 }
 
@@ -120,7 +132,9 @@ Json check_json(const experiment::Check& check) {
     json["low"] = number_json(check.low);
     json["high"] = number_json(check.high);
     json["passes"] = check.passes();
+    json["range"] = check.range_from;
     json["published"] = check.published;
+    json["differs"] = check.differs;
     json["note"] = check.note;
     return json;
 }
@@ -171,9 +185,15 @@ FigureFiles write_figure(const experiment::FigureResult& figure, const fs::path&
             const experiment::Shape& shape = figure.shapes[i];
             picture.captions.push_back(shape.caption);
             picture.held = picture.held || !shape.fixed.empty();
-            picture.outlined = picture.outlined || shape.outline.rows() > 0;
+            if (picture.outline_name.empty() && shape.outline.rows() > 0)
+                picture.outline_name = shape.outline_name;
             if (picture.shade_ends[0].empty()) picture.shade_ends = shape.shade_ends;
         }
+        // Beside coloured ones an object of one colour has the middle of the scale, not an end
+        if (!picture.shade_ends[0].empty())
+            for (render::Object& object : row)
+                if (object.shade.empty())
+                    object.shade.assign(static_cast<std::size_t>(object.positions.rows()), 0.5);
         media::write_png(picture_of(row), folder / picture.file);
         files.pictures.push_back(picture);
     }

@@ -20,7 +20,8 @@ struct FigurePicture {
     std::string file;
     std::vector<std::string> captions;  ///< one per object, from left to right
     // For the legend
-    bool held = false, outlined = false;               ///< some object
+    bool held = false;                                 ///< some object
+    std::string outline_name = "";                     ///< of the first object that has one
     std::array<std::string, 2> shade_ends = {"", ""};  ///< of the first object that has them
 };
 

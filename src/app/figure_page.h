@@ -7,6 +7,7 @@
 
 #include "app/figure_files.h"
 #include "experiment/figure_result.h"
+#include "experiment/registry.h"
 
 namespace risorius::app {
 
@@ -17,6 +18,7 @@ struct ShownFigure {
     std::string folder;     ///< of its files from the page, "" or "9b/"
     std::string readme;     ///< Markdown; empty when there is none
     double run_time_s = 0;  ///< about, as the list of figures says; 0 when it says nothing
+    experiment::Origin origin = experiment::Origin::kOwn;
     std::string
         published;  ///< file name of a picture of the published figure; empty when there is none
 };
@@ -26,7 +28,7 @@ std::string figure_page(const std::vector<ShownFigure>& figures);
 /// "8 to 13 %", "at most 5 %", "at least 2": the accepted range of a check in words.
 std::string range_text(const experiment::Check& check);
 
-/// Four significant digits, as people read them: "10.82", "0.0002", "1.2e-09".
-std::string short_number(double value);
+/// Four significant digits or as many as asked for, as people read them: "10.82", "0.0002", "1.2e-09".
+std::string short_number(double value, int digits = 4);
 
 }  // namespace risorius::app

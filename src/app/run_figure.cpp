@@ -115,6 +115,7 @@ ShownFigure write_results(const Job& job, experiment::FigureResult result, const
     write_text(folder / kExperimentFile, text_of(job.file));
     if (!shown.published.empty())
         fs::copy_file(job.file.parent_path() / shown.published, folder / shown.published);
+    shown.origin = experiment::origin_of(result.id);
     shown.result = std::move(result);
     return shown;
 }

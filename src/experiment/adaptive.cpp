@@ -258,7 +258,8 @@ Shape shape_of(const Case& one, const tissue::CellSolid& solid, const Points& x,
                 .surface = std::move(boundary.surface),
                 .wires = std::move(boundary.wires),
                 .fixed = {},
-                .shade = shade_of(solid, x)};
+                .shade = shade_of(solid, x),
+                .shade_ends = {"no strain", "greatest strain"}};
     const std::vector<char> held = body::held_nodes(one.body.fixed, solid.mesh());
     for (std::size_t i = 0; i < held.size(); ++i)
         if (held[i]) shape.fixed.push_back(static_cast<int>(i));
@@ -317,7 +318,7 @@ void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answer
         .name = "error_over_work_" + one.name,
         .title = one.caption,
         .x = {.label = "work of all solves (million multiplications)", .logarithmic = true},
-        .y = {.label = "error (%)", .logarithmic = true}};
+        .y = {.label = "greatest error of an answer (%)", .logarithmic = true}};
     for (const NamedSeries& named : all) {
         plot::Series curve{.label = named.label, .mark = plot::Mark::kLinePoints};
         const std::vector<Rest>& rests = named.series.rests;

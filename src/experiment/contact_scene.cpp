@@ -10,6 +10,7 @@
 #include "body/action_description.h"
 #include "contact/distance_field.h"
 #include "contact/surface_samples.h"
+#include "geom/surface_topology.h"
 #include "solve/part_term.h"
 
 namespace risorius::experiment {
@@ -67,6 +68,25 @@ DrawnSurface torus(const Vec3& centre, double radius, double tube) {
     });
 }
 
+/// The part of a plane that lies below the points.
+DrawnSurface drawn_plane(const Vec3& point, const Vec3& normal, const Points& above) {
+    constexpr double kReach = 1.3;  // over the farthest point
+    const Vec3 mean = above.colwise().mean().transpose();
+    const Vec3 centre = mean - normal * normal.dot(mean - point);
+    const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    const double half = kReach * std::max(((above * u).array() - centre.dot(u)).abs().maxCoeff(),
+                                          ((above * v).array() - centre.dot(v)).abs().maxCoeff());
+    DrawnSurface surface;
+    surface.positions.resize(4, 3);
+    for (int k = 0; k < 4; ++k)
+        surface.positions.row(k) =
+            (centre + half * ((k == 1 || k == 2 ? 1.0 : -1.0) * u + (k < 2 ? -1.0 : 1.0) * v))
+                .transpose();
+    surface.triangles.resize(2, 3);
+    surface.triangles << 0, 1, 2, 0, 2, 3;
+    return surface;
+}
+
 std::vector<SceneObstacle> read_scene_obstacles(const JsonCursor& json) {
     std::vector<SceneObstacle> obstacles;
     for (const JsonCursor& entry : json.items()) {
@@ -93,6 +113,10 @@ std::vector<SceneObstacle> read_scene_obstacles(const JsonCursor& json) {
             } else if (const auto capsule = entry.find("capsule")) {
                 drawn = drawn_capsule(capsule->at("start_m").vec3(), capsule->at("end_m").vec3(),
                                       capsule->at("radius_m").number());
+            } else if (const auto plane = entry.find("plane")) {
+                one.is_plane = true;
+                one.point_m = plane->at("point_m").vec3();
+                one.normal = plane->at("normal").vec3().normalized();
             }
         }
         one.positions = drawn.positions;
@@ -228,12 +252,17 @@ Shape ContactScene::shape(const ContactSceneDescription& description) const {
                            i % 2 == 0 ? 1.0 : 0.0);
     }
     for (const SceneObstacle& obstacle : description.obstacles) {
+        DrawnSurface drawn{obstacle.positions, obstacle.triangles};
+        if (obstacle.is_plane) drawn = drawn_plane(obstacle.point_m, obstacle.normal, state_.x);
+        // Smaller by the thickness, so that the flat triangles that lie on it do not dip into it
+        drawn.positions -= description.contact.thickness_m *
+                           geom::vertex_normals(drawn.positions, drawn.triangles);
         const int first = static_cast<int>(shape.positions.rows());
-        Points all(first + obstacle.positions.rows(), 3);
-        all << shape.positions, obstacle.positions;
+        Points all(first + drawn.positions.rows(), 3);
+        all << shape.positions, drawn.positions;
         shape.positions = all;
-        append_triangles(obstacle.triangles, first);
-        shape.shade.insert(shape.shade.end(), static_cast<std::size_t>(obstacle.positions.rows()),
+        append_triangles(drawn.triangles, first);
+        shape.shade.insert(shape.shade.end(), static_cast<std::size_t>(drawn.positions.rows()),
                            kRigid);
     }
     return shape;

@@ -27,6 +27,8 @@ struct SceneObstacle {
     std::shared_ptr<const contact::Obstacle> obstacle;
     Points positions;  ///< of a surface to draw; empty for a plane
     Triangles triangles;
+    bool is_plane = false;  ///< drawn as a square below the bodies, across `normal`
+    Vec3 point_m = Vec3::Zero(), normal = Vec3::UnitZ();
 };
 
 struct ContactSceneDescription {

@@ -1,4 +1,5 @@
-// Kind "contact": soft bodies on rigid things and on each other, drawn at rest, and the law of friction measured on a slope.
+// Kind "contact": soft bodies on rigid things and on each other, drawn at the end of their run, and the law of
+// friction measured on a slope.
 //
 //   "integrator": {...}, "scenes": [{...}],                                   see contact_scene.h
 //   "slope": {"body": {...}, "contact": {...}, "degrees": [10, 20, ...], "from_s": 0.4, "to_s": 0.8,

@@ -1,5 +1,6 @@
 #include "experiment/equilibrium.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,7 @@ namespace risorius::experiment {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Case {
     std::string name, caption, picture;
@@ -50,9 +52,21 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
 struct Result {
     Shape shape;
     Settled settled;
-    double volume_change_percent = 0, greatest_move_m = 0;
-    Extent extent{1, 0};
+    double volume_change_percent = kUnmeasured, greatest_move_m = 0;
+    Extent extent{kUnmeasured, kUnmeasured};
 };
+
+/// Columns in which something was measured.
+void drop_unmeasured(Table& table) {
+    for (std::size_t c = table.columns.size(); c-- > 0;) {
+        if (!std::all_of(table.rows.begin(), table.rows.end(),
+                         [&](const std::vector<double>& row) { return std::isnan(row[c]); }))
+            continue;
+        const auto place = static_cast<std::ptrdiff_t>(c);
+        table.columns.erase(table.columns.begin() + place);
+        for (std::vector<double>& row : table.rows) row.erase(row.begin() + place);
+    }
+}
 
 }  // namespace
 
@@ -114,6 +128,7 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
                               static_cast<double>(settled.report.evaluations),
                               static_cast<double>(settled.report.linear_solves)});
     }
+    drop_unmeasured(table);
     outcome.figure.tables.push_back(std::move(table));
 }
 

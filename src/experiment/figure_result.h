@@ -26,7 +26,11 @@ struct Check {
     double low = 0, high = 0;  ///< the accepted range; infinite ends allowed
     std::string
         published;     ///< what the thesis says, in words or numbers; empty when it says nothing
-    std::string note;  ///< why it differs
+    std::string note;  ///< why it differs, or what it means
+    /// Where the range comes from: "published", "law" (or closed form), "demand" (on the computation), "own" (around
+    /// the value first measured here); empty when the file does not say.
+    std::string range_from = "";
+    bool differs = false;  ///< from what was published, though within the range
 
     bool passes() const { return measured >= low && measured <= high; }
 };
@@ -43,6 +47,7 @@ struct Shape {
         {};  ///< empty, or one value 0..1 per vertex for colour (softness, strain)
     std::array<std::string, 2> shade_ends = {};  ///< what 0 and 1 mean: "softest", "stiffest"
     Points outline = {};  ///< 2S x 3, m: ends of lines that show where it was at rest
+    std::string outline_name = "outline at rest";
 };
 
 struct FigureResult {

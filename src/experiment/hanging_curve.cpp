@@ -150,9 +150,12 @@ void run_hanging_curve(const JsonCursor& experiment, const RunOptions& options, 
                 drawn(catenary(body.rest.row(0), body.rest.row(nodes - 1), length, kDrawn),
                       "catenary", plot::Mark::kLine));
         if (i == 0 || i + 1 == bodies.size())
-            chart.series.push_back(drawn(x, names[i] + " nodes", plot::Mark::kPoints));
+            // The coarsest last, on top of the others
+            chart.series.insert(chart.series.begin() + 1,
+                                drawn(x, names[i] + " nodes", plot::Mark::kPoints));
         Shape shape = shape_of(bodies[i], body, x, "hanging", names[i] + " nodes");
         shape.outline = rest_outline(body);
+        shape.outline_name = "where it falls from";
         outcome.figure.shapes.push_back(std::move(shape));
     }
     outcome.figure.tables.push_back(std::move(table));

@@ -22,7 +22,8 @@ std::vector<Check> Measurements::check(const JsonCursor& experiment) const {
     for (const Measurement& m : list_) names.push_back(m.name);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const JsonCursor& json : listed->items()) {
-        json.allow_keys({"measured", "name", "low", "high", "published", "note"});
+        json.allow_keys(
+            {"measured", "name", "low", "high", "range", "published", "differs", "note"});
         const std::string name = json.at("measured").one_of(names);
         const Measurement* found = nullptr;
         for (const Measurement& m : list_)
@@ -37,6 +38,11 @@ std::vector<Check> Measurements::check(const JsonCursor& experiment) const {
         if (check.low > check.high)
             json.at("low").fail("at most \"high\", which is " + format_number(check.high));
         if (json.has("published")) check.published = json.at("published").string();
+        if (json.has("differs")) check.differs = json.at("differs").boolean();
+        if (check.differs && check.published.empty())
+            json.at("differs").fail("false where nothing is \"published\"", "true");
+        if (json.has("range"))
+            check.range_from = json.at("range").one_of({"published", "law", "demand", "own"});
         if (json.has("note")) check.note = json.at("note").string();
         checks.push_back(std::move(check));
     }

@@ -47,18 +47,27 @@ const std::vector<Figure>& figures() {
         {"8d", "Tube softer on its right half", "equilibrium", 3},
         {"8e", "Incompressible cube hanging", "equilibrium", 2},
         {"8f", "Inhomogeneous anisotropic block held at both sides", "equilibrium", 2},
-        {"9a", "Change of the sum of volume elements", "volume-history", 30},
-        {"9b", "Change of volume", "volume-history", 30},
+        {"9a", "Change of the sum of volume elements", "volume-history", 18},
+        {"9b", "Change of volume", "volume-history", 18},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 12},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
-         "muscle-stability", 25},
+         "muscle-stability", 50},
         {"implicit", "Longest usable step of implicit methods", "implicit-steps", 3},
-        {"cells", "Trilinear cells against finite differences", "static-resolution", 20},
-        {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2},
-        {"contact", "Soft bodies on rigid things and on each other", "contact", 15},
-        {"adaptive", "Resolution where the strain asks for it", "adaptive", 30},
+        {"cells", "Trilinear cells against finite differences", "static-resolution", 18,
+         Origin::kBeyond},
+        {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2,
+         Origin::kBeyond},
+        {"contact", "Soft bodies on rigid things and on each other", "contact", 30,
+         Origin::kBeyond},
+        {"adaptive", "Resolution where the strain asks for it", "adaptive", 10, Origin::kBeyond},
     };
     return list;
+}
+
+Origin origin_of(std::string_view id) {
+    for (const Figure& figure : figures())
+        if (figure.id == id) return figure.origin;
+    return Origin::kOwn;
 }
 
 std::vector<std::string_view> kinds() {

@@ -15,16 +15,21 @@
 
 namespace risorius::experiment {
 
+enum class Origin { kThesis, kBeyond, kOwn };  ///< kOwn: none that comes with the program
+
 /// A figure that comes with the program: samples/figures/<id>/experiment.json.
 struct Figure {
     std::string_view id;     ///< "9b"
     std::string_view title;  ///< one line, what it shows
     std::string_view kind;   ///< of experiment
     double run_time_s;       ///< about, on two cores
+    Origin origin = Origin::kThesis;
 };
 
-/// In the order of the thesis.
+/// In the order of the thesis, then those that go beyond it.
 const std::vector<Figure>& figures();
+
+Origin origin_of(std::string_view id);
 
 /// The names "kind" may have.
 std::vector<std::string_view> kinds();

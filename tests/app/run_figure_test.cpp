@@ -53,6 +53,8 @@ FigureResult made_up(const JsonCursor& experiment, const experiment::RunOptions&
     result.shapes.push_back(pyramid("row", "low", 0.5));
     result.shapes.push_back(pyramid("row", "high", 1.5));
     result.checks.push_back({"peak", "%", 10.82, 8, 13, "up to ~10 %", "other <camera>"});
+    result.checks.back().range_from = "own";
+    result.checks.back().differs = true;
     result.checks.push_back({"drift", "", 1e-5, -kInfinity, 1e-4, "", ""});
     if (experiment.has("measured"))
         result.checks.push_back(
@@ -117,6 +119,8 @@ TEST_F(Figures, OneLeavesItsNumbersChartsPicturesAndPage) {
     EXPECT_EQ(results["passes"], true);
     EXPECT_EQ(results["files"].get<std::set<std::string>>(), expected);
     EXPECT_EQ(results["checks"][0]["measured"], 10.82);
+    EXPECT_EQ(results["checks"][0]["range"], "own");
+    EXPECT_EQ(results["checks"][0]["differs"], true);
     EXPECT_EQ(results["checks"][1]["low"], nullptr) << "JSON has no infinity";
     EXPECT_EQ(results["record"]["threads_do_not_matter"], 1);
     EXPECT_EQ(bytes_of(out() / "experiment.json"), bytes_of(folder_ / "from/x1/experiment.json"));
@@ -140,12 +144,27 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
     EXPECT_TRUE(fs::exists(out() / "x1/results.json"));
     EXPECT_FALSE(fs::exists(out() / "x1/index.html"));
     const std::string page = bytes_of(out() / "index.html");
-    for (const char* part :
-         {"src=\"x1/curve.svg\"", "src=\"x2/row.png\"", "href=\"x2/results.json\"", "up to ~10 %",
-          "10.82 %", "8 to 13 %", "at most 0.0001", "2.5 m", "1 to 2 m", "✗ outside", "✓ inside",
-          "2 of 3", "href=\"#figure-x2\"", "id=\"figure-x2\"", "<p>It is <em>longer</em>.</p>",
+    for (const char* part : {"src=\"x1/curve.svg\"",
+                             "src=\"x2/row.png\"",
+                             "href=\"x2/results.json\"",
+                             "up to ~10 %",
+                             "10.82 %",
+                             "8 to 13 %",
+                             "at most 0.0001",
+                             "2.5 m",
+                             "1 to 2 m",
+                             "✗ outside",
+                             "✓ inside",
+                             "2 of 3",
+                             "≠ differs",
+                             "= agrees",
+                             "our own value",
+                             "href=\"x2/experiment.json\"",
+                             "href=\"#figure-x2\"",
+                             "id=\"figure-x2\"",
+                             "<p>It is <em>longer</em>.</p>",
 
-          "low | high"})
+                             "low | high"})
         EXPECT_TRUE(contains(page, part)) << part;
 }
 
@@ -351,6 +370,7 @@ TEST(FigurePage, NumbersAndRangesAreShort) {
     EXPECT_EQ(range_text(within(-kInfinity, 0.5, "")), "at most 0.5");
     EXPECT_EQ(range_text(within(2, kInfinity, "m")), "at least 2 m");
     EXPECT_EQ(range_text(within(0, 0, "")), "exactly 0");
+    EXPECT_EQ(range_text(within(1.4211, 1.4213, "")), "1.4211 to 1.4213") << "not 1.421 to 1.421";
 }
 
 }  // namespace

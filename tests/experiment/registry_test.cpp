@@ -86,6 +86,11 @@ TEST(Registry, ChecksNameWhatWasMeasured) {
     EXPECT_EQ(message_of([&] { run(json); }),
               "experiment.json:/checks/0/low: expected at most \"high\", which is 1, found 2");
 
+    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "differs": true}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/differs: expected false where nothing is \"published\", "
+              "found true");
+
     json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2}])");
     EXPECT_FALSE(run(json).passes()) << "a band it does not meet is a result, not an error";
 }
