@@ -13,6 +13,7 @@
 #include "geom/polygon_mesh.h"
 #include "rig/atlas.h"
 #include "rig/muscle_table.h"
+#include "rig/solid_muscles.h"
 #include "track/channels.h"
 #include "track/facs.h"
 
@@ -91,6 +92,7 @@ struct RigDescription {
     std::map<std::string, Landmark> landmarks;
     Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
+    std::vector<SolidMuscle> solids;  ///< muscles that are not bundles of fibres
     JawDescription jaw;
     EyesDescription eyes;
     TissueDescription tissue;

@@ -97,11 +97,11 @@ struct Face::Impl {
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
         dynamics.emplace(rig.muscles.activation_s(), rig.muscles.deactivation_s());
-        now.x = mesh.nodes;
+        now.x = tissue.rest();
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
         before = now;
-        velocity = Points::Zero(mesh.nodes.rows(), 3);
+        velocity = Points::Zero(now.x.rows(), 3);
     }
 
     LidPose lid_pose(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const {
@@ -163,6 +163,7 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
             figures.last_step_rms_m = moved;
@@ -214,12 +215,17 @@ struct Face::Impl {
         return figures;
     }
 
-    FacePose pose(double share) const {
-        // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    track::Drive drive_between(double share) const {
         track::Drive drive = now.drive;
         for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
             drive.kinematic[k] =
                 (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
+        return drive;
+    }
+
+    FacePose pose(double share) const {
+        const track::Drive drive = drive_between(share);
         const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
         Points displacement(static_cast<long>(shell.vertex.size()), 3);
         for (long v = 0; v < displacement.rows(); ++v) {
@@ -248,6 +254,49 @@ struct Face::Impl {
             out.eye_rotation[side] = out.head.linear() * gaze[side];
         return out;
     }
+
+    // As pose().
+    MuscleShapes muscle_shapes(double share) const {
+        const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
+        const Points then = tissue.fibres().positions(before.x),
+                     here = tissue.fibres().positions(now.x);
+        const Points place = (1 - share) * then + share * here;
+        const Rigid turn = head_motion(head, drive_between(share));
+        MuscleShapes out;
+        for (const rig::Muscle& muscle : rig.muscles.muscles)
+            for (Side side : {Side::kLeft, Side::kRight}) {
+                if (side == Side::kRight && !muscle.paired) continue;
+                const int column = channels.column(muscle.id, side);
+                MuscleShape shape{
+                    .muscle = muscle.id, .side = side, .activation = activation[column]};
+                shape.fibre_width_m = head.mm(kFibreSpacing_mm);
+                std::vector<int> rows;
+                for (const muscle::Fibre& fibre : tissue.fibres().fibres()) {
+                    if (fibre.column != column) continue;
+                    shape.fibres.emplace_back(static_cast<int>(rows.size()), fibre.point_count);
+                    for (int p = 0; p < fibre.point_count; ++p)
+                        rows.push_back(fibre.first_point + p);
+                }
+                if (rows.empty()) continue;
+                shape.positions = place(rows, Eigen::all);
+                out.push_back(std::move(shape));
+            }
+        tissue.solids().add_shapes((1 - share) * before.x + share * now.x, activation, out);
+        for (MuscleShape& shape : out)
+            shape.positions = (shape.positions * turn.linear().transpose()).rowwise() +
+                              turn.translation().transpose();
+        return out;
+    }
+
+    // Where t lies between the last two steps; on a step for a time that is one but for rounding.
+    double share_at(double t_s) const {
+        return 1.0 - (static_cast<double>(steps) - exact_place(t_s));
+    }
+    static double exact_place(double t_s) {
+        const double place = t_s / kStep_s;
+        const double nearest = std::round(place);
+        return std::abs(place - nearest) < 1e-6 ? nearest : place;
+    }
 };
 
 Face::Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const Quality& quality,
@@ -272,7 +321,7 @@ void Face::start(const DriveAt& drive) {
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
                          first.at(track::Kinematic::kMouthPressure) == 0.0;
-    impl_->now.x = impl_->mesh.nodes;
+    impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->velocity.setZero();
     if (at_rest) {
@@ -287,19 +336,12 @@ void Face::start(const DriveAt& drive) {
 StepFigures Face::step(const DriveAt& drive) { return impl_->step(drive); }
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
-    // A frame that falls on a step shows that step, whatever rounding made of its time.
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    while (static_cast<double>(impl_->steps) < exact) impl_->step(drive);
-    return impl_->pose(1.0 - (static_cast<double>(impl_->steps) - exact));
+    while (static_cast<double>(impl_->steps) < Impl::exact_place(t_s)) impl_->step(drive);
+    return impl_->pose(impl_->share_at(t_s));
 }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    const double share = 1.0 - (static_cast<double>(impl_->steps) - exact);
+    const double share = impl_->share_at(t_s);
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 
@@ -321,6 +363,7 @@ const rig::Head& Face::head() const { return impl_->head; }
 const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
+    impl_->tissue.solids().scale_strength(muscle, factor);
     for (Side side : {Side::kLeft, Side::kRight}) {
         const int column = impl_->channels.column(muscle, side);
         if (side == Side::kRight && column == impl_->channels.column(muscle, Side::kLeft)) continue;
@@ -331,7 +374,18 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
     }
 }
 
+MuscleShapes Face::muscle_shapes() const { return impl_->muscle_shapes(1.0); }
+MuscleShapes Face::muscle_shapes_at(double t_s) const {
+    return impl_->muscle_shapes(impl_->share_at(t_s));
+}
+
+std::vector<SolidFigures> Face::solid_figures() const {
+    return impl_->tissue.solids().figures(impl_->now.x);
+}
+
 double Face::mean_stretch(const std::string& muscle) const {
+    if (impl_->tissue.solids().is_solid(muscle))
+        return impl_->tissue.solids().mean_stretch(muscle, impl_->now.x);
     const Eigen::VectorXd stretch = impl_->tissue.fibres().mean_stretch(impl_->now.x);
     double sum = 0;
     int count = 0;
@@ -369,7 +423,7 @@ double Face::tissue_volume_m3() const {
 }
 double Face::kinetic_energy_j() const {
     double sum = 0;
-    for (int i = 0; i < impl_->tissue.nodes(); ++i)
+    for (long i = 0; i < impl_->velocity.rows(); ++i)
         sum += 0.5 * impl_->tissue.mass()[i] * impl_->velocity.row(i).squaredNorm();
     return sum;
 }

@@ -14,6 +14,7 @@
 #include "rig/head.h"
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
+#include "sim/muscle_shapes.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -83,6 +84,13 @@ class Face {
     void scale_muscle(const std::string& muscle, double factor);
     /// Mean length of a muscle's fibres over their rest length, now.
     double mean_stretch(const std::string& muscle) const;
+
+    /// The volume muscles after the last step.
+    std::vector<SolidFigures> solid_figures() const;
+
+    /// All muscles after the last step; or at a time between the last two, as pose_at() gives the skin.
+    MuscleShapes muscle_shapes() const;
+    MuscleShapes muscle_shapes_at(double t_s) const;
 
     /// Skin nodes, for tests and evaluation: current N x 3 and rest.
     Points skin_nodes() const;

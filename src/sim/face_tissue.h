@@ -19,6 +19,7 @@
 #include "sim/contact_search.h"
 #include "sim/jaw.h"
 #include "sim/lids.h"
+#include "sim/muscle_solids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
 #include "solve/quasi_newton.h"
@@ -35,7 +36,8 @@ struct StepFigures {
     int iterations = 0;
     int evaluations = 0;
     double last_step_rms_m = 0;
-    double contact_depth_m = 0;  ///< deepest penetration left
+    double contact_depth_m = 0;      ///< deepest penetration left
+    double muscle_volume_error = 0;  ///< greatest of the volume muscles, ratio
     bool converged = false;
 };
 
@@ -68,7 +70,11 @@ class FaceTissue {
                               const Eigen::VectorXd& activation,
                               const solve::QuasiNewtonOptions& options, Points& x);
 
-    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }
+    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
+    /// Of everything at rest: tissue, then the volume muscles. States have these rows.
+    const Points& rest() const { return rest_; }
+    const MuscleSolids& solids() const { return *solids_; }
+    MuscleSolids& solids() { return *solids_; }
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
@@ -100,7 +106,9 @@ class FaceTissue {
     const TissueMesh& mesh_;
     std::vector<Vec3> lips_;
     std::vector<Attachment> attachments_;
-    std::vector<char> fixed_;
+    std::optional<MuscleSolids> solids_;
+    Points rest_;
+    std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids

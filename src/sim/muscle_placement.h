@@ -13,6 +13,8 @@ namespace risorius::sim {
 
 enum BodyIndex { kSkullBody = 0, kMandibleBody = 1, kBodies = 2 };
 
+inline constexpr double kFibreSpacing_mm = 4.0;  ///< across a band, atlas size
+
 struct MusclePlacement {
     std::vector<muscle::FibrePoint> points;
     std::vector<muscle::Fibre> fibres;
