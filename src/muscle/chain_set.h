@@ -1,11 +1,12 @@
 // Fibres of a volume muscle with their tendons: chains of nodes that pull along themselves with one tension each.
 //
-//   S    length of a chain's fibres, S0 at rest, m      r    l/l0 at rest      alpha   pennation at l0
+//   L    length of a chain, all its segments     lT   of it tendon, lTs when just slack     S = L - lT   of it fibres
+//   r    l/l0 at rest      alpha   pennation at l0      S0   S at rest, when the tendon is just slack
 //   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, thickness constant
-//   E  = F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT(tendon strain) for each tendon,   l0 = S0 / sqrt(r^2 - sin^2 alpha)
+//   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
 //
-// The length is that of the whole chain, so segments in series cannot run apart. An elastic tendon is the first and the
-// last segment of a chain and is just slack at rest; a rigid one is a constant part of the length.
+// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The length is that of the whole chain: segments in
+// series cannot run apart, and a stiff tendon makes no stiff segment. A short tendon may be rigid: lT = lTs.
 #pragma once
 
 #include <vector>
@@ -17,17 +18,16 @@
 namespace risorius::muscle {
 
 struct ChainProperties {
-    double f0_n = 0;            ///< F0 of one chain                                [0, inf)
-    double rest_stretch = 1;    ///< r                                              (sin alpha, inf)
-    double pennation_rad = 0;   ///< alpha                                          [0, pi/2)
-    double rigid_tendon_m = 0;  ///< part of a chain's length that does not change  [0, rest length)
-    bool elastic_tendons = false;  ///< the first and the last segment are tendons
+    double f0_n = 0;           ///< F0 of one chain                                [0, inf)
+    double rest_stretch = 1;   ///< r                                              (sin alpha, inf)
+    double pennation_rad = 0;  ///< alpha                                          [0, pi/2)
+    double tendon_share = 0;   ///< lTs / length of a chain at rest                [0, 1)
+    bool rigid_tendon = true;
 };
 
 class ChainSet {
   public:
-    /// Each chain is a list of rows of `rest`, three or more with elastic tendons, otherwise two or more. Throws
-    /// std::invalid_argument for a segment without length.
+    /// Each chain is a list of two or more rows of `rest`. Throws std::invalid_argument for a segment without length.
     ChainSet(std::vector<std::vector<int>> chains, const Points& rest, ChainProperties properties,
              MuscleCurves curves);
 
@@ -42,25 +42,21 @@ class ChainSet {
     void add_stiffness(const Points& x, double activation, const std::vector<int>& row,
                        solve::HessianBuilder& hessian) const;
 
-    double mean_stretch(const Points& x) const;  ///< of lam / r over the chains
+    double mean_stretch(const Points& x, double activation) const;  ///< of lam / r over the chains
 
   private:
     struct Chain {
         std::vector<int> node;
-        double rest_m = 0;            ///< S0
-        double tendon_m[2] = {0, 0};  ///< slack lengths
+        double fibre_m = 0;   ///< S0
+        double tendon_m = 0;  ///< lTs
     };
     struct Pull {
         double tension = 0, slope = 0, energy = 0;
+        double stretch = 1;  ///< lam
     };
-    int first_fibre() const { return properties_.elastic_tendons ? 1 : 0; }
-    int end_fibre(const Chain& chain) const {
-        return static_cast<int>(chain.node.size()) - 1 - first_fibre();
-    }
-    double fibre_length(const Chain& chain, const Points& x) const;
-    double stretch(const Chain& chain, double length_m) const;
-    Pull fibre_pull(const Chain& chain, double length_m, double activation) const;
-    Pull tendon_pull(double slack_m, double length_m) const;
+    double length(const Chain& chain, const Points& x) const;
+    Pull fibre_pull(const Chain& chain, double fibre_m, double activation) const;
+    Pull pull(const Chain& chain, double length_m, double activation) const;
 
     std::vector<Chain> chains_;
     ChainProperties properties_;

@@ -380,12 +380,12 @@ MuscleShapes Face::muscle_shapes_at(double t_s) const {
 }
 
 std::vector<SolidFigures> Face::solid_figures() const {
-    return impl_->tissue.solids().figures(impl_->now.x);
+    return impl_->tissue.solids().figures(impl_->now.x, impl_->now.activation);
 }
 
 double Face::mean_stretch(const std::string& muscle) const {
     if (impl_->tissue.solids().is_solid(muscle))
-        return impl_->tissue.solids().mean_stretch(muscle, impl_->now.x);
+        return impl_->tissue.solids().mean_stretch(muscle, impl_->now.x, impl_->now.activation);
     const Eigen::VectorXd stretch = impl_->tissue.fibres().mean_stretch(impl_->now.x);
     double sum = 0;
     int count = 0;

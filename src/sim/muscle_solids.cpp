@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr double kMuscleDensity_kg_m3 = 1060;
-constexpr double kTendonShare = 0.15;      // shorter tendons than this of the fibres are rigid
+constexpr double kShortTendon = 0.15;      // of the optimal fibre length; shorter tendons are rigid
 constexpr double kBinding_pa_per_m = 2e7;  // muscle to the tissue around it, by area of a node
 constexpr double kEndBinding = 15;         // how much firmer where a muscle takes hold
 constexpr double kSupport_pa_per_m = 2e7;  // deep side of a jaw muscle against its bone
@@ -42,6 +42,10 @@ MuscleSolids::MuscleSolids(const rig::Head& head, const rig::RigDescription& rig
     bone_ = rest_;
     build_parts(rig);
     bind(locator, mesh, attachments);
+    for (std::size_t v = 0; v < shell.vertex.size(); ++v)
+        if (shell.fixed[v])
+            for (Layer layer : {kDeep, kMiddle, kSkin})
+                held_tissue_.push_back(node_of(static_cast<int>(v), layer));
     std::vector<char> fixed;
     for (const SolidNode& node : placement_.nodes) fixed.push_back(node.on_bone ? 1 : 0);
     hessian_ = solve::HessianBuilder(nodes(), fixed);
@@ -82,17 +86,18 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
             chains.push_back(std::move(chain));
         }
         const rig::Muscle& muscle = *place.muscle;
-        const bool elastic = muscle.tendon_slack_m > kTendonShare * muscle.optimal_length_m;
+        const double fibre_m = muscle.rest_stretch * muscle.optimal_length_m;
         muscle::ZajacShape curves;
         if (muscle.group == "mimetic") curves.passive_strain = rig.tissue.fibre_passive_strain;
         const double count = static_cast<double>(chains.size());
         part.chains = std::make_unique<muscle::ChainSet>(
             std::move(chains), part.rest,
-            muscle::ChainProperties{.f0_n = place.f0_n / count,
-                                    .rest_stretch = muscle.rest_stretch,
-                                    .pennation_rad = muscle.pennation_deg * kRadian,
-                                    .rigid_tendon_m = elastic ? 0.0 : muscle.tendon_slack_m,
-                                    .elastic_tendons = elastic},
+            muscle::ChainProperties{
+                .f0_n = place.f0_n / count,
+                .rest_stretch = muscle.rest_stretch,
+                .pennation_rad = muscle.pennation_deg * kRadian,
+                .tendon_share = muscle.tendon_slack_m / (muscle.tendon_slack_m + fibre_m),
+                .rigid_tendon = muscle.tendon_slack_m < kShortTendon * muscle.optimal_length_m},
             muscle::zajac_curves(curves));
         part.hessian = std::make_unique<solve::HessianBuilder>(grid.size(), std::vector<char>{});
         part.start = part.rest;
@@ -374,6 +379,7 @@ void MuscleSolids::precondition(const solve::SparseCholesky& tissue, const Point
             tissue_b_.row(binding.tissue[k]) +=
                 binding.stiffness_n_per_m * binding.tissue_weight[k] * moved.transpose();
     }
+    for (int node : held_tissue_) tissue_b_.row(node).setZero();
     tissue.solve(tissue_b_, tissue_y_);
     for (const Binding& binding : bindings_) {
         Vec3 moved = Vec3::Zero();
@@ -398,20 +404,22 @@ void MuscleSolids::scale_strength(const std::string& muscle, double factor) {
     made_for_s_ = 0;
 }
 
-double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x) const {
+double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x,
+                                  const Eigen::VectorXd& activation) const {
     double sum = 0;
     int count = 0;
     Points local;
     for (const Part& part : parts_) {
         if (part.place.muscle->id != muscle) continue;
         take(part, x, local);
-        sum += part.chains->mean_stretch(local);
+        sum += part.chains->mean_stretch(local, activation[part.place.column]);
         ++count;
     }
     return count > 0 ? sum / count : 1.0;
 }
 
-std::vector<SolidFigures> MuscleSolids::figures(const Points& x) const {
+std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
+                                                const Eigen::VectorXd& activation) const {
     std::vector<SolidFigures> out;
     Points local;
     for (const Part& part : parts_) {
@@ -422,7 +430,7 @@ std::vector<SolidFigures> MuscleSolids::figures(const Points& x) const {
                               then = part.cells->cell_volumes(part.rest);
         figures.volume_ratio = now.sum() / then.sum();
         figures.least_cell_ratio = now.cwiseQuotient(then).minCoeff();
-        figures.mean_stretch = part.chains->mean_stretch(local);
+        figures.mean_stretch = part.chains->mean_stretch(local, activation[part.place.column]);
         // Through the middle of the belly; between two slabs when there is no middle one
         const auto thickness = [&](const Points& p) {
             double sum = 0;

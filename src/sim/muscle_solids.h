@@ -84,8 +84,9 @@ class MuscleSolids {
     void precondition(const solve::SparseCholesky& tissue, const Points& b, Points& y) const;
 
     void scale_strength(const std::string& muscle, double factor);
-    double mean_stretch(const std::string& muscle, const Points& x) const;
-    std::vector<SolidFigures> figures(const Points& x) const;
+    double mean_stretch(const std::string& muscle, const Points& x,
+                        const Eigen::VectorXd& activation) const;
+    std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     double greatest_volume_error(const Points& x) const;  ///< ratio
     /// Surfaces; activations are read from `activation`.
     void add_shapes(const Points& x, const Eigen::VectorXd& activation, MuscleShapes& out) const;
@@ -127,6 +128,7 @@ class MuscleSolids {
     std::vector<Binding> bindings_;
     std::unique_ptr<tissue::Tethers> supports_;
     std::vector<int> support_node_;
+    std::vector<int> held_tissue_;  ///< tissue nodes that do not move by themselves
     double step_s_ = 0;
 
     // Preconditioner, of the step in which it was last made

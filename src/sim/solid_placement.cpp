@@ -13,10 +13,9 @@ namespace {
 using rig::MusclePath;
 using rig::PathPoint;
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr double kEndThickness = 0.55;   // of a belly's thickness, at both ends
 constexpr double kUnderSkin_m = 1.2e-3;  // the least depth of a muscle's surface
-constexpr double kTendonShare = 0.15;    // shorter tendons than this of the fibres are rigid
+constexpr double kCornerHalfWidth_m = 1.5e-3, kCornerOpening = 0.22;  // of the ring round the mouth
 constexpr const char* kUpperRing = "orbicularis_oris_upper_peripheral";
 constexpr const char* kLowerRing = "orbicularis_oris_lower_peripheral";
 
@@ -49,23 +48,10 @@ Course sampled(const Course& through, const std::vector<double>& shares, bool cl
         control.clear();
         for (std::size_t i = 0; i < n + 3; ++i) control.push_back(through.point[(i + n - 1) % n]);
         fine = sample_curve(control, kFine_m);
-        const auto at = [&](const Vec3& p, bool from_back) {
-            std::size_t best = 0;
-            double least = 1e300;
-            for (std::size_t k = 0; k < fine.size(); ++k) {
-                const std::size_t i = from_back ? fine.size() - 1 - k : k;
-                const double d = (fine[i] - p).squaredNorm();
-                if (d < least) {
-                    least = d;
-                    best = i;
-                }
-            }
-            return best;
-        };
-        const std::size_t first = at(through.point[0], /*from_back=*/false);
-        const std::size_t last = at(through.point[0], /*from_back=*/true);
-        fine = std::vector<Vec3>(fine.begin() + static_cast<long>(first),
-                                 fine.begin() + static_cast<long>(last) + 1);
+        const auto is_start = [&](const Vec3& p) { return (p - through.point[0]).norm() < 1e-9; };
+        const auto first = std::find_if(fine.begin(), fine.end(), is_start);
+        const auto last = std::find_if(fine.rbegin(), fine.rend(), is_start);
+        fine = std::vector<Vec3>(first, last.base());
     } else {
         fine = sample_curve(control, kFine_m);
     }
@@ -96,10 +82,6 @@ double length_of(const Course& course) {
     const std::vector<Vec3> fine = sample_curve(course.point, 1e-3);
     for (std::size_t i = 1; i < fine.size(); ++i) length += (fine[i] - fine[i - 1]).norm();
     return length;
-}
-
-bool elastic_tendons(const rig::Muscle& muscle) {
-    return muscle.tendon_slack_m > kTendonShare * muscle.optimal_length_m;
 }
 
 // Cells along, across and through: about as long as wide, and no finer than a face can afford.
@@ -224,23 +206,9 @@ class Placer {
             length += length_of(courses.back()) / static_cast<double>(paths.size());
         }
         const std::array<int, 3> cells = cells_of(solid, length, head_.size);
-        tissue::GridShape grid{std::max(cells[0], elastic_tendons(muscle) ? 3 : 1) + 1,
-                               cells[1] + 1, cells[2] + 1};
+        const tissue::GridShape grid{cells[0] + 1, cells[1] + 1, cells[2] + 1};
         std::vector<double> shares;
-        const double tendon =
-            elastic_tendons(muscle)
-                ? 0.5 * muscle.tendon_slack_m /
-                      (muscle.tendon_slack_m + muscle.rest_stretch * muscle.optimal_length_m)
-                : 0.0;
-        for (int m = 0; m < grid.m; ++m) {
-            if (tendon > 0)
-                shares.push_back(m == 0            ? 0.0
-                                 : m == grid.m - 1 ? 1.0
-                                                   : tendon + (1 - 2 * tendon) * (m - 1) /
-                                                                  static_cast<double>(grid.m - 3));
-            else
-                shares.push_back(m / static_cast<double>(grid.m - 1));
-        }
+        for (int m = 0; m < grid.m; ++m) shares.push_back(m / static_cast<double>(grid.m - 1));
         std::vector<Course> along;
         for (const Course& course : courses) along.push_back(sampled(course, shares));
         // Paths of a sheet in the order of the n axis
@@ -354,11 +322,14 @@ class Placer {
             const std::size_t before = static_cast<std::size_t>((m + slabs - 1) % slabs),
                               i = static_cast<std::size_t>(m), after = i + 1;
             const rig::SolidMuscle& solid = m < cells[0] ? upper : lower;
-            // Narrower in the corners, where everything crosses
-            const double corner = std::abs(2.0 * (m % cells[0]) / cells[0] - 1);
-            const double narrow = 1 - 0.3 * smoothstep(0.4, 1.0, corner);
+            // Both halves meet in the corners at a sharp angle: there is room only for less
+            const double from_corner = std::min(
+                along.arc[i] - (m < cells[0] ? 0.0 : along.arc[static_cast<std::size_t>(cells[0])]),
+                (m < cells[0] ? along.arc[static_cast<std::size_t>(cells[0])] : along.arc.back()) -
+                    along.arc[i]);
             add_slab(along.point[i], along.point[after] - along.point[before], along.outward[i],
-                     0.5 * head_.size * solid.width_m * narrow,
+                     std::min(0.5 * head_.size * solid.width_m,
+                              head_.size * kCornerHalfWidth_m + kCornerOpening * from_corner),
                      0.5 * head_.size * solid.thickness_m, grid, /*under_skin=*/true);
             for (int k = 0; k < grid.n * grid.o; ++k) {
                 SolidNode& node = out_.nodes[out_.nodes.size() - 1 - static_cast<std::size_t>(k)];
