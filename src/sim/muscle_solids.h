@@ -113,12 +113,28 @@ class MuscleSolids {
         double stiffness_n_per_m;
         double felt_n_per_m;  ///< by the tissue in its metric
     };
+    /// Parts that share nodes, with their part of the preconditioner: of the step in which it was last made.
+    struct Group {
+        std::vector<int> part;
+        std::vector<int> node;              ///< of the set
+        std::vector<std::vector<int>> row;  ///< of each part's nodes, in `node`
+        std::vector<std::size_t> binding;   ///< whose muscle end is in the group
+        std::vector<std::size_t> support;
+        std::unique_ptr<solve::HessianBuilder> hessian;
+        solve::SymmetricFactor factor;
+        Points made_at;
+        std::vector<double> made_with;
+        double made_for_s = 0;
+        mutable std::vector<double> b, y;
+    };
     void build_parts(const rig::RigDescription& rig);
     void build_surface(Part& part) const;
     void bind(const TissueLocator& locator, const TissueMesh& mesh,
               std::vector<Attachment>& attachments);
     void take(const Part& part, const Points& x, Points& local) const;
-    void refresh(double h, const Points& x, const Eigen::VectorXd& activation);
+    void build_groups();
+    void refresh(Group& group, double h, const Points& x, const Eigen::VectorXd& activation);
+    void solve_solids() const;  ///< solid_y_ = H^-1 solid_b_
 
     int first_ = 0;  ///< row of the first node in x
     SolidPlacement placement_;
@@ -131,12 +147,8 @@ class MuscleSolids {
     std::vector<int> held_tissue_;  ///< tissue nodes that do not move by themselves
     double step_s_ = 0;
 
-    // Preconditioner, of the step in which it was last made
-    solve::HessianBuilder hessian_{0, {}};
-    solve::SymmetricFactor factor_;
-    Points made_at_;
-    Eigen::VectorXd made_with_;
-    double made_for_s_ = 0;
+    std::vector<Group> groups_;
+    std::vector<int> row_;  ///< of each node in its group
     mutable Points solid_b_, solid_y_, tissue_b_, tissue_y_;
 };
 

@@ -91,9 +91,9 @@ std::array<int, 3> cells_of(const rig::SolidMuscle& solid, double length_m, doub
                          : std::clamp(static_cast<int>(std::lround(extent_m / (size * edge_m))),
                                       least, most);
     };
-    return {count(solid.cells[0], length_m, 7e-3, 4, 10),
-            count(solid.cells[1], size * solid.width_m, 7e-3, 1, 3),
-            count(solid.cells[2], size * solid.thickness_m, 6e-3, 1, 2)};
+    return {count(solid.cells[0], length_m, 9e-3, 3, 8),
+            count(solid.cells[1], size * solid.width_m, 9e-3, 1, 3),
+            count(solid.cells[2], size * solid.thickness_m, 8e-3, 1, 2)};
 }
 
 // A belly tapers towards both ends: 1 in the middle, smoothly to `ends`.
