@@ -18,8 +18,8 @@ struct SolidMuscle {
     double thickness_m = 0;  ///< likewise
     std::array<double, 2> ends{0.7, 0.7};  ///< width at origin and insertion / width of the belly
     std::array<int, 3> cells{0, 0, 0};     ///< along, across, through; 0: by its size
-    double shear_pa = 2000;  ///< of the muscle's matrix                              [1, 1e9]
-    double volume_pa = 1e6;  ///< against changes of volume                           [1, 1e10]
+    double shear_pa = 2000;    ///< of the muscle's matrix                              [1, 1e9]
+    double volume_pa = 1.5e6;  ///< against changes of volume                           [1, 1e10]
 };
 
 /// An object: id of a muscle -> its entry, which may be empty. Throws Error for a muscle that the table does not have

@@ -18,7 +18,7 @@ constexpr double kBinding_pa_per_m = 2e7;  // muscle to the tissue around it, by
 constexpr double kEndBinding = 15;         // how much firmer where a muscle takes hold
 constexpr double kSupport_pa_per_m = 2e7;  // deep side of a jaw muscle against its bone
 constexpr double kInside_m = 0.2e-3;       // further outside the tissue a node is not bound
-constexpr double kRefreshMove_m = 0.5e-3, kRefreshActivation = 0.1;  // before H is made anew
+constexpr double kRefreshMove_m = 1e-3, kRefreshActivation = 0.15;  // before H is made anew
 
 Vec3 blended(const std::array<Rigid, kBodies>& bodies, double jaw_share, const Vec3& rest) {
     return (1 - jaw_share) * (bodies[kSkullBody] * rest) +
@@ -106,13 +106,8 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
 
 void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                         std::vector<Attachment>& attachments) {
-    // Area that a node stands for, and how stiff its own muscle is there
-    Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
+    const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
     const auto area = [&](int node) { return std::pow(volume[node], 2.0 / 3.0); };
-    Eigen::VectorXd shear = Eigen::VectorXd::Zero(nodes());
-    for (const Part& part : parts_)
-        for (int node : part.place.node) shear[node] = part.place.solid->shear_pa;
-
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (node.on_bone) continue;
@@ -130,10 +125,8 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
         binding.solid_count = 1;
         binding.solid[0] = i;
         binding.solid_weight[0] = 1;
-        const double k = kBinding_pa_per_m * area(i) * (node.soft_end ? kEndBinding : 1.0);
-        binding.stiffness_n_per_m = k;
-        const double own = 10 * shear[i] * std::cbrt(volume[i]);
-        binding.felt_n_per_m = k * own / (k + own);
+        binding.stiffness_n_per_m =
+            kBinding_pa_per_m * area(i) * (node.soft_end ? kEndBinding : 1.0);
         bindings_.push_back(binding);
     }
 
@@ -186,8 +179,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
             }
         }
         if (best.solid_count == 0) continue;
-        const double k = std::max(attachment.normal_n_per_m, attachment.tangential_n_per_m);
-        best.stiffness_n_per_m = best.felt_n_per_m = k;
+        best.stiffness_n_per_m = std::max(attachment.normal_n_per_m, attachment.tangential_n_per_m);
         attachment.normal_n_per_m = attachment.tangential_n_per_m = 0;
         bindings_.push_back(best);
     }
@@ -418,9 +410,11 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
 }
 
 void MuscleSolids::add_metric(solve::MetricBuilder& builder) const {
+    // Tissue that let go of the bone is held by a muscle that is itself held; a muscle within the tissue is no stiffer than
+    // it, and counting it costs iterations.
     for (const Binding& binding : bindings_)
-        builder.add_outer(binding.tissue, binding.tissue_weight, binding.tissue_count,
-                          binding.felt_n_per_m);
+        if (binding.tissue_count == 1)
+            builder.add_diagonal(binding.tissue[0], binding.stiffness_n_per_m);
 }
 
 void MuscleSolids::precondition(const solve::SparseCholesky& tissue, const Points& b,

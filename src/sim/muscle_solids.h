@@ -111,7 +111,6 @@ class MuscleSolids {
         double solid_weight[8];
         int solid_count;
         double stiffness_n_per_m;
-        double felt_n_per_m;  ///< by the tissue in its metric
     };
     /// Parts that share nodes, with their part of the preconditioner: of the step in which it was last made.
     struct Group {
