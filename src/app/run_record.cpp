@@ -41,6 +41,8 @@ Json RunRecord::json() const {
     json["mesh"] = file(mesh);
     json["tables"] = Json::array();
     for (const File& table : tables) json["tables"].push_back(file(table));
+    json["recordings"] = Json::array();
+    for (const File& recording : recordings) json["recordings"].push_back(file(recording));
     json["seed"] = seed;
     json["fps"] = fps;
     json["frames"] = frames;

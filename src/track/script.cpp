@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "track/emg_source.h"
 #include "track/timeline.h"
 
 namespace risorius::track {
@@ -39,8 +40,8 @@ ScriptView read_view(const JsonCursor& json) {
 }
 
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys(
-        {"format", "version", "rig", "fps", "duration_s", "seed", "channels", "events", "view"});
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "channels", "emg",
+                     "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
@@ -234,6 +235,10 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())
             script.channels.push_back(reader.channel(table->at(name), name));
+    if (const auto emg = json.find("emg")) {
+        script.emg = read_emg(*emg, channels);
+        script.recordings.push_back(emg->at("file").path());
+    }
     if (const auto events = json.find("events"))
         for (const JsonCursor& event : events->items()) {
             if (event.has("expression") == event.has("blink"))

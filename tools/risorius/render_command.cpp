@@ -77,6 +77,8 @@ void add_render(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
+    command->add_flag("--emg", options.emg,
+                      "Write into the table what surface electrodes would record of every muscle");
     command
         ->add_option(
             "--threads", options.threads,
