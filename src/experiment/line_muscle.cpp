@@ -22,7 +22,8 @@ double along(const body::MuscleDescription& muscle, double fibre_length) {
 /// eps in equilibrium.
 double tendon_strain(const body::MuscleDescription& muscle, double length, double activation) {
     const muscle::MuscleCurves curves = muscle::zajac_curves();
-    const double slack = muscle.musculotendon.tendon_slack_m / muscle.musculotendon.optimal_length_m;
+    const double slack =
+        muscle.musculotendon.tendon_slack_m / muscle.musculotendon.optimal_length_m;
     const double w = thickness(muscle);
     double low = 0, high = length / slack;
     for (int i = 0; i < kHalvings; ++i) {
@@ -40,7 +41,8 @@ double line_tension(const body::MuscleDescription& muscle, double length, double
 }
 
 double line_fibre_length(const body::MuscleDescription& muscle, double length, double activation) {
-    const double slack = muscle.musculotendon.tendon_slack_m / muscle.musculotendon.optimal_length_m;
+    const double slack =
+        muscle.musculotendon.tendon_slack_m / muscle.musculotendon.optimal_length_m;
     return std::hypot(length - tendon_strain(muscle, length, activation) * slack,
                       thickness(muscle));
 }

@@ -49,8 +49,7 @@ Pulses read_pulses(const JsonCursor& json) {
     if (const auto v = json.find("first_s")) pulses.first_s = v->number({0, kLatest_s});
     pulses.rate_hz = json.at("rate_hz").number({1e-3, 1e3});
     pulses.count = json.at("count").integer(1, 100000);
-    if (const auto v = json.find("width_s"))
-        pulses.width_s = v->number({1e-6, 1 / pulses.rate_hz});
+    if (const auto v = json.find("width_s")) pulses.width_s = v->number({1e-6, 1 / pulses.rate_hz});
     return pulses;
 }
 

@@ -12,8 +12,7 @@
 namespace risorius::experiment {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr Range kLengths{0.1, 3};
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
 struct Quantity {
     std::string_view name;
@@ -37,15 +36,15 @@ struct Shown {
     double from_s = 0, to_s = 0;
 };
 
-struct Run {
+struct HistoryRun {
     MuscleRun muscle;
     Drive drive;
     std::function<double(double t_s)> length;
 };
 
-struct Plan {
+struct HistoryPlan {
     std::vector<Phase> phases;
-    std::vector<Run> runs;
+    std::vector<HistoryRun> runs;
     std::optional<double> release_s;
     std::vector<Shown> shown;
 
@@ -59,15 +58,15 @@ JsonCursor own_or_common(const JsonCursor& run, const JsonCursor& experiment,
     return own ? *own : experiment.at(key);
 }
 
-Plan read_plan(const JsonCursor& experiment) {
-    allow_experiment_keys(experiment, {"muscle", "runs", "phases", "drive", "length", "release_s",
-                                       "shows"});
-    Plan plan;
+HistoryPlan read_history(const JsonCursor& experiment) {
+    allow_experiment_keys(experiment,
+                          {"muscle", "runs", "phases", "drive", "length", "release_s", "shows"});
+    HistoryPlan plan;
     plan.phases = read_phases(experiment.at("phases"));
     for (MuscleRun& muscle : read_muscle_runs(experiment, {"drive", "length"})) {
         const JsonCursor& json = muscle.json;
         Drive drive = read_drive(own_or_common(json, experiment, "drive"), plan.end_s());
-        auto length = read_course(own_or_common(json, experiment, "length"), kLengths);
+        auto length = read_course(own_or_common(json, experiment, "length"), kNormalisedLengths);
         plan.runs.push_back({std::move(muscle), std::move(drive), std::move(length)});
     }
     if (const auto v = experiment.find("release_s")) plan.release_s = v->number({0, plan.end_s()});
@@ -94,10 +93,10 @@ double time_of(const std::vector<MuscleSample>& samples, std::size_t from, doubl
     for (std::size_t i = from + 1; i < samples.size(); ++i) {
         const double before = samples[i - 1].tension_f0, now = samples[i].tension_f0;
         if (rising ? now < height || before >= height : now > height || before <= height) continue;
-        return samples[i - 1].t_s + (samples[i].t_s - samples[i - 1].t_s) * (height - before) /
-                                        (now - before);
+        return samples[i - 1].t_s +
+               (samples[i].t_s - samples[i - 1].t_s) * (height - before) / (now - before);
     }
-    return kNothing;
+    return kNever;
 }
 
 bool weaker(const MuscleSample& a, const MuscleSample& b) { return a.tension_f0 < b.tension_f0; }
@@ -124,9 +123,9 @@ void measure_pulses(const std::vector<MuscleSample>& samples, const Pulses& puls
     const auto peak = static_cast<std::size_t>(
         std::max_element(samples.begin(), samples.end(), weaker) - samples.begin());
     measured.add("contraction_s" + of, "s", samples[peak].t_s - pulses.first_s);
-    measured.add("half_relaxation_s" + of, "s",
-                 time_of(samples, peak, samples[peak].tension_f0 / 2, /*rising=*/false) -
-                     samples[peak].t_s);
+    measured.add(
+        "half_relaxation_s" + of, "s",
+        time_of(samples, peak, samples[peak].tension_f0 / 2, /*rising=*/false) - samples[peak].t_s);
     if (pulses.count < 2) return;
     // From the last pulse but one to the last
     const double from_s = pulses.start_s(pulses.count - 2), to_s = pulses.start_s(pulses.count - 1);
@@ -144,7 +143,8 @@ void measure_pulses(const std::vector<MuscleSample>& samples, const Pulses& puls
     measured.add("mean_f0" + of, "F0", sum / time_s);
 }
 
-void measure(const Plan& plan, const Run& run, const MuscleMotion& motion, Measurements& measured) {
+void measure(const HistoryPlan& plan, const HistoryRun& run, const MuscleMotion& motion,
+             Measurements& measured) {
     const std::string of = "/" + run.muscle.name;
     const std::vector<MuscleSample>& samples = motion.samples;
     const MuscleSample& peak = *std::max_element(samples.begin(), samples.end(), weaker);
@@ -153,17 +153,15 @@ void measure(const Plan& plan, const Run& run, const MuscleMotion& motion, Measu
         if (std::abs(sample.volume_ratio - 1) > std::abs(change)) change = sample.volume_ratio - 1;
     measured.add("peak_f0" + of, "F0", peak.tension_f0);
     measured.add("peak_time_s" + of, "s", peak.t_s);
-    measured.add("final_f0" + of, "F0", motion.diverged ? kNothing : samples.back().tension_f0);
+    measured.add("final_f0" + of, "F0", motion.diverged ? kNever : samples.back().tension_f0);
     measured.add("volume_change_percent" + of, "%", 100 * change);
     measured.add("unconverged" + of, "", motion.converged && !motion.diverged ? 0 : 1);
     if (plan.release_s) measure_release(samples, *plan.release_s, of, measured);
     if (run.drive.pulses) measure_pulses(samples, *run.drive.pulses, of, measured);
 }
 
-Table table_of(const Run& run, const MuscleMotion& motion) {
-    Table table{.name = "history_" + run.muscle.name,
-                .columns = {"time_s", "length"},
-                .rows = {}};
+Table table_of(const HistoryRun& run, const MuscleMotion& motion) {
+    Table table{.name = "history_" + run.muscle.name, .columns = {"time_s", "length"}, .rows = {}};
     for (const Quantity& quantity : kQuantities) table.columns.push_back(quantity.column);
     for (const MuscleSample& sample : motion.samples) {
         table.rows.push_back(
@@ -174,7 +172,7 @@ Table table_of(const Run& run, const MuscleMotion& motion) {
     return table;
 }
 
-plot::Chart chart_of(const Shown& shown, const Plan& plan,
+plot::Chart chart_of(const Shown& shown, const HistoryPlan& plan,
                      const std::vector<MuscleMotion>& motions) {
     plot::Chart chart{.name = shown.name,
                       .title = shown.title,
@@ -195,20 +193,18 @@ plot::Chart chart_of(const Shown& shown, const Plan& plan,
 }  // namespace
 
 void run_muscle_history(const JsonCursor& experiment, const RunOptions& options, Outcome& outcome) {
-    const Plan plan = read_plan(experiment);
+    const HistoryPlan plan = read_history(experiment);
     std::vector<MuscleMotion> motions(plan.runs.size());
     Progress progress(options, static_cast<double>(plan.runs.size()));
     parallel_for(static_cast<int>(plan.runs.size()), options.threads, [&](int i) {
         const auto at = static_cast<std::size_t>(i);
-        const Run& run = plan.runs[at];
+        const HistoryRun& run = plan.runs[at];
         const auto plate_m = [&run](double t_s) {
             return lengthening_m(run.muscle.muscle, run.length(t_s));
         };
-        motions[at] = move_muscle(run.muscle.muscle,
-                                  {.task = {run.drive.activation, plate_m},
-                                   .load = {},
-                                   .phases = plan.phases},
-                                  options);
+        motions[at] = move_muscle(
+            run.muscle.muscle,
+            {.task = {run.drive.activation, plate_m}, .load = {}, .phases = plan.phases}, options);
         progress.done(1, run.muscle.label);
     });
 

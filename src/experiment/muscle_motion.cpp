@@ -109,8 +109,8 @@ std::vector<Phase> read_phases(const JsonCursor& json) {
         const double before_s = phases.empty() ? 0 : phases.back().until_s;
         if (!(until_s > before_s))
             one.at("until_s").fail("more than " + format_number(before_s) + ", where it begins");
-        phases.push_back({.until_s = until_s,
-                          .step_s = one.at("step_s").number({1e-7, until_s - before_s})});
+        phases.push_back(
+            {.until_s = until_s, .step_s = one.at("step_s").number({1e-7, until_s - before_s})});
     }
     if (phases.empty()) json.fail("at least one phase");
     return phases;

@@ -10,15 +10,15 @@ namespace risorius::experiment {
 
 struct ReleaseBench {
     double activation = 1;
-    double reach = 0.1;         ///< how far before that length it begins, l0        (0, 0.5]
-    double at_fibre_length = 1; ///< over l0
-    int steps = 100;            ///< to get there, about
+    double reach = 0.1;          ///< how far before that length it begins, l0        (0, 0.5]
+    double at_fibre_length = 1;  ///< over l0
+    int steps = 100;             ///< to get there, about
 };
 
 /// Force and speed of the fibres as they pass the length.
 struct Passing {
-    double force_f0 = 0;  ///< of the tendons
-    double speed = 0;     ///< over vmax l0, less than 0 shortens
+    double force_f0 = 0;     ///< of the tendons
+    double speed = 0;        ///< over vmax l0, less than 0 shortens
     double plate_speed = 0;  ///< of the insertion, over vmax l0
     bool found = false;
     MuscleMotion motion;

@@ -30,6 +30,8 @@ std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
 /// "6x6x6 cells, K = 5 MPa"
 std::string discretisation_of(const body::MuscleDescription& muscle);
 
+inline constexpr Range kNormalisedLengths{0.1, 3};  ///< a file may ask for
+
 /// How far the plates of a muscle at rest have to be moved apart for a normalised length, m; and back.
 double lengthening_m(const body::MuscleDescription& muscle, double normalised_length);
 double normalised_length(const body::MuscleDescription& muscle, double lengthening_m);

@@ -14,7 +14,6 @@
 namespace risorius::experiment {
 namespace {
 
-constexpr Range kLengths{0.1, 3};
 constexpr int kMostLengths = 1000;
 
 struct Picture {
@@ -23,7 +22,7 @@ struct Picture {
     std::string name, caption;
 };
 
-struct Plan {
+struct StaticsPlan {
     std::vector<MuscleRun> runs;
     std::vector<double> lengths;  ///< rising
     double activation = 1, range_above_peak = 0.5;
@@ -37,9 +36,10 @@ std::vector<double> read_lengths(const JsonCursor& json) {
     std::vector<double> lengths;
     if (json.is_object()) {
         json.allow_keys({"from", "to", "step"});
-        const double from = json.at("from").number(kLengths);
-        const double to = json.at("to").number({from, kLengths.max});
-        const double step = json.at("step").number({(to - from) / kMostLengths, kLengths.max});
+        const double from = json.at("from").number(kNormalisedLengths);
+        const double to = json.at("to").number({from, kNormalisedLengths.max});
+        const double step =
+            json.at("step").number({(to - from) / kMostLengths, kNormalisedLengths.max});
         // Steps are counted, so that a length is the number its decimals say
         const int count = step > 0 ? static_cast<int>(std::floor((to - from) / step + 1e-9)) : 0;
         for (int i = 0; i <= count; ++i)
@@ -47,7 +47,7 @@ std::vector<double> read_lengths(const JsonCursor& json) {
         return lengths;
     }
     for (const JsonCursor& one : json.items()) {
-        lengths.push_back(one.number(kLengths));
+        lengths.push_back(one.number(kNormalisedLengths));
         if (lengths.size() > 1 && !(lengths.back() > lengths[lengths.size() - 2]))
             one.fail("more than the length before it");
     }
@@ -55,10 +55,10 @@ std::vector<double> read_lengths(const JsonCursor& json) {
     return lengths;
 }
 
-Plan read_plan(const JsonCursor& experiment) {
+StaticsPlan read_statics(const JsonCursor& experiment) {
     allow_experiment_keys(experiment, {"muscle", "runs", "lengths", "activation", "pictures",
                                        "range_above_peak", "over", "load_f0"});
-    Plan plan;
+    StaticsPlan plan;
     plan.runs = read_muscle_runs(experiment, {"at"});
     plan.lengths = read_lengths(experiment.at("lengths"));
     if (const auto v = experiment.find("activation")) plan.activation = v->number({0, 1});
@@ -77,7 +77,7 @@ Plan read_plan(const JsonCursor& experiment) {
             const std::string run = json.at("run").one_of(names);
             Picture picture{.run = static_cast<std::size_t>(
                                 std::find(names.begin(), names.end(), run) - names.begin()),
-                            .length = json.at("length").number(kLengths),
+                            .length = json.at("length").number(kNormalisedLengths),
                             .activation = json.at("activation").number({0, 1}),
                             .name = json.at("picture").string(),
                             .caption = json.at("caption").string()};
@@ -86,30 +86,29 @@ Plan read_plan(const JsonCursor& experiment) {
     return plan;
 }
 
-struct Result {
+struct StaticsResult {
     std::vector<Still> passive, active;  ///< one per length
     std::optional<Passing> lift;
 };
 
-struct Results {
-    std::vector<Result> runs;
+struct StaticsResults {
+    std::vector<StaticsResult> runs;
     std::vector<Shape> shapes;
 };
 
-Results run_all(const Plan& plan, const RunOptions& options) {
-    Results results;
+StaticsResults settle_all(const StaticsPlan& plan, const RunOptions& options) {
+    StaticsResults results;
     results.runs.resize(plan.runs.size());
     results.shapes.resize(plan.pictures.size());
     std::vector<std::pair<std::string, std::function<void()>>> tasks;
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
         const body::MuscleDescription& muscle = plan.runs[r].muscle;
-        Result& into = results.runs[r];
+        StaticsResult& into = results.runs[r];
         tasks.emplace_back(plan.runs[r].label, [&] {
             into.active = still_over(muscle, plan.activation, plan.lengths, options);
         });
-        tasks.emplace_back(plan.runs[r].label, [&] {
-            into.passive = still_over(muscle, 0, plan.lengths, options);
-        });
+        tasks.emplace_back(plan.runs[r].label,
+                           [&] { into.passive = still_over(muscle, 0, plan.lengths, options); });
         if (plan.load_f0)
             tasks.emplace_back(plan.runs[r].label, [&] {
                 into.lift = released_with_load(muscle, {.activation = plan.activation},
@@ -133,7 +132,7 @@ Results run_all(const Plan& plan, const RunOptions& options) {
 }
 
 /// Tension over F0 at each length of the plan.
-struct Curves {
+struct TensionCurves {
     std::vector<double> total, passive, active;
 
     void add(double with_activation, double without) {
@@ -143,8 +142,8 @@ struct Curves {
     }
 };
 
-Curves line_curves(const Plan& plan, const MuscleRun& run) {
-    Curves line;
+TensionCurves line_curves(const StaticsPlan& plan, const MuscleRun& run) {
+    TensionCurves line;
     for (const double length : plan.lengths)
         line.add(line_tension(run.muscle, length, plan.activation),
                  line_tension(run.muscle, length, 0));
@@ -152,14 +151,15 @@ Curves line_curves(const Plan& plan, const MuscleRun& run) {
 }
 
 /// Measures a run and tabulates it.
-Curves measure(const Plan& plan, const MuscleRun& run, const Result& result, Outcome& outcome) {
+TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const StaticsResult& result,
+                      Outcome& outcome) {
     Table table{.name = "tension_" + run.name,
                 .columns = {"length", "total_f0", "passive_f0", "active_f0", "line_total_f0",
                             "line_passive_f0", "line_active_f0", "fibre_length",
                             "volume_change_percent", "bulge", "segment_spread"},
                 .rows = {}};
-    Curves solid;
-    const Curves line = line_curves(plan, run);
+    TensionCurves solid;
+    const TensionCurves line = line_curves(plan, run);
     double unconverged = 0, worst = 0;
     Measurements& measured = outcome.measured;
     for (std::size_t i = 0; i < plan.lengths.size(); ++i) {
@@ -195,8 +195,8 @@ Curves measure(const Plan& plan, const MuscleRun& run, const Result& result, Out
 
 constexpr const char* kLengthLabel = "(distance of the plates - tendon slack length) / l0";
 
-plot::Chart over_length(const Plan& plan, const MuscleRun& run, const Curves& solid) {
-    const Curves line = line_curves(plan, run);
+plot::Chart over_length(const StaticsPlan& plan, const MuscleRun& run, const TensionCurves& solid) {
+    const TensionCurves line = line_curves(plan, run);
     const std::vector<double>& x = plan.lengths;
     return {.name = "tension_" + run.name,
             .title = "Tension over length: " + discretisation_of(run.muscle),
@@ -210,16 +210,15 @@ plot::Chart over_length(const Plan& plan, const MuscleRun& run, const Curves& so
                        {"", x, line.active, plot::Mark::kDashed, 3}}};
 }
 
-plot::Chart differences(const Plan& plan, const std::vector<Curves>& solids) {
+plot::Chart differences(const StaticsPlan& plan, const std::vector<TensionCurves>& solids) {
     plot::Chart chart{.name = "from_line",
                       .title = "Active force of the solid minus that of a line muscle",
                       .x = {.label = kLengthLabel},
                       .y = {.label = "difference / F0"}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
-        const Curves line = line_curves(plan, plan.runs[r]);
-        plot::Series series{.label = plan.runs[r].label,
-                            .x = plan.lengths,
-                            .mark = plot::Mark::kLinePoints};
+        const TensionCurves line = line_curves(plan, plan.runs[r]);
+        plot::Series series{
+            .label = plan.runs[r].label, .x = plan.lengths, .mark = plot::Mark::kLinePoints};
         for (std::size_t i = 0; i < plan.lengths.size(); ++i)
             series.y.push_back(solids[r].active[i] - line.active[i]);
         chart.series.push_back(std::move(series));
@@ -228,15 +227,16 @@ plot::Chart differences(const Plan& plan, const std::vector<Curves>& solids) {
 }
 
 /// The runs' active forces together, and their peaks, ranges and speeds over what sets them apart.
-std::vector<plot::Chart> over_parameter(const Plan& plan, const std::vector<Result>& results,
-                                        const std::vector<Curves>& solids) {
-    plot::Chart active{.name = "active",
-                       .title = "Active force over length: " +
-                                discretisation_of(plan.runs.front().muscle),
-                       .x = {.label = kLengthLabel},
-                       .y = {.label = "active force / F0"}};
+std::vector<plot::Chart> over_parameter(const StaticsPlan& plan,
+                                        const std::vector<StaticsResult>& results,
+                                        const std::vector<TensionCurves>& solids) {
+    plot::Chart active{
+        .name = "active",
+        .title = "Active force over length: " + discretisation_of(plan.runs.front().muscle),
+        .x = {.label = kLengthLabel},
+        .y = {.label = "active force / F0"}};
     plot::Chart over{.name = "over_parameter",
-                     .title = "Peak force, range of lengths and speed",
+                     .title = "Peak force, range and speed: solid (points), line muscle (lines)",
                      .x = {.label = plan.over},
                      .y = {.label = "ratio to the first"}};
     const std::string range_label =
@@ -256,8 +256,8 @@ std::vector<plot::Chart> over_parameter(const Plan& plan, const std::vector<Resu
         active.series.push_back(
             {.label = plan.runs[r].label, .x = plan.lengths, .y = solids[r].active});
         const TensionPeak found = peak_of(plan.lengths, solids[r].active, plan.range_above_peak);
-        const TensionPeak law = peak_of(plan.lengths, line_curves(plan, plan.runs[r]).active,
-                                        plan.range_above_peak);
+        const TensionPeak law =
+            peak_of(plan.lengths, line_curves(plan, plan.runs[r]).active, plan.range_above_peak);
         const double at = plan.at[r];
         relative(solid[0], at, found.force_f0);
         relative(line[0], at, law.force_f0);
@@ -274,7 +274,6 @@ std::vector<plot::Chart> over_parameter(const Plan& plan, const std::vector<Resu
             series->colour = static_cast<int>(k);
         }
         solid[k].mark = plot::Mark::kPoints;
-        solid[k].label += ", solid";
         line[k].label = "";
         over.series.push_back(solid[k]);
         over.series.push_back(line[k]);
@@ -285,10 +284,10 @@ std::vector<plot::Chart> over_parameter(const Plan& plan, const std::vector<Resu
 }  // namespace
 
 void run_muscle_statics(const JsonCursor& experiment, const RunOptions& options, Outcome& outcome) {
-    const Plan plan = read_plan(experiment);
-    Results results = run_all(plan, options);
+    const StaticsPlan plan = read_statics(experiment);
+    StaticsResults results = settle_all(plan, options);
     outcome.figure.shapes = std::move(results.shapes);
-    std::vector<Curves> solids;
+    std::vector<TensionCurves> solids;
     for (std::size_t r = 0; r < plan.runs.size(); ++r)
         solids.push_back(measure(plan, plan.runs[r], results.runs[r], outcome));
     if (plan.lengths.size() < 2) return;

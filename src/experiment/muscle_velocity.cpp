@@ -13,8 +13,9 @@ namespace risorius::experiment {
 namespace {
 
 constexpr double kMillimetres = 1e3;
+constexpr int kLawPoints = 201;
 
-struct Plan {
+struct ReleasePlan {
     std::vector<MuscleRun> runs;
     std::vector<double> speeds, loads_f0;
     ReleaseBench bench;
@@ -34,10 +35,10 @@ std::vector<double> read_numbers(const JsonCursor& experiment, std::string_view 
     return numbers;
 }
 
-Plan read_plan(const JsonCursor& experiment) {
+ReleasePlan read_releases(const JsonCursor& experiment) {
     allow_experiment_keys(experiment, {"muscle", "runs", "activation", "speeds", "loads_f0",
                                        "reach", "at_fibre_length", "steps"});
-    Plan plan;
+    ReleasePlan plan;
     plan.runs = read_muscle_runs(experiment);
     plan.speeds = read_numbers(experiment, "speeds", {-2, 2});
     plan.loads_f0 = read_numbers(experiment, "loads_f0", {0, 1});
@@ -52,7 +53,7 @@ Plan read_plan(const JsonCursor& experiment) {
     return plan;
 }
 
-double law(const Plan& plan, const MuscleRun& run, double speed) {
+double law(const ReleasePlan& plan, const MuscleRun& run, double speed) {
     return line_moving_tension(run.muscle, plan.bench.at_fibre_length, speed,
                                plan.bench.activation);
 }
@@ -73,27 +74,26 @@ Shortening shortening_of(const std::vector<Passing>& passings) {
     return found;
 }
 
-void measure(const Plan& plan, const MuscleRun& run, const std::vector<Passing>& passings,
+void measure(const ReleasePlan& plan, const MuscleRun& run, const std::vector<Passing>& passings,
              Outcome& outcome) {
     Table table{.name = "releases_" + run.name,
                 .columns = {"speed", "load_f0", "force_f0", "fibre_speed", "law_force_f0", "steps"},
                 .rows = {}};
     double error = 0, missed = 0;
-    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kMissed = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < passings.size(); ++i) {
         const Passing& passing = passings[i];
         const bool by_speed = i < plan.speeds.size();
-        const double given =
-            by_speed ? plan.speeds[i] : plan.loads_f0[i - plan.speeds.size()];
-        const double force = passing.found ? passing.force_f0 : kNothing;
-        const double speed = passing.found ? passing.speed : kNothing;
-        const double expected = passing.found ? law(plan, run, passing.speed) : kNothing;
-        const std::string of = "/" + run.name + (by_speed ? "/speed/" : "/load/") +
-                               format_number(given);
+        const double given = by_speed ? plan.speeds[i] : plan.loads_f0[i - plan.speeds.size()];
+        const double force = passing.found ? passing.force_f0 : kMissed;
+        const double speed = passing.found ? passing.speed : kMissed;
+        const double expected = passing.found ? law(plan, run, passing.speed) : kMissed;
+        const std::string of =
+            "/" + run.name + (by_speed ? "/speed/" : "/load/") + format_number(given);
         outcome.measured.add("force_f0" + of, "F0", force);
         outcome.measured.add("fibre_speed" + of, "vmax", speed);
-        table.rows.push_back({by_speed ? given : kNothing, by_speed ? kNothing : given, force,
-                              speed, expected, static_cast<double>(passing.motion.steps)});
+        table.rows.push_back({by_speed ? given : kMissed, by_speed ? kMissed : given, force, speed,
+                              expected, static_cast<double>(passing.motion.steps)});
         if (passing.found)
             error = std::max(error, std::abs(passing.force_f0 - expected));
         else
@@ -105,21 +105,36 @@ void measure(const Plan& plan, const MuscleRun& run, const std::vector<Passing>&
     const Shortening found = shortening_of(passings);
     if (found.speed.size() < 2) return;
     const Hill hill = hill_through(found.force_f0, found.speed);
-    const auto best = std::max_element(found.power.begin(), found.power.end()) - found.power.begin();
+    const auto best =
+        std::max_element(found.power.begin(), found.power.end()) - found.power.begin();
     outcome.measured.add("hill_a_f0/" + run.name, "F0", hill.a_f0);
     outcome.measured.add("hill_vmax/" + run.name, "vmax", hill.greatest_speed);
-    outcome.measured.add("power/" + run.name, "F0 vmax l0", found.power[static_cast<std::size_t>(best)]);
+    outcome.measured.add("power/" + run.name, "F0 vmax l0",
+                         found.power[static_cast<std::size_t>(best)]);
     outcome.measured.add("power_speed/" + run.name, "vmax",
                          found.speed[static_cast<std::size_t>(best)]);
 }
 
+/// a fl fv(v) + fp + b v of the first run between two speeds; over speed, or speed over force.
+plot::Series law_curve(const ReleasePlan& plan, double from, double to, bool over_force) {
+    plot::Series series{.label = "Hill's law", .mark = plot::Mark::kDashed};
+    for (int i = 0; i < kLawPoints; ++i) {
+        const double speed = from + (to - from) * i / (kLawPoints - 1);
+        const double force = law(plan, plan.runs.front(), speed);
+        series.x.push_back(over_force ? force : speed);
+        series.y.push_back(over_force ? -speed : force);
+    }
+    return series;
+}
+
 /// Force over the speed of the fibres, and the law there.
-plot::Chart force_velocity(const Plan& plan, const std::vector<std::vector<Passing>>& passings) {
-    plot::Chart chart{.name = "force_velocity",
-                      .title = "Force of moving fibres at " +
-                               format_number(plan.bench.at_fibre_length) + " l0",
-                      .x = {.label = "speed of the fibres / vmax (lengthening > 0)"},
-                      .y = {.label = "tension / F0"}};
+plot::Chart force_velocity(const ReleasePlan& plan,
+                           const std::vector<std::vector<Passing>>& passings) {
+    plot::Chart chart{
+        .name = "force_velocity",
+        .title = "Force of moving fibres at " + format_number(plan.bench.at_fibre_length) + " l0",
+        .x = {.label = "speed of the fibres / vmax (lengthening > 0)"},
+        .y = {.label = "tension / F0"}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
         plot::Series solid{.label = plan.runs[r].label, .mark = plot::Mark::kLine};
         for (std::size_t i = 0; i < plan.speeds.size(); ++i) {
@@ -130,10 +145,13 @@ plot::Chart force_velocity(const Plan& plan, const std::vector<std::vector<Passi
         }
         chart.series.push_back(std::move(solid));
     }
+    chart.series.push_back(law_curve(plan, std::min(-1.0, plan.speeds.front()),
+                                     std::max(0.0, plan.speeds.back()), /*over_force=*/false));
     return chart;
 }
 
-plot::Chart load_velocity(const Plan& plan, const std::vector<std::vector<Passing>>& passings) {
+plot::Chart load_velocity(const ReleasePlan& plan,
+                          const std::vector<std::vector<Passing>>& passings) {
     plot::Chart chart{.name = "load_velocity",
                       .title = "Speed of shortening against a weight",
                       .x = {.label = "load / F0"},
@@ -148,18 +166,18 @@ plot::Chart load_velocity(const Plan& plan, const std::vector<std::vector<Passin
         }
         chart.series.push_back(std::move(solid));
     }
+    chart.series.push_back(law_curve(plan, -1, 0, /*over_force=*/true));
     return chart;
 }
 
 /// How far the weights of the first run come over time.
-plot::Chart lift(const Plan& plan, const std::vector<Passing>& passings) {
+plot::Chart lift(const ReleasePlan& plan, const std::vector<Passing>& passings) {
     plot::Chart chart{.name = "lift",
                       .title = "Lift of weights: " + plan.runs.front().label,
                       .x = {.label = "time (s)"},
                       .y = {.label = "lift (mm)"}};
     for (std::size_t i = plan.speeds.size(); i < plan.releases(); ++i) {
-        plot::Series series{.label =
-                                format_number(plan.loads_f0[i - plan.speeds.size()]) + " F0"};
+        plot::Series series{.label = format_number(plan.loads_f0[i - plan.speeds.size()]) + " F0"};
         const std::vector<MuscleSample>& samples = passings[i].motion.samples;
         for (const MuscleSample& sample : samples) {
             series.x.push_back(sample.t_s);
@@ -175,7 +193,7 @@ plot::Chart lift(const Plan& plan, const std::vector<Passing>& passings) {
 
 void run_muscle_velocity(const JsonCursor& experiment, const RunOptions& options,
                          Outcome& outcome) {
-    const Plan plan = read_plan(experiment);
+    const ReleasePlan plan = read_releases(experiment);
     std::vector<std::vector<Passing>> passings(plan.runs.size(),
                                                std::vector<Passing>(plan.releases()));
     const auto each = static_cast<int>(plan.releases());

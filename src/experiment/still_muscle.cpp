@@ -25,9 +25,9 @@ double crossing(const std::vector<double>& x, const std::vector<double>& y, std:
 
 StillMuscle::StillMuscle(const body::MuscleDescription& description, double activation)
     : description_(description),
-      muscle_(body::build_muscle(
-          description, {.activation = [activation](double) { return activation; },
-                        .lengthening_m = [plate = plate_m_](double) { return *plate; }})),
+      muscle_(body::build_muscle(description,
+                                 {.activation = [activation](double) { return activation; },
+                                  .lengthening_m = [plate = plate_m_](double) { return *plate; }})),
       state_(muscle_.body.start()),
       rest_volume_(muscle_.body.volume(muscle_.body.rest)) {}
 

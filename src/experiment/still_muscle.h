@@ -48,8 +48,9 @@ std::vector<Still> still_over(const body::MuscleDescription& muscle, double acti
 
 /// Of a force over lengths.
 struct TensionPeak {
-    double force_f0 = 0, length = 0;  ///< vertex of the parabola through the greatest and its neighbours
-    double range = 0;                 ///< of lengths where force is above a share of that
+    double force_f0 = 0,
+           length = 0;  ///< vertex of the parabola through the greatest and its neighbours
+    double range = 0;   ///< of lengths where force is above a share of that
 };
 TensionPeak peak_of(const std::vector<double>& lengths, const std::vector<double>& force_f0,
                     double share);
