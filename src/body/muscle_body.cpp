@@ -105,8 +105,8 @@ MuscleBody build_muscle(const MuscleDescription& d, MuscleTask task) {
             return Rigid(Eigen::Translation3d(lengthening_m(t_s), 0, 0));
         };
     auto musculotendon = std::make_shared<muscle::Musculotendon>(
-        d.musculotendon, muscle::zajac_curves(), d.grid, rest, std::move(anchors),
-        std::move(task.activation), d.place + "/musculotendon");
+        d.musculotendon, muscle::make_curves(d.musculotendon.curves), d.grid, rest,
+        std::move(anchors), std::move(task.activation), d.place + "/musculotendon");
 
     solve::MotionSystem system(mass_kg, std::vector<char>(static_cast<std::size_t>(d.grid.size())));
     if (d.discretisation == Discretisation::kDifferences) {

@@ -54,7 +54,7 @@ void check(const MuscleParameters& p, const std::string& place) {
 
 MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     json.allow_keys({"f0_n", "optimal_length_m", "tendon_slack_m", "greatest_speed_hz",
-                     "pennation_deg", "damping"});
+                     "pennation_deg", "damping", "curves"});
     MuscleParameters p;
     p.f0_n = json.at("f0_n").number();
     p.optimal_length_m = json.at("optimal_length_m").number();
@@ -62,6 +62,7 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     if (const auto v = json.find("greatest_speed_hz")) p.greatest_speed_hz = v->number();
     if (const auto v = json.find("pennation_deg")) p.pennation_deg = v->number();
     if (const auto v = json.find("damping")) p.damping = v->number();
+    if (const auto v = json.find("curves")) p.curves = read_curve_shape(*v);
     check(p, json.place());
     return p;
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/json_cursor.h"
+#include "muscle/curve_sets.h"
 #include "muscle/muscle_curves.h"
 #include "solve/force_term.h"
 #include "tissue/solid_material.h"
@@ -32,6 +33,7 @@ struct MuscleParameters {
     double greatest_speed_hz = 10;  ///< vmax, optimal lengths per second          (0, inf)
     double pennation_deg = 0;       ///< alpha                                     [0, 90)
     double damping = 0.05;          ///< b, ratio of F0 at vmax                    [0, inf)
+    CurveShape curves = {};         ///< for make_curves
 };
 
 /// Throws Error with the field named below `place`.
