@@ -211,8 +211,8 @@ MuscleBody build_muscle(const MuscleDescription& description, MuscleTask task) {
         };
     }
     auto musculotendon = std::make_shared<muscle::Musculotendon>(
-        d.musculotendon, muscle::zajac_curves(), d.grid, rest, std::move(anchors),
-        std::move(task.activation), d.place + "/musculotendon");
+        d.musculotendon, muscle::make_curves(d.musculotendon.curves), d.grid, rest,
+        std::move(anchors), std::move(task.activation), d.place + "/musculotendon");
 
     std::vector<char> fixed(static_cast<std::size_t>(d.grid.size()));
     for (const int node : musculotendon->tied_nodes()) fixed[static_cast<std::size_t>(node)] = 1;

@@ -56,7 +56,7 @@ void check(const MuscleParameters& p, const std::string& place) {
 
 MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     json.allow_keys({"f0_n", "optimal_length_m", "tendon_slack_m", "greatest_speed_hz",
-                     "pennation_deg", "damping", "tendon"});
+                     "pennation_deg", "damping", "curves", "tendon"});
     MuscleParameters p;
     p.f0_n = json.at("f0_n").number();
     p.optimal_length_m = json.at("optimal_length_m").number();
@@ -67,6 +67,7 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     if (const auto v = json.find("tendon"))
         p.tendon = v->one_of({"elastic", "rigid"}) == "rigid" ? TendonModel::kRigid
                                                               : TendonModel::kElastic;
+    if (const auto v = json.find("curves")) p.curves = read_curve_shape(*v);
     check(p, json.place());
     return p;
 }

@@ -28,6 +28,7 @@
 
 #include "core/json_cursor.h"
 #include "muscle/anchors.h"
+#include "muscle/curve_sets.h"
 #include "muscle/muscle_curves.h"
 #include "solve/force_term.h"
 #include "tissue/solid_material.h"
@@ -44,6 +45,7 @@ struct MuscleParameters {
     double pennation_deg = 0;       ///< alpha                                     [0, 90)
     double damping = 0.05;          ///< b, ratio of F0 at vmax                    [0, inf)
     TendonModel tendon = TendonModel::kElastic;  ///< "elastic", "rigid"
+    CurveShape curves = {};                      ///< for make_curves
 };
 
 /// Throws Error with the field named below `place`.

@@ -1,5 +1,9 @@
 #include "rig/muscle_table.h"
 
+#include <cmath>
+
+#include "rig/atlas.h"
+
 namespace risorius::rig {
 
 track::ChannelTable MuscleTable::channels() const {
@@ -18,7 +22,62 @@ Eigen::VectorXd per_column(const std::vector<Muscle>& muscles, double Muscle::*v
     return Eigen::Map<Eigen::VectorXd>(out.data(), static_cast<long>(out.size()));
 }
 
+PathPoint::Body read_path_body(const JsonCursor& json) {
+    using enum PathPoint::Body;
+    const std::string name = json.one_of({"skull", "mandible", "hyoid", "eyelid", "neck", "soft"});
+    return name == "skull"      ? kSkull
+           : name == "mandible" ? kMandible
+           : name == "hyoid"    ? kHyoid
+           : name == "eyelid"   ? kEyelid
+           : name == "neck"     ? kNeck
+                                : kSoft;
+}
+
+PathPoint read_path_point(const JsonCursor& json) {
+    json.allow_keys(
+        {"xyz_mm", "skin_mm", "normal", "depth_frac", "tissue_mm", "body", "attach", "retarget"});
+    PathPoint point;
+    point.atlas = 1e-3 * json.at("xyz_mm").vec3();
+    point.body = read_path_body(json.at("body"));
+    point.attach = json.at("attach").string();
+    if (const auto depth = json.find("depth_frac")) point.depth = depth->number({0, 1.2});
+    const JsonCursor retarget = json.at("retarget");
+    retarget.allow_keys({"lm", "w", "offset_mm"});
+    point.offset = 1e-3 * retarget.at("offset_mm").vec3();
+    const std::vector<JsonCursor> ids = retarget.at("lm").items(),
+                                  weights = retarget.at("w").items();
+    if (ids.empty() || ids.size() != weights.size())
+        retarget.at("w").fail("one weight for each of " + std::to_string(ids.size()) +
+                              " landmarks");
+    double sum = 0;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        point.landmarks.emplace_back(ids[i].string(), weights[i].number({-10, 10}));
+        sum += point.landmarks.back().second;
+    }
+    // Printed with three digits; the rest goes to all alike
+    if (std::abs(sum - 1) > 0.01) retarget.at("w").fail("weights that add up to 1");
+    for (auto& [id, weight] : point.landmarks) weight /= sum;
+    return point;
+}
+
+MusclePath read_path(const JsonCursor& json) {
+    MusclePath path;
+    for (const JsonCursor& point : json.items()) path.push_back(read_path_point(point));
+    if (path.size() < 2) json.fail("at least two points");
+    return path;
+}
+
 }  // namespace
+
+MusclePath mirrored(const MusclePath& path) {
+    MusclePath out = path;
+    for (PathPoint& point : out) {
+        point.atlas.x() = -point.atlas.x();
+        point.offset.x() = -point.offset.x();
+        for (auto& [id, weight] : point.landmarks) id = mirrored_landmark(id);
+    }
+    return out;
+}
 
 Eigen::VectorXd MuscleTable::activation_s() const {
     return per_column(muscles, &Muscle::activation_s);
@@ -63,6 +122,16 @@ MuscleTable read_muscle_table(JsonCursor json) {
         muscle.activation_s = 1e-3 * item.at("t_act_ms").number({1, 1000});
         muscle.deactivation_s = 1e-3 * item.at("t_deact_ms").number({1, 1000});
         muscle.force_n = item.at("F0_N").number({0, 1e4});
+        muscle.width_m = 1e-3 * item.at("width_mm").number({0.5, 200});
+        muscle.thickness_m = 1e-3 * item.at("thickness_mm").number({0.1, 50});
+        muscle.optimal_length_m = 1e-3 * item.at("l0_mm").number({0.5, 500});
+        muscle.tendon_slack_m = 1e-3 * item.at("tendon_slack_mm").number({0, 500});
+        muscle.pennation_deg = item.at("pennation_deg").number({0, 89});
+        muscle.greatest_speed_hz = item.at("vmax_l0_per_s").number({0.1, 100});
+        muscle.rest_stretch = item.at("rest_norm_fibre_length").number({0.3, 2});
+        muscle.greatest_shortening = item.at("max_shortening_frac").number({0, 0.9});
+        for (const JsonCursor& path : item.at("paths").items())
+            muscle.paths.push_back(read_path(path));
         if (const auto tonic = item.find("tonic_rest_activation"))
             muscle.tonic = tonic->number({0, 1}) > 0;
         table.muscles.push_back(muscle);
