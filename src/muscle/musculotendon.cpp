@@ -64,10 +64,10 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     if (const auto v = json.find("greatest_speed_hz")) p.greatest_speed_hz = v->number();
     if (const auto v = json.find("pennation_deg")) p.pennation_deg = v->number();
     if (const auto v = json.find("damping")) p.damping = v->number();
-    if (const auto v = json.find("curves")) p.curves = read_curve_shape(*v);
     if (const auto v = json.find("tendon"))
         p.tendon = v->one_of({"elastic", "rigid"}) == "rigid" ? TendonModel::kRigid
                                                               : TendonModel::kElastic;
+    if (const auto v = json.find("curves")) p.curves = read_curve_shape(*v);
     check(p, json.place());
     return p;
 }

@@ -44,8 +44,8 @@ struct MuscleParameters {
     double greatest_speed_hz = 10;  ///< vmax, optimal lengths per second          (0, inf)
     double pennation_deg = 0;       ///< alpha                                     [0, 90)
     double damping = 0.05;          ///< b, ratio of F0 at vmax                    [0, inf)
-    CurveShape curves = {};         ///< for make_curves
     TendonModel tendon = TendonModel::kElastic;  ///< "elastic", "rigid"
+    CurveShape curves = {};                      ///< for make_curves
 };
 
 /// Throws Error with the field named below `place`.
