@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/detail/activation_scale.h"
 #include "render/detail/camera.h"
 #include "render/detail/framebuffer.h"
 #include "render/detail/gl_context.h"
@@ -77,6 +78,7 @@ Show show_named(const std::string& name, const std::string& place) {
 struct OffscreenView::Impl {
     Impl(const Scene& scene, const ViewOptions& view_options)
         : options(checked(view_options)),
+          look(scene.look),
           box(skin_box(scene)),
           camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
                              static_cast<double>(options.width_px) / options.height_px)),
@@ -101,8 +103,9 @@ struct OffscreenView::Impl {
         pore_map = make_pores(scene.look.seed);
 
         if (options.show == Show::kMuscles)
-            muscles = std::make_unique<MuscleLayer>(scene, camera, picture.tile_width_samples(),
-                                                    picture.tile_height_samples());
+            muscles = std::make_unique<MuscleLayer>(
+                scene, camera, options.height_px * options.supersampling,
+                picture.tile_width_samples(), picture.tile_height_samples());
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
         lights = std::make_unique<Lights>(camera, centre);
@@ -154,6 +157,7 @@ struct OffscreenView::Impl {
     }
 
     ViewOptions options;
+    Look look;
     Box box;
     Camera camera;
     PosedMarks marks;
@@ -197,6 +201,7 @@ Image OffscreenView::draw(const Pose& pose) {
     // The picture, tile by tile
     Image image(view.options.width_px, view.options.height_px);
     for (const Tile& tile : view.picture.tiles()) view.draw_tile(tile, pose, frame, image);
+    if (view.muscles) draw_activation_scale(view.look, view.options.background, image);
     return image;
 }
 

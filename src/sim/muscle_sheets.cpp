@@ -26,7 +26,7 @@ SheetSize sheet_size(double length_m, double width_m) {
 double outline(const SheetSize& size, double along) {
     const double corner = std::min(0.5 * size.width_m, 0.3 * size.length_m);
     const double gone = 1.0 - std::min(1.0, std::min(along, 1 - along) * size.length_m / corner);
-    return 1.0 - 0.45 * gone * gone;
+    return 1.0 - 0.3 * gone * gone;
 }
 
 void catmull_rom(double t, double weight[4]) {
@@ -101,7 +101,7 @@ FibreSheet::FibreSheet(const MusclePlacement& placement, const FibreBundle& bund
             stations_.push_back(mix_of<Mix>(knot_at(placement.paths[f], size_.along(row)),
                                             fibre.point_count, fibre.first_point));
         }
-        const double half = 0.5 * strands_ * outline(size_, size_.along(row));
+        const double half = 0.55 * strands_ * outline(size_, size_.along(row));
         for (int column = 0; column < size_.columns; ++column) {
             const double at = 0.5 * (strands_ - 1) + half * size_.across(column);
             if (strands_ > 1)
@@ -171,8 +171,8 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
             centre_[std::min(i + 1, centre_.size() - 1)] - centre_[i > 0 ? i - 1 : 0];
         const Vec3 sideways = tangent.cross(outward[i]).normalized();
         const double s = size_.along(row);
-        const double width =
-            fan ? 1.1 - 0.85 * smoothstep(0.1, 0.9, s) : 0.6 + 0.4 * std::sin(std::numbers::pi * s);
+        const double width = fan ? 1.35 - 1.05 * smoothstep(0.1, 0.9, s)
+                                 : 0.6 + 0.4 * std::sin(std::numbers::pi * s);
         const double half = 0.5 * size_.width_m * width * outline(size_, s);
         // Near the skin it lies as deep beside its centre line as on it.
         const double depth = (skin.closest(centre_[i])->point - centre_[i]).norm();

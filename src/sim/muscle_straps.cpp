@@ -70,7 +70,7 @@ Triangles tube(const SheetSize& size, double outward) {
 double profile(const SheetSize& size, int row, int column, const Vec2& bone_ends) {
     const double across = size.across(column), s = size.along(row);
     const double edge = std::sqrt(std::max(0.0, 1 - std::pow(across, 4)));
-    const double from = bone_ends[0] > 0 ? 0.45 : 0.2, to = bone_ends[1] > 0 ? 0.45 : 0.2;
+    const double from = bone_ends[0] > 0 ? 0.15 : 0.2, to = bone_ends[1] > 0 ? 0.15 : 0.2;
     const double begin = from + (1 - from) * smoothstep(0, 0.3, s);
     const double end = to + (1 - to) * smoothstep(0, 0.3, 1 - s);
     return edge * begin * end;
@@ -149,7 +149,7 @@ void MuscleStraps::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Hea
     const double half = 0.5 * head.size * muscle.thickness_m;
     const double ends = std::max(1.0, bone_ends.sum());
     const double tendon_m = std::clamp(head.size * muscle.tendon_slack_m / ends,
-                                       0.05 * size.length_m, 0.22 * size.length_m);
+                                       0.03 * size.length_m, 0.10 * size.length_m);
     for (int i = 0; i < size.rows; ++i) {
         for (int j = 0; j < size.columns; ++j) {
             const auto p = static_cast<std::size_t>(i * size.columns + j);

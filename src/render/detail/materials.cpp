@@ -68,9 +68,7 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const Musc
             name, surface_vertex_shader(), fragment_shader(batch.material, muscles != nullptr));
         program->use();
         if (muscles && batch.material == Material::kSkin) {
-            const Vec2 terms = muscles->distance_of_depth();
-            glUniform2f(program->location("distance_of_depth"), static_cast<float>(terms.x()),
-                        static_cast<float>(terms.y()));
+            muscles->tell(*program);
             const Vec3 tone = linear_from_srgb(look_.skin_tone);
             glUniform1f(program->location("tone"),
                         static_cast<float>(tone.dot(Vec3(0.2126, 0.7152, 0.0722))));

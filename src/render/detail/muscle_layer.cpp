@@ -52,13 +52,15 @@ constexpr std::size_t kMovingFloats = 9, kFixedFloats = 3;
 
 }  // namespace
 
-MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int width_samples,
-                         int height_samples)
+MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_samples,
+                         int width_samples, int height_samples)
     : vertex_count_(scene.muscles.rest.rows()),
       muscle_count_(scene.muscles.parts.size()),
       muscle_of_vertex_(static_cast<std::size_t>(vertex_count_), 0),
       smooth_(scene.muscles.rest, muscle_triangles(scene)),
       distance_of_depth_(depth_terms(camera.clip_from_world)),
+      right_(camera.clip_from_world.row(0).head<3>().normalized()),
+      samples_per_slope_(0.5 * picture_samples * camera.clip_from_world.row(1).head<3>().norm()),
       program_("muscle", muscle_vertex_shader(), muscle_shader()) {
     std::vector<unsigned> indices;
     for (std::size_t m = 0; m < muscle_count_; ++m) {
@@ -140,6 +142,14 @@ void MuscleLayer::upload(const Pose& pose) {
     glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(moving_.size() * sizeof(float)),
                  moving_.data(), GL_STREAM_DRAW);
+}
+
+void MuscleLayer::tell(const GlProgram& program) const {
+    glUniform2f(program.location("distance_of_depth"), static_cast<float>(distance_of_depth_.x()),
+                static_cast<float>(distance_of_depth_.y()));
+    const Eigen::Vector3f right = right_.cast<float>();
+    glUniform3fv(program.location("right"), 1, right.data());
+    glUniform1f(program.location("samples_per_slope"), static_cast<float>(samples_per_slope_));
 }
 
 void MuscleLayer::draw() const {

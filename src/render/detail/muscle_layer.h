@@ -12,8 +12,9 @@ namespace risorius::render {
 
 class MuscleLayer {
   public:
-    /// As large as the framebuffer of the picture. Throws Error for triangles that name a vertex there is not.
-    MuscleLayer(const Scene& scene, const Camera& camera, int width_samples, int height_samples);
+    /// As large as the framebuffer of a tile of the picture, which is `picture_samples` high. Throws Error for triangles that name a vertex there is not.
+    MuscleLayer(const Scene& scene, const Camera& camera, int picture_samples, int width_samples,
+                int height_samples);
     ~MuscleLayer();
     MuscleLayer(const MuscleLayer&) = delete;
     MuscleLayer& operator=(const MuscleLayer&) = delete;
@@ -24,8 +25,8 @@ class MuscleLayer {
     /// Draws the part of the picture that the frame's uniforms and the viewport are set to, and binds it to its texture units.
     void draw() const;
 
-    /// Distance along the view over depth: distance = y / (2 depth - 1 + x).
-    Vec2 distance_of_depth() const { return distance_of_depth_; }
+    /// What a program that looks into the layer has to know of the camera.
+    void tell(const GlProgram& program) const;
 
   private:
     Eigen::Index vertex_count_;
@@ -33,7 +34,9 @@ class MuscleLayer {
     std::vector<int> muscle_of_vertex_;
     SmoothNormals smooth_;
     std::vector<float> positions_, normals_, moving_;
-    Vec2 distance_of_depth_;
+    Vec2 distance_of_depth_;    ///< distance along the view = y / (2 depth - 1 + x)
+    Vec3 right_;                ///< of the camera
+    double samples_per_slope_;  ///< of the picture, across a metre a metre away
     GlProgram program_;
     GLsizei index_count_ = 0;
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;

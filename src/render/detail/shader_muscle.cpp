@@ -29,25 +29,31 @@ in vec3 flesh;
 in vec3 fibre;
 out vec4 colour;
 
-const vec3 kTendon = vec3(0.66, 0.64, 0.58);
+const vec3 kTendon = vec3(0.54, 0.52, 0.47);
+
+// Bundles of fibres run along the muscle, a millimetre wide.
+vec2 bundles(vec2 at) {
+    return vec2(noise(vec3(at.y * 900.0, at.x * 40.0, 3.0) + 200.0), noise(vec3(at.y * 2300.0, at.x * 80.0, 9.0) + 200.0));
+}
 
 void main() {
     vec3 n = normalize(normal);
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz, f = fill_direction.xyz;
 
-    // Bundles run along the muscle, a millimetre wide, and fray into the tendon.
-    float bundle = noise(vec3(fibre.y * 900.0, fibre.x * 45.0, 3.0) + 200.0);
-    float strand = noise(vec3(fibre.y * 2400.0, fibre.x * 90.0, 9.0) + 200.0);
-    float streak = 0.6 * bundle + 0.4 * strand;
-    float tendon = smoothstep(0.25, 0.75, fibre.z + 0.5 * (streak - 0.5)) * 0.85;
-    vec3 albedo = mix(flesh * (0.72 + 0.56 * streak), kTendon * (0.85 + 0.3 * strand), tendon);
+    // They stand out as ridges, and fray into the tendon.
+    vec2 here = bundles(fibre.xy), beside = bundles(fibre.xy + vec2(0.0, 0.0002));
+    float strand = here.y, streak = 0.6 * here.x + 0.4 * here.y;
+    vec3 across = dFdx(position) * dFdx(fibre.y) + dFdy(position) * dFdy(fibre.y);
+    n = normalize(n - (0.6 * (beside.x - here.x) + 0.4 * (beside.y - here.y)) * 1.1 * across / (length(across) + 1e-12));
+    float tendon = smoothstep(0.25, 0.75, fibre.z + 0.5 * (streak - 0.5)) * 0.75;
+    vec3 albedo = mix(flesh * (0.62 + 0.76 * streak), kTendon * (0.85 + 0.3 * strand), tendon);
 
     // Even light, so that the colour can be read off the scale; edges turn dark, which parts neighbours.
-    vec3 kd = vec3(clamp(dot(n, k) * 0.75 + 0.25, 0.0, 1.0)), fd = vec3(clamp(dot(n, f) * 0.7 + 0.3, 0.0, 1.0));
-    vec3 light = 0.62 * kd * key_radiance.rgb + fd * fill_radiance.rgb * 0.7 + ambient(n) * 0.9;
-    float facing = clamp(dot(n, v), 0.0, 1.0);
-    light *= 0.45 + 0.55 * smoothstep(0.0, 0.55, facing);
+    vec3 kd = vec3(clamp(dot(n, k) * 0.85 + 0.15, 0.0, 1.0)), fd = vec3(clamp(dot(n, f) * 0.7 + 0.3, 0.0, 1.0));
+    vec3 light = 0.60 * kd * key_radiance.rgb + fd * fill_radiance.rgb * 0.5 + ambient(n) * 0.5;
+    float facing = clamp(dot(normalize(normal), v), 0.0, 1.0);
+    light *= 0.30 + 0.70 * smoothstep(0.0, 0.60, facing);
     float gloss = glint(n, v, k, 0.42, 0.035) * key_radiance.r * (0.5 + strand);
     colour = vec4(clamp(albedo * light + 1.2 * gloss, 0.0, 1.0), 1.0);
 }

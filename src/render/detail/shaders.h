@@ -39,6 +39,9 @@ enum VertexAttribute {
         4  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
 };
 
+/// Share of the skin's own light where one looks straight down on a muscle.
+constexpr double kSkinOverMuscles = 0.16;
+
 std::string surface_vertex_shader();  ///< for every material
 std::string depth_vertex_shader();    ///< shadow map and occlusion
 std::string skin_shader();
