@@ -131,6 +131,22 @@ void FibreSheet::place(const Points& fibre_points, Points& grid) const {
     }
 }
 
+geom::SurfaceTree outer_skin(const rig::Head& head) {
+    std::vector<Eigen::Index> outer;
+    for (Eigen::Index f = 0; f < head.skin.rows(); ++f) {
+        const Vec3 a = head.vertices.row(head.skin(f, 0)), b = head.vertices.row(head.skin(f, 1)),
+                   c = head.vertices.row(head.skin(f, 2));
+        Vec3 away = (a + b + c) / 3;
+        away.y() *= 0.3;  // a head is more of a column than of a ball
+        away.z() -= head.mm(20);
+        if ((b - a).cross(c - a).normalized().dot(away.normalized()) > 0.2) outer.push_back(f);
+    }
+    Triangles triangles(static_cast<Eigen::Index>(outer.size()), 3);
+    for (std::size_t f = 0; f < outer.size(); ++f)
+        triangles.row(static_cast<Eigen::Index>(f)) = head.skin.row(outer[f]);
+    return {head.vertices, triangles};
+}
+
 BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig::MusclePath& path,
                      const geom::SurfaceTree& skin) {
     std::vector<Vec3> knots;
@@ -165,6 +181,8 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
 
     // A fan is widest at its origin and gathers on the coronoid process; other muscles are spindles.
     const bool fan = muscle.id.starts_with("temporalis");
+    std::vector<Vec3> flat;
+    Eigen::MatrixXd shift(size_.rows, size_.columns);
     for (int row = 0; row < size_.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
         const Vec3 tangent =
@@ -178,16 +196,30 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
         const double depth = (skin.closest(centre_[i])->point - centre_[i]).norm();
         const double follows = 1.0 - smoothstep(head.mm(14), head.mm(24), depth);
         for (int column = 0; column < size_.columns; ++column) {
-            const Vec3 flat = centre_[i] + half * size_.across(column) * sideways;
-            const Vec3 over = flat + head.mm(25) * outward[i];
-            const Vec3 on_skin = skin.closest(over)->point;
-            const auto hit = skin.cast(over, -outward[i], head.mm(60));
-            const Vec3 foot = hit ? hit->point : on_skin;
-            const double ahead = (foot - flat).dot(outward[i]);
-            const double shift = std::clamp(ahead - depth, -head.mm(18), head.mm(6));
-            offset_.push_back(flat + follows * shift * outward[i] - centre_[i]);
+            flat.push_back(centre_[i] + half * size_.across(column) * sideways);
+            const Vec3 on_skin = skin.closest(flat.back() + depth * outward[i])->point;
+            const double ahead = (on_skin - flat.back()).dot(outward[i]);
+            shift(row, column) = follows * std::clamp(ahead - depth, -head.mm(18), head.mm(6));
         }
     }
+    for (int pass = 0; pass < 6; ++pass) {  // ears and cheek bones are not its own
+        const Eigen::MatrixXd rough = shift;
+        const auto at = [&](int row, int column) {
+            return rough(std::clamp(row, 0, size_.rows - 1),
+                         std::clamp(column, 0, size_.columns - 1));
+        };
+        for (int row = 0; row < size_.rows; ++row)
+            for (int column = 0; column < size_.columns; ++column)
+                shift(row, column) =
+                    0.2 * (at(row, column) + at(row - 1, column) + at(row + 1, column) +
+                           at(row, column - 1) + at(row, column + 1));
+    }
+    for (int row = 0; row < size_.rows; ++row)
+        for (int column = 0; column < size_.columns; ++column) {
+            const auto i = static_cast<std::size_t>(row);
+            offset_.push_back(flat[static_cast<std::size_t>(row * size_.columns + column)] +
+                              shift(row, column) * outward[i] - centre_[i]);
+        }
 }
 
 void BoneSheet::place(const Rigid& mandible, Points& grid) const {

@@ -44,10 +44,13 @@ class FibreSheet {
     std::vector<Mix> columns_;   ///< rows x columns, of strands
 };
 
+/// The skin that looks outwards, at rest: without nostrils, ear canals and what else a mesh may have turned in.
+geom::SurfaceTree outer_skin(const rig::Head& head);
+
 /// A muscle that spans bones: its ends ride with them, and what is between is shared out.
 class BoneSheet {
   public:
-    /// `skin` and `skin_places` are the outer skin at rest: wide muscles near it curve as it does.
+    /// `skin` is the outer skin at rest: wide muscles near it curve as it does.
     BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig::MusclePath& path,
               const geom::SurfaceTree& skin);
 

@@ -83,7 +83,7 @@ bool on_bone(const rig::PathPoint& point) { return point.attach == "bone"; }
 MuscleStraps::MuscleStraps(const rig::Head& head, const rig::RigDescription& rig,
                            const MusclePlacement& placement, MuscleSurfaces& surfaces)
     : points_(placement.points) {
-    const geom::SurfaceTree skin(head.vertices, head.skin);
+    const geom::SurfaceTree skin = outer_skin(head);
     rest_points_.resize(static_cast<Eigen::Index>(points_.size()), 3);
     for (std::size_t f = 0; f < placement.fibres.size(); ++f)
         for (std::size_t p = 0; p < placement.paths[f].size(); ++p)
