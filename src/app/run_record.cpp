@@ -51,6 +51,7 @@ Json RunRecord::json() const {
     json["width_px"] = width_px;
     json["height_px"] = height_px;
     json["camera"] = camera;
+    json["show"] = show;
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;

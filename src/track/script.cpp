@@ -13,13 +13,14 @@ namespace {
 constexpr double kLongest_s = 3600;
 
 ScriptView read_view(const JsonCursor& json) {
-    json.allow_keys({"width_px", "height_px", "camera", "background"});
+    json.allow_keys({"width_px", "height_px", "camera", "show", "background"});
     ScriptView view;
     if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
     if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
     if (const auto v = json.find("camera"))
         view.camera = v->one_of(
             {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"});
+    if (const auto v = json.find("show")) view.show = v->one_of({"skin", "muscles"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);

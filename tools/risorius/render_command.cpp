@@ -71,6 +71,9 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
+    command->add_option("--show", options.show,
+                        "Another sight of the face: skin, or muscles, which are coloured by their "
+                        "activation under translucent skin");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
     command
         ->add_option("--quality", options.quality,
