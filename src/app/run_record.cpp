@@ -1,6 +1,7 @@
 #include "app/run_record.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/version.h"
 
@@ -17,6 +18,8 @@ SolverFigures solver_figures(const std::vector<sim::StepFigures>& history, int m
         converged += step.converged;
         out.largest_last_step_rms_mm =
             std::max(out.largest_last_step_rms_mm, 1e3 * step.last_step_rms_m);
+        out.largest_muscle_volume_error =
+            std::max(out.largest_muscle_volume_error, step.muscle_volume_error);
         out.deepest_contact_mm = std::max(out.deepest_contact_mm, 1e3 * step.contact_depth_m);
     }
     if (out.steps > 0) {
@@ -41,6 +44,8 @@ Json RunRecord::json() const {
     json["mesh"] = file(mesh);
     json["tables"] = Json::array();
     for (const File& table : tables) json["tables"].push_back(file(table));
+    json["recordings"] = Json::array();
+    for (const File& recording : recordings) json["recordings"].push_back(file(recording));
     json["seed"] = seed;
     json["fps"] = fps;
     json["frames"] = frames;
@@ -48,6 +53,7 @@ Json RunRecord::json() const {
     json["width_px"] = width_px;
     json["height_px"] = height_px;
     json["camera"] = camera;
+    json["show"] = show;
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;
@@ -60,6 +66,7 @@ Json RunRecord::json() const {
                       {"converged_share", solver.converged_share},
                       {"largest_last_step_rms_mm", solver.largest_last_step_rms_mm},
                       {"deepest_contact_mm", solver.deepest_contact_mm},
+                      {"largest_muscle_volume_error", solver.largest_muscle_volume_error},
                       {"most_inverted_tets", solver.most_inverted_tets}};
     json["frames_sha256"] = frames_sha256;
     json["warnings"] = warnings;

@@ -19,7 +19,8 @@ struct SolverFigures {
     double converged_share = 0;           ///< of the steps that reached their tolerance, ratio
     double largest_last_step_rms_mm = 0;  ///< movement of the nodes in the last iteration of a step
     double deepest_contact_mm = 0;        ///< penetration left
-    int most_inverted_tets = 0;           ///< in any frame
+    double largest_muscle_volume_error = 0;  ///< of the volume muscles, ratio
+    int most_inverted_tets = 0;              ///< in any frame
 };
 SolverFigures solver_figures(const std::vector<sim::StepFigures>& history, int most_inverted_tets);
 
@@ -34,12 +35,13 @@ struct RunRecord {
         std::string sha256;
     };
     File script, rig, mesh;
-    std::vector<File> tables;  ///< files that the rig names
+    std::vector<File> tables;      ///< files that the rig names
+    std::vector<File> recordings;  ///< and that the script does
     std::filesystem::path out;
     int seed = 1;
     int fps = 60, frames = 0, width_px = 0, height_px = 0;
     double first_frame_s = 0;  ///< 0 but for a still
-    std::string camera, background;
+    std::string camera, show, background;
     std::string quality;
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
     SolverFigures solver;

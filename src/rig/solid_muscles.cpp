@@ -1,6 +1,6 @@
 #include "rig/solid_muscles.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace risorius::rig {
 

@@ -9,6 +9,7 @@
 #include "sim/follow.h"
 #include "sim/jaw.h"
 #include "sim/lids.h"
+#include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
 #include "sim/tissue_mesh.h"
@@ -43,6 +44,13 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
         Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadRoll) * kDegree, Vec3::UnitZ()));
     motion.translate(-pivot);
     return motion;
+}
+
+// A frame that falls on a step shows that step, whatever rounding made of its time.
+double exact_step(double t_s) {
+    const double place = t_s / kStep_s;
+    const double nearest = std::round(place);
+    return std::abs(place - nearest) < 1e-6 ? nearest : place;
 }
 
 }  // namespace
@@ -80,6 +88,8 @@ struct Face::Impl {
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
+    MuscleSurfaces surfaces;
+    std::optional<MuscleStraps> straps;  // of the surfaces, when they were asked for
 
     Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
          const Quality& q, const std::string& place)
@@ -96,7 +106,12 @@ struct Face::Impl {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
-        dynamics.emplace(rig.muscles.activation_s(), rig.muscles.deactivation_s());
+        dynamics.emplace(
+            rig.muscles.activation_s(), rig.muscles.deactivation_s(),
+            muscle::ActivationLaw{.form = rig.activation.law == "smooth"
+                                              ? muscle::ActivationLaw::Form::kSmooth
+                                              : muscle::ActivationLaw::Form::kThelen2003,
+                                  .steepness = rig.activation.steepness});
         now.x = tissue.rest();
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
@@ -224,6 +239,28 @@ struct Face::Impl {
         return drive;
     }
 
+    // Where t lies between the last two steps, 0..1
+    double share_of_step(double t_s) const {
+        return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
+    }
+
+    void make_surfaces() {
+        if (straps) return;
+        straps.emplace(head, rig, tissue.muscles(), surfaces);
+        tissue.solids().add_surfaces(surfaces);
+    }
+
+    Points muscle_vertices(double share) {
+        make_surfaces();
+        const track::Drive drive = drive_between(share);
+        Points vertices = surfaces.rest;
+        const Points x = (1 - share) * before.x + share * now.x;
+        straps->place(x, mandible(drive), vertices);
+        tissue.solids().place_surfaces(x, vertices);
+        follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
+        return vertices;
+    }
+
     FacePose pose(double share) const {
         const track::Drive drive = drive_between(share);
         const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
@@ -253,49 +290,6 @@ struct Face::Impl {
         for (int side = 0; side < 2; ++side)
             out.eye_rotation[side] = out.head.linear() * gaze[side];
         return out;
-    }
-
-    // As pose().
-    MuscleShapes muscle_shapes(double share) const {
-        const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
-        const Points then = tissue.fibres().positions(before.x),
-                     here = tissue.fibres().positions(now.x);
-        const Points place = (1 - share) * then + share * here;
-        const Rigid turn = head_motion(head, drive_between(share));
-        MuscleShapes out;
-        for (const rig::Muscle& muscle : rig.muscles.muscles)
-            for (Side side : {Side::kLeft, Side::kRight}) {
-                if (side == Side::kRight && !muscle.paired) continue;
-                const int column = channels.column(muscle.id, side);
-                MuscleShape shape{
-                    .muscle = muscle.id, .side = side, .activation = activation[column]};
-                shape.fibre_width_m = head.mm(kFibreSpacing_mm);
-                std::vector<int> rows;
-                for (const muscle::Fibre& fibre : tissue.fibres().fibres()) {
-                    if (fibre.column != column) continue;
-                    shape.fibres.emplace_back(static_cast<int>(rows.size()), fibre.point_count);
-                    for (int p = 0; p < fibre.point_count; ++p)
-                        rows.push_back(fibre.first_point + p);
-                }
-                if (rows.empty()) continue;
-                shape.positions = place(rows, Eigen::all);
-                out.push_back(std::move(shape));
-            }
-        tissue.solids().add_shapes((1 - share) * before.x + share * now.x, activation, out);
-        for (MuscleShape& shape : out)
-            shape.positions = (shape.positions * turn.linear().transpose()).rowwise() +
-                              turn.translation().transpose();
-        return out;
-    }
-
-    // Where t lies between the last two steps; on a step for a time that is one but for rounding.
-    double share_at(double t_s) const {
-        return 1.0 - (static_cast<double>(steps) - exact_place(t_s));
-    }
-    static double exact_place(double t_s) {
-        const double place = t_s / kStep_s;
-        const double nearest = std::round(place);
-        return std::abs(place - nearest) < 1e-6 ? nearest : place;
     }
 };
 
@@ -336,12 +330,21 @@ void Face::start(const DriveAt& drive) {
 StepFigures Face::step(const DriveAt& drive) { return impl_->step(drive); }
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
-    while (static_cast<double>(impl_->steps) < Impl::exact_place(t_s)) impl_->step(drive);
-    return impl_->pose(impl_->share_at(t_s));
+    while (static_cast<double>(impl_->steps) < exact_step(t_s)) impl_->step(drive);
+    return impl_->pose(impl_->share_of_step(t_s));
+}
+
+const MuscleSurfaces& Face::muscle_surfaces() const {
+    impl_->make_surfaces();
+    return impl_->surfaces;
+}
+
+Points Face::muscle_vertices_at(double t_s) const {
+    return impl_->muscle_vertices(impl_->share_of_step(t_s));
 }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double share = impl_->share_at(t_s);
+    const double share = impl_->share_of_step(t_s);
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 
@@ -372,11 +375,6 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
                 impl_->tissue.fibres().set_f0(static_cast<int>(f),
                                               factor * impl_->tissue.fibres().fibres()[f].f0_n);
     }
-}
-
-MuscleShapes Face::muscle_shapes() const { return impl_->muscle_shapes(1.0); }
-MuscleShapes Face::muscle_shapes_at(double t_s) const {
-    return impl_->muscle_shapes(impl_->share_at(t_s));
 }
 
 std::vector<SolidFigures> Face::solid_figures() const {

@@ -19,6 +19,7 @@
 #include "sim/contact_search.h"
 #include "sim/jaw.h"
 #include "sim/lids.h"
+#include "sim/muscle_placement.h"
 #include "sim/muscle_solids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
@@ -78,7 +79,8 @@ class FaceTissue {
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
-    const Eigen::VectorXd& mass() const { return mass_; }  ///< per node, kg
+    const MusclePlacement& muscles() const { return muscles_; }  ///< at rest
+    const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
 
   private:
     struct LidTether {
@@ -112,6 +114,7 @@ class FaceTissue {
     std::optional<tissue::TetSolid> tets_;
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
     ContactSearch search_;
     tissue::Contacts contacts_;

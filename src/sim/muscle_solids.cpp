@@ -99,7 +99,6 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
             muscle::zajac_curves(curves));
         part.hessian = std::make_unique<solve::HessianBuilder>(grid.size(), std::vector<char>{});
         part.start = part.rest;
-        build_surface(part);
         parts_.push_back(std::move(part));
     }
 }
@@ -515,7 +514,7 @@ double MuscleSolids::greatest_volume_error(const Points& x) const {
 }
 
 // A smooth tube: contours of the grid's border, twice as fine around and three times along, closed by a fan at both ends.
-void MuscleSolids::build_surface(Part& part) const {
+void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
     constexpr int kAround = 2, kAlong = 3;
     const tissue::GridShape& grid = part.place.grid;
     std::vector<std::pair<int, int>> border;  // n, o; from inside to outside seen along the fibres
@@ -564,32 +563,65 @@ void MuscleSolids::build_surface(Part& part) const {
                                  1.0 / around);
     part.surface.resize(slabs * ring + 2, grid.size());
     part.surface.setFromTriplets(entries.begin(), entries.end());
-    part.triangles.resize(2L * ring * (slabs - 1) + 2L * ring, 3);
+    Triangles triangles(2L * ring * (slabs - 1) + 2L * ring, 3);
     long f = 0;
     for (int r = 0; r < ring; ++r) {
         const int next = (r + 1) % ring;
         for (int s = 0; s + 1 < slabs; ++s) {
             const int a = s * ring + r, b = s * ring + next, c = a + ring, d = b + ring;
-            part.triangles.row(f++) << a, c, b;
-            part.triangles.row(f++) << b, c, d;
+            triangles.row(f++) << a, b, c;
+            triangles.row(f++) << b, d, c;
         }
-        part.triangles.row(f++) << slabs * ring, r, next;
-        part.triangles.row(f++) << slabs * ring + 1, (slabs - 1) * ring + next,
-            (slabs - 1) * ring + r;
+        triangles.row(f++) << slabs * ring, next, r;
+        triangles.row(f++) << slabs * ring + 1, (slabs - 1) * ring + r, (slabs - 1) * ring + next;
     }
+
+    // Along and across the fibres; tendon where a muscle with one meets bone
+    const Points rest = part.surface * part.rest;
+    TexCoords fibre(rest.rows(), 2);
+    std::vector<double> tendon(static_cast<std::size_t>(rest.rows()), 0.0);
+    std::vector<double> length{0.0};
+    for (int s = 1; s < slabs; ++s)
+        length.push_back(length.back() + (rest.middleRows(s * ring, ring).colwise().mean() -
+                                          rest.middleRows((s - 1) * ring, ring).colwise().mean())
+                                             .norm());
+    const rig::Muscle& muscle = *part.place.muscle;
+    const bool bone_ends[2] = {on_bone(part.place.node.front()), on_bone(part.place.node.back())};
+    for (int s = 0; s < slabs; ++s) {
+        double around_m = 0;
+        for (int r = 0; r < ring; ++r) {
+            const int row = s * ring + r;
+            if (r > 0) around_m += (rest.row(row) - rest.row(row - 1)).norm();
+            const double along = length[static_cast<std::size_t>(s)];
+            fibre.row(row) << along, around_m;
+            const double from_bone =
+                std::min(bone_ends[0] ? along : 1e9, bone_ends[1] ? length.back() - along : 1e9);
+            const double tendon_m = std::min(0.5 * muscle.tendon_slack_m, 0.12 * length.back());
+            tendon[static_cast<std::size_t>(row)] =
+                1 - smoothstep(0.5 * tendon_m, 1.5 * tendon_m + 1e-9, from_bone);
+        }
+    }
+    for (int end = 0; end < 2; ++end) {
+        const int middle = slabs * ring + end, beside = end == 0 ? 0 : (slabs - 1) * ring;
+        fibre.row(middle) = fibre.row(beside);
+        tendon[static_cast<std::size_t>(middle)] = tendon[static_cast<std::size_t>(beside)];
+    }
+    part.first_vertex = surfaces.rest.rows();
+    surfaces.add(
+        surfaces.of(muscle.id, muscle.paired ? std::optional(part.place.side) : std::nullopt,
+                    part.place.column),
+        rest, fibre, tendon, triangles);
 }
 
-void MuscleSolids::add_shapes(const Points& x, const Eigen::VectorXd& activation,
-                              MuscleShapes& out) const {
+void MuscleSolids::add_surfaces(MuscleSurfaces& surfaces) {
+    for (Part& part : parts_) add_surface(part, surfaces);
+}
+
+void MuscleSolids::place_surfaces(const Points& x, Points& vertices) const {
     Points local;
     for (const Part& part : parts_) {
         take(part, x, local);
-        MuscleShape shape{.muscle = part.place.muscle->id,
-                          .side = part.place.side,
-                          .activation = activation[part.place.column]};
-        shape.positions = part.surface * local;
-        shape.triangles = part.triangles;
-        out.push_back(std::move(shape));
+        vertices.middleRows(part.first_vertex, part.surface.rows()) = part.surface * local;
     }
 }
 

@@ -21,7 +21,7 @@
 #include "muscle/chain_set.h"
 #include "sim/attachments.h"
 #include "sim/muscle_placement.h"
-#include "sim/muscle_shapes.h"
+#include "sim/muscle_surface.h"
 #include "sim/solid_placement.h"
 #include "solve/hessian_builder.h"
 #include "solve/sparse_cholesky.h"
@@ -88,8 +88,9 @@ class MuscleSolids {
                         const Eigen::VectorXd& activation) const;
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     double greatest_volume_error(const Points& x) const;  ///< ratio
-    /// Surfaces; activations are read from `activation`.
-    void add_shapes(const Points& x, const Eigen::VectorXd& activation, MuscleShapes& out) const;
+    /// Smooth surfaces of all muscles for drawing; then, wherever they are, their rows of `vertices`.
+    void add_surfaces(MuscleSurfaces& surfaces);
+    void place_surfaces(const Points& x, Points& vertices) const;
 
   private:
     struct Part {
@@ -101,7 +102,7 @@ class MuscleSolids {
         mutable Points x, gradient;
         Eigen::SparseMatrix<double, Eigen::RowMajor>
             surface;  ///< points of the skin of the muscle by nodes
-        Triangles triangles;
+        Eigen::Index first_vertex = 0;
     };
     struct Binding {
         int tissue[4];
@@ -127,7 +128,7 @@ class MuscleSolids {
         mutable std::vector<double> b, y;
     };
     void build_parts(const rig::RigDescription& rig);
-    void build_surface(Part& part) const;
+    void add_surface(Part& part, MuscleSurfaces& surfaces) const;
     void bind(const TissueLocator& locator, const TissueMesh& mesh,
               std::vector<Attachment>& attachments);
     void take(const Part& part, const Points& x, Points& local) const;

@@ -14,7 +14,7 @@ using rig::MusclePath;
 using rig::PathPoint;
 
 constexpr double kEndThickness = 0.55;   // of a belly's thickness, at both ends
-constexpr double kUnderSkin_m = 1.2e-3;  // the least depth of a muscle's surface
+constexpr double kSkinCover_m = 1.2e-3;  // the least depth of a muscle's surface
 constexpr double kCornerHalfWidth_m = 1.5e-3, kCornerOpening = 0.22;  // of the ring round the mouth
 constexpr const char* kUpperRing = "orbicularis_oris_upper_peripheral";
 constexpr const char* kLowerRing = "orbicularis_oris_lower_peripheral";
@@ -110,7 +110,7 @@ class Placer {
         : head_(head), rig_(rig), jaw_(jaw), locator_(locator), channels_(rig.channels()) {}
 
     SolidPlacement place() {
-        const bool ring = find(kUpperRing) && find(kLowerRing);
+        const bool ring = rig_.solid(kUpperRing) && rig_.solid(kLowerRing);
         for (const rig::SolidMuscle& solid : rig_.solids) {
             const rig::Muscle& muscle = muscle_of(solid);
             if (ring && (muscle.id == kUpperRing || muscle.id == kLowerRing)) continue;
@@ -120,16 +120,11 @@ class Placer {
             for (const MusclePath& path : muscle.paths) right.push_back(rig::mirrored(path));
             lay(solid, muscle, Side::kRight, right);
         }
-        if (ring) lay_ring(*find(kUpperRing), *find(kLowerRing));
+        if (ring) lay_ring(*rig_.solid(kUpperRing), *rig_.solid(kLowerRing));
         return std::move(out_);
     }
 
   private:
-    const rig::SolidMuscle* find(const std::string& id) const {
-        for (const rig::SolidMuscle& solid : rig_.solids)
-            if (solid.muscle == id) return &solid;
-        return nullptr;
-    }
     const rig::Muscle& muscle_of(const rig::SolidMuscle& solid) const {
         return *std::find_if(rig_.muscles.muscles.begin(), rig_.muscles.muscles.end(),
                              [&](const rig::Muscle& m) { return m.id == solid.muscle; });
@@ -173,7 +168,7 @@ class Placer {
     void keep_under_skin(Vec3& p) const {
         const TissueLocator::Column column = locator_.column_at(p);
         const double depth = (column.skin - p).dot(column.outward);
-        const double least = head_.size * kUnderSkin_m;
+        const double least = head_.size * kSkinCover_m;
         if (depth < least && (p - column.skin).norm() < head_.mm(6))
             p -= (least - depth) * column.outward;
     }
