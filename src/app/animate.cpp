@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/frame_table.h"
@@ -16,6 +17,7 @@
 #include "media/video_writer.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
+#include "track/simulated_emg.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -88,10 +90,13 @@ std::vector<std::string> warnings_about(const track::ScriptDescription& script,
     return out;
 }
 
-RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFiles& files,
+RunRecord describe(const AnimateOptions& options, const Shot& shot,
+                   const track::ScriptDescription& script, const RigFiles& files,
                    const sim::Face& face) {
     RunRecord record;
     record.script = {options.script, media::sha256_of_file(options.script)};
+    for (const fs::path& recording : script.recordings)
+        record.recordings.push_back({recording, media::sha256_of_file(recording)});
     record.rig = {files.file, media::sha256_of_file(files.file)};
     record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
     for (const fs::path& table : files.rig.table_files)
@@ -137,15 +142,18 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
     render::OffscreenView view(scene, shot.view);
     Output output(options.out, shot, options.still_s.has_value());
-    RunRecord record = describe(options, shot, files, face);
+    RunRecord record = describe(options, shot, script, files, face);
     record.warnings = warnings_about(script, files.rig.muscles);
     record.timing.build_s = total.seconds();
 
     // One picture per frame
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
-    FrameTable table(channels, LandmarkPoints(face.head(), files.rig),
-                     {.landmarks = options.landmarks,
-                      .project = [&](const Vec3& world) { return view.project(world); }});
+    FrameTableOptions columns{.landmarks = options.landmarks,
+                              .project = [&](const Vec3& world) { return view.project(world); },
+                              .emg = {}};
+    track::SimulatedEmg emg(channels, drive);
+    if (options.emg) columns.emg = [&](double t_s) { return emg.at(t_s); };
+    FrameTable table(channels, LandmarkPoints(face.head(), files.rig), std::move(columns));
     media::Sha256 hash;
     int most_inverted_tets = 0;
     const auto simulate = [&](int frame) {

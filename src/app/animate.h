@@ -26,6 +26,7 @@ struct AnimateOptions {
     std::optional<double> still_s;    ///< one picture, of this time, instead of a video
     std::string quality = "video";    ///< sim::quality_named
     bool landmarks = false;           ///< their places in the table
+    bool emg = false;                 ///< what electrodes would record, in the table
     int threads = 2;                  ///< 1, or more to simulate beside drawing; same frames
 };
 

@@ -34,7 +34,8 @@ struct RunRecord {
         std::string sha256;
     };
     File script, rig, mesh;
-    std::vector<File> tables;  ///< files that the rig names
+    std::vector<File> tables;      ///< files that the rig names
+    std::vector<File> recordings;  ///< and that the script does
     std::filesystem::path out;
     int seed = 1;
     int fps = 60, frames = 0, width_px = 0, height_px = 0;

@@ -106,7 +106,12 @@ struct Face::Impl {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
-        dynamics.emplace(rig.muscles.activation_s(), rig.muscles.deactivation_s());
+        dynamics.emplace(
+            rig.muscles.activation_s(), rig.muscles.deactivation_s(),
+            muscle::ActivationLaw{.form = rig.activation.law == "smooth"
+                                              ? muscle::ActivationLaw::Form::kSmooth
+                                              : muscle::ActivationLaw::Form::kThelen2003,
+                                  .steepness = rig.activation.steepness});
         now.x = mesh.nodes;
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;

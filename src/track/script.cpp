@@ -1,7 +1,9 @@
 #include "track/script.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "track/emg_source.h"
 #include "track/timeline.h"
 
 namespace risorius::track {
@@ -9,8 +11,6 @@ namespace risorius::track {
 namespace {
 
 constexpr double kLongest_s = 3600;
-
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
 ScriptView read_view(const JsonCursor& json) {
     json.allow_keys({"width_px", "height_px", "camera", "show", "background"});
@@ -40,8 +40,8 @@ ScriptView read_view(const JsonCursor& json) {
 }
 
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys(
-        {"format", "version", "rig", "fps", "duration_s", "seed", "channels", "events", "view"});
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "channels", "emg",
+                     "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
@@ -235,6 +235,10 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())
             script.channels.push_back(reader.channel(table->at(name), name));
+    if (const auto emg = json.find("emg")) {
+        script.emg = read_emg(*emg, channels);
+        script.recordings.push_back(emg->at("file").path());
+    }
     if (const auto events = json.find("events"))
         for (const JsonCursor& event : events->items()) {
             if (event.has("expression") == event.has("blink"))

@@ -67,11 +67,20 @@ struct BlinkEvent {
     Expansion drives;  ///< of AU45 at this intensity
 };
 
+/// Excitation from a recorded electromyogram, [min of the muscle, 1].
+struct EmgTrack {
+    std::string muscle;  ///< "zygomaticus_major.l"
+    SampledCurve excitation;
+    Expansion drives;  ///< what it at 1 adds
+};
+
 struct ScriptDescription {
     ScriptHeader header;
     std::vector<ChannelTrack> channels;
+    std::vector<EmgTrack> emg;
     std::vector<ExpressionEvent> expressions;
     std::vector<BlinkEvent> blinks;
+    std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
 };
 
 /// Reads the header and leaves channels and events for later. Throws Error.
