@@ -39,11 +39,11 @@ double blend_slope(double t) { return t <= 0 || t >= 1 ? 0.0 : 6 * t * (1 - t); 
 
 }  // namespace
 
-JawVector Wrench::along(const JawPose& pose) const {
+JawVector along(const JawPose& pose, const Wrench& wrench) {
     JawVector work = JawVector::Zero();
-    const Vec3 moment = moment_n_m - pose.centre.cross(force_n);
+    const Vec3 torque = wrench.torque_nm - pose.centre.cross(wrench.force_n);
     for (int k = 0; k < kMandibleCoordinates; ++k)
-        work[k] = force_n.dot(pose.shift[k]) + moment.dot(pose.turn[k]);
+        work[k] = wrench.force_n.dot(pose.shift[k]) + torque.dot(pose.turn[k]);
     return work;
 }
 

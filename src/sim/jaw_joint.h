@@ -18,6 +18,7 @@
 #include "core/types.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
+#include "sim/wrench.h"
 
 namespace risorius::sim {
 
@@ -39,17 +40,8 @@ struct JawPose {
     }
 };
 
-/// A force on the mandible and its moment about the origin of the head frame.
-struct Wrench {
-    Vec3 force_n = Vec3::Zero();
-    Vec3 moment_n_m = Vec3::Zero();
-    void add(const Vec3& force, const Vec3& place) {
-        force_n += force;
-        moment_n_m += place.cross(force);
-    }
-    /// Its work per m of each coordinate of the mandible.
-    JawVector along(const JawPose& pose) const;
-};
+/// What a wrench on the mandible does per m of each of its coordinates, N.
+JawVector along(const JawPose& pose, const Wrench& wrench);
 
 /// The jaw as measured.
 struct JawPlace {
