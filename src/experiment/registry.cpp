@@ -1,14 +1,19 @@
 #include "experiment/registry.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/force_curves.h"
 #include "experiment/hanging_curve.h"
 #include "experiment/implicit_steps.h"
+#include "experiment/muscle_history.h"
 #include "experiment/muscle_stability.h"
+#include "experiment/muscle_statics.h"
+#include "experiment/muscle_velocity.h"
 #include "experiment/stable_step.h"
 #include "experiment/static_resolution.h"
 #include "experiment/volume_history.h"
@@ -28,6 +33,10 @@ const std::vector<NamedKind>& kind_table() {
         {"static-resolution", run_static_resolution},
         {"stable-step", run_stable_step},
         {"muscle-stability", run_muscle_stability},
+        {"muscle-statics", run_muscle_statics},
+        {"muscle-history", run_muscle_history},
+        {"muscle-velocity", run_muscle_velocity},
+        {"muscle-curves", run_muscle_curves},
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
         {"hanging-curve", run_hanging_curve},
@@ -49,6 +58,9 @@ const std::vector<Figure>& figures() {
         {"8f", "Inhomogeneous anisotropic block held at both sides", "equilibrium", 2},
         {"9a", "Change of the sum of volume elements", "volume-history", 18},
         {"9b", "Change of volume", "volume-history", 18},
+        {"10", "Muscle at rest, and shortened and activated", "muscle-statics", 1},
+        {"11a", "Zajac's tension-length experiment", "muscle-statics", 5},
+        {"11b", "Quick release after Gasser and Hill", "muscle-history", 6},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 12},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
          "muscle-stability", 50},
@@ -57,6 +69,15 @@ const std::vector<Figure>& figures() {
          Origin::kBeyond},
         {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2,
          Origin::kBeyond},
+        {"muscle-curves", "Published force curves of muscle side by side", "muscle-curves", 1,
+         Origin::kBeyond},
+        {"force-velocity", "Force of a muscle that shortens or lengthens", "muscle-velocity", 2,
+         Origin::kBeyond},
+        {"isotonic", "Isotonic contraction: lifting weights", "muscle-velocity", 2,
+         Origin::kBeyond},
+        {"twitch", "Twitch, and twitches that fuse to a tetanus", "muscle-history", 3,
+         Origin::kBeyond},
+        {"pennation", "What the angle of the fibres does", "muscle-statics", 3, Origin::kBeyond},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30,
          Origin::kBeyond},
         {"adaptive", "Resolution where the strain asks for it", "adaptive", 10, Origin::kBeyond},

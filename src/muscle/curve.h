@@ -6,6 +6,12 @@
 //   cubic         c0 + c1 u + c2 u^2 + c3 u^3
 //   exponential   c0 + c1 u + c2 (e^{k u} - 1)
 //   hyperbola     c0 + c1 u + c2 / (1 + k u)
+//   gaussian      c0 + c1 u + c2 e^{-(k u)^2}
+//   corner        C2, from one straight line into another: a Bezier curve of fifth order in a parameter s, 0..1, through
+//                 (0, c0), twice the point the ratio k of the way from there to the corner (c2, c3), twice the point the
+//                 ratio k of the way from the end (end - origin, c1) to the corner, and the end. x(s) is inverted to the
+//                 last bit by Newton's method; the integral of y dx is a polynomial in s.
+//                 Source of the corner: M. Millard et al. 2013, J. Biomech. Eng. 135(2), 021005.
 #pragma once
 
 #include <limits>
@@ -14,7 +20,7 @@
 namespace risorius::muscle {
 
 struct CurvePiece {
-    enum class Form { kCubic, kExponential, kHyperbola };
+    enum class Form { kCubic, kExponential, kHyperbola, kGaussian, kCorner };
 
     double end = std::numeric_limits<double>::infinity();  ///< it holds up to here
     double origin = 0;
@@ -30,6 +36,10 @@ CurvePiece line_piece(double x, double f, double slope,
                       double end = std::numeric_limits<double>::infinity());
 /// From (x0, 0) with slope 0 to (x1, height): height (e^{k s} - 1 - k s) / (e^k - 1 - k), s = (x - x0) / (x1 - x0).
 CurvePiece toe_piece(double x0, double x1, double height, double k);
+/// From (x0, f0) with slope s0 to (x1, f1) with slope s1, both ends without curvature: a line for `roundness` near 0,
+/// wide arcs for 1, (0, 1). Throws std::invalid_argument when the lines through the ends do not meet between x0 and x1.
+CurvePiece corner_piece(double x0, double f0, double s0, double x1, double f1, double s1,
+                        double roundness);
 
 class Curve {
   public:

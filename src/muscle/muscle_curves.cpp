@@ -3,29 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "muscle/detail/hill_branch.h"
 
 namespace risorius::muscle {
 
 namespace {
-
-// Shortening faster than kFadeBegin leaves Hill's hyperbola and reaches zero force, with zero slope, at kFadeEnd.
-constexpr double kFadeBegin = -0.9;
-constexpr double kFadeEnd = -1.1;
 
 void require(bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("zajac_curves: ") + what);
 }
 
 Curve active_curve(const std::vector<std::pair<double, double>>& points) {
-    require(points.size() >= 3, "three points or more for the active curve");
+    require(points.size() >= 3, "three active_points or more");
     const std::size_t n = points.size();
     std::size_t peak = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        require(std::isfinite(points[i].first) && points[i].second >= 0, "active points >= 0");
-        require(i == 0 || points[i].first > points[i - 1].first, "active points of growing length");
+        require(std::isfinite(points[i].first) && points[i].second >= 0, "active_points >= 0");
+        require(i == 0 || points[i].first > points[i - 1].first, "active_points of growing length");
         if (points[i].second > points[peak].second) peak = i;
     }
-    require(peak > 0 && peak + 1 < n, "the peak of the active curve between its ends");
+    require(peak > 0 && peak + 1 < n, "the peak of active_points between their ends");
 
     std::vector<double> slope(n, 0.0);
     for (std::size_t i = 1; i + 1 < n; ++i)
@@ -50,24 +49,10 @@ Curve toe_curve(double x0, double x1, double height, double k) {
 }
 
 Curve velocity_curve(double a, double most) {
-    const double value = (1 + kFadeBegin) / (1 - kFadeBegin / a);
-    const double slope = (1 + 1 / a) / ((1 - kFadeBegin / a) * (1 - kFadeBegin / a));
-    // Hill's (1 + v) / (1 - v / a) = -a + a (1 + a) / (a - v), counted from kFadeBegin.
-    const double reach = a - kFadeBegin;
-    const CurvePiece shortening = {.end = 0,
-                                   .origin = kFadeBegin,
-                                   .form = CurvePiece::Form::kHyperbola,
-                                   .c0 = -a,
-                                   .c2 = a * (1 + a) / reach,
-                                   .k = -1 / reach};
+    std::vector<CurvePiece> pieces = hill_branch(a);
     // The rate that gives both hyperbolas the slope 1 + 1/a at v = 0.
-    const CurvePiece lengthening = {.form = CurvePiece::Form::kHyperbola,
-                                    .c0 = most,
-                                    .c2 = -(most - 1),
-                                    .k = (1 + 1 / a) / (most - 1)};
-    return Curve({line_piece(kFadeEnd, 0, 0, kFadeEnd),
-                  hermite_piece(kFadeEnd, 0, 0, kFadeBegin, value, slope), shortening, lengthening},
-                 0);
+    pieces.push_back(lengthening_piece(most, (1 + 1 / a) / (most - 1)));
+    return Curve(std::move(pieces), 0);
 }
 
 Curve tendon_curve(double strain, double toe_force, double k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace risorius::rig {
 
@@ -28,6 +29,11 @@ void visit_fields(EyesDescription& eyes, Visit visit) {
     visit("lower_lid_per_gaze_up", eyes.lower_lid_per_gaze_up, Range{0, 2});
     visit("wide_deg", eyes.wide_deg, Range{0, 45});
     visit("lid_closed_share", eyes.lid_closed_share, Range{0.5, 1});
+}
+template <typename Visit>
+void visit_fields(ActivationDescription& activation, Visit visit) {
+    visit("law", activation.law, {"thelen2003", "smooth"});
+    visit("steepness", activation.steepness, Range{0.1, 1000});
 }
 template <typename Visit>
 void visit_fields(TissueDescription& tissue, Visit visit) {
@@ -72,11 +78,18 @@ struct FieldReader {
         if (const auto found = json.find(key))
             value = found->integer(0, std::numeric_limits<int>::max());
     }
+    void operator()(const char* key, std::string& value,
+                    const std::vector<std::string_view>& choices) const {
+        if (const auto found = json.find(key)) value = found->one_of(choices);
+    }
 };
 struct FieldKeys {
     std::vector<std::string_view>& keys;
     template <typename... Rest>
     void operator()(const char* key, Rest&&...) const {
+        keys.push_back(key);
+    }
+    void operator()(const char* key, std::string&, const std::vector<std::string_view>&) const {
         keys.push_back(key);
     }
 };
@@ -87,6 +100,10 @@ struct FieldWriter {
         json[key] = {value.x(), value.y(), value.z()};
     }
     void operator()(const char* key, int& value) const { json[key] = value; }
+    void operator()(const char* key, std::string& value,
+                    const std::vector<std::string_view>&) const {
+        json[key] = value;
+    }
 };
 
 template <typename T>
@@ -175,7 +192,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
-                        "strength", "jaw", "eyes"});
+                        "strength", "jaw", "eyes", "activation"});
     rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
@@ -205,6 +222,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
+    read_fields(anatomy, "activation", rig.activation);
     read_fields(json, "tissue", rig.tissue);
     read_fields(json, "skin", rig.skin);
     read_fields(json, "look", rig.look);
@@ -254,6 +272,8 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     anatomy["strength"] = strength;
     anatomy["jaw"] = fields_of(rig.jaw);
     anatomy["eyes"] = fields_of(rig.eyes);
+    if (rig.activation.law != ActivationDescription().law)
+        anatomy["activation"] = fields_of(rig.activation);
     json["anatomy"] = anatomy;
     json["tissue"] = fields_of(rig.tissue);
     json["skin"] = fields_of(rig.skin);

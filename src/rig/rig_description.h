@@ -49,6 +49,12 @@ struct EyesDescription {
         0.96;  ///< share of the fissure the upper lid travels, the lower does the rest
 };
 
+/// How activation follows excitation, for every muscle; laws as in muscle/activation.h, times in the muscle table.
+struct ActivationDescription {
+    std::string law = "thelen2003";  ///< or "smooth"
+    double steepness = 10;           ///< of the smooth law's change from growing to returning
+};
+
 /// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
 struct TissueDescription {
     double deep_shear_pa = 1000;
@@ -93,6 +99,7 @@ struct RigDescription {
     MuscleTable muscles;
     JawDescription jaw;
     EyesDescription eyes;
+    ActivationDescription activation;
     TissueDescription tissue;
     SkinDescription skin;
     track::FacsTable facs;

@@ -11,6 +11,7 @@
 #include "sim/jaw_dynamics.h"
 #include "sim/jaw_synergies.h"
 #include "sim/lids.h"
+#include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
 #include "sim/tissue_mesh.h"
@@ -45,6 +46,13 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
         Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadRoll) * kDegree, Vec3::UnitZ()));
     motion.translate(-pivot);
     return motion;
+}
+
+// A frame that falls on a step shows that step, whatever rounding made of its time.
+double exact_step(double t_s) {
+    const double place = t_s / kStep_s;
+    const double nearest = std::round(place);
+    return std::abs(place - nearest) < 1e-6 ? nearest : place;
 }
 
 }  // namespace
@@ -86,6 +94,8 @@ struct Face::Impl {
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
+    MuscleSurfaces surfaces;
+    std::optional<MuscleStraps> straps;  // of the surfaces, when they were asked for
 
     Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
          const Quality& q, const std::string& place)
@@ -103,7 +113,12 @@ struct Face::Impl {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
-        dynamics.emplace(rig.muscles.activation_s(), rig.muscles.deactivation_s());
+        dynamics.emplace(
+            rig.muscles.activation_s(), rig.muscles.deactivation_s(),
+            muscle::ActivationLaw{.form = rig.activation.law == "smooth"
+                                              ? muscle::ActivationLaw::Form::kSmooth
+                                              : muscle::ActivationLaw::Form::kThelen2003,
+                                  .steepness = rig.activation.steepness});
         now.x = mesh.nodes;
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
@@ -264,12 +279,35 @@ struct Face::Impl {
         return figures;
     }
 
-    FacePose pose(double share) const {
-        // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    track::Drive drive_between(double share) const {
         track::Drive drive = now.drive;
         for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
             drive.kinematic[k] =
                 (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
+        return drive;
+    }
+
+    // Where t lies between the last two steps, 0..1
+    double share_of_step(double t_s) const {
+        return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
+    }
+
+    void make_surfaces() {
+        if (!straps) straps.emplace(head, rig, tissue.muscles(), surfaces);
+    }
+
+    Points muscle_vertices(double share) {
+        make_surfaces();
+        const track::Drive drive = drive_between(share);
+        Points vertices = surfaces.rest;
+        straps->place((1 - share) * before.x + share * now.x, mandible(drive), vertices);
+        follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
+        return vertices;
+    }
+
+    FacePose pose(double share) const {
+        const track::Drive drive = drive_between(share);
         const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
         Points displacement(static_cast<long>(shell.vertex.size()), 3);
         for (long v = 0; v < displacement.rows(); ++v) {
@@ -349,19 +387,21 @@ void Face::start(const DriveAt& drive) {
 StepFigures Face::step(const DriveAt& drive) { return impl_->step(drive); }
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
-    // A frame that falls on a step shows that step, whatever rounding made of its time.
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    while (static_cast<double>(impl_->steps) < exact) impl_->step(drive);
-    return impl_->pose(1.0 - (static_cast<double>(impl_->steps) - exact));
+    while (static_cast<double>(impl_->steps) < exact_step(t_s)) impl_->step(drive);
+    return impl_->pose(impl_->share_of_step(t_s));
+}
+
+const MuscleSurfaces& Face::muscle_surfaces() const {
+    impl_->make_surfaces();
+    return impl_->surfaces;
+}
+
+Points Face::muscle_vertices_at(double t_s) const {
+    return impl_->muscle_vertices(impl_->share_of_step(t_s));
 }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    const double share = 1.0 - (static_cast<double>(impl_->steps) - exact);
+    const double share = impl_->share_of_step(t_s);
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 

@@ -14,6 +14,7 @@
 #include "rig/head.h"
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
+#include "sim/muscle_surface.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -76,6 +77,12 @@ class Face {
     double time_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
     Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
+
+    /// The muscles as surfaces, made when first asked for, and where their vertices are at the time of the pose: after
+    /// pose_at(t_s), with the head's own turn.
+    const MuscleSurfaces& muscle_surfaces() const;
+    Points muscle_vertices_at(double t_s) const;
+
     int node_count() const;
     int tet_count() const;
     int inverted_tets() const;

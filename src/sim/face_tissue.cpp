@@ -37,8 +37,8 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_tethers();
     muscle::HillShape hill;
     hill.passive_strain = rig_.tissue.fibre_passive_strain;
-    const MusclePlacement muscles = place_muscles(head_, rig_, shell_, mesh_);
-    fibres_.emplace(muscles.points, muscles.fibres, mesh_.nodes, hill);
+    muscles_ = place_muscles(head_, rig_, shell_, mesh_);
+    fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
     find_cheeks();
     mass_ = tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes());
     solve::MetricBuilder laplacian(nodes());

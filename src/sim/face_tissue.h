@@ -20,6 +20,7 @@
 #include "sim/jaw.h"
 #include "sim/jaw_dynamics.h"
 #include "sim/lids.h"
+#include "sim/muscle_placement.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
 #include "sim/wrench.h"
@@ -92,7 +93,8 @@ class FaceTissue {
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
-    const Eigen::VectorXd& mass() const { return mass_; }  ///< per node, kg
+    const MusclePlacement& muscles() const { return muscles_; }  ///< at rest
+    const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
 
   private:
     struct LidTether {
@@ -132,6 +134,7 @@ class FaceTissue {
     std::optional<tissue::TetSolid> tets_;
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
     ContactSearch search_;
     tissue::Contacts contacts_;

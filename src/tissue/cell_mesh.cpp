@@ -30,6 +30,8 @@ std::array<std::int64_t, 3> corner_of(const CellPlace& place, int deepest,
 CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_(root) {
     if (root.m < 2 || root.n < 2 || root.o < 2 || places.empty())
         throw std::invalid_argument("CellMesh: a grid of at least 2 nodes per axis is needed");
+    if (root.closed && root.m < 3)
+        throw std::invalid_argument("CellMesh: a closed grid needs at least 3 nodes along a1");
     for (const CellPlace& place : places) {
         deepest_ = std::max(deepest_, place.level);
         uniform_ = uniform_ && place.level == places.front().level;
@@ -49,7 +51,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         Cell cell;
         cell.place = place;
         for (int axis = 0; axis < 3; ++axis) {
-            const int along = (root.along(axis) - 1) << place.level;
+            const int along = root.cells(axis) << place.level;
             const auto i = static_cast<std::size_t>(axis);
             if (place.at[i] < 0 || place.at[i] >= along)
                 throw std::invalid_argument("CellMesh: a cell lies outside its grid");
@@ -64,13 +66,18 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
     if (std::abs(filled - 1) > 1e-9)
         throw std::invalid_argument("CellMesh: the cells do not fill the cube");
 
+    const auto corner_key = [&](const CellPlace& place, const std::array<int, 3>& halves) {
+        std::array<std::int64_t, 3> at = corner_of(place, deepest_, halves);
+        if (root_.closed) at[0] %= static_cast<std::int64_t>(root_.cells(0)) << (deepest_ + 1);
+        return key_of(at);
+    };
     // Vertices in the order of their coordinates, which for a uniform mesh is that of the grid
     std::vector<Key> vertices;
     vertices.reserve(8 * cells_.size());
     for (const Cell& cell : cells_)
         for (int c = 0; c < 8; ++c)
-            vertices.push_back(key_of(corner_of(
-                cell.place, deepest_, {2 * (c >> 2 & 1), 2 * (c >> 1 & 1), 2 * (c & 1)})));
+            vertices.push_back(
+                corner_key(cell.place, {2 * (c >> 2 & 1), 2 * (c >> 1 & 1), 2 * (c & 1)}));
     const std::vector<Key> corner = vertices;
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -87,7 +94,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
                 const std::array<int, 3> halves = {code / 9, code / 3 % 3, code % 3};
                 const int middles = (halves[0] == 1) + (halves[1] == 1) + (halves[2] == 1);
                 if (middles == 0) continue;
-                const int middle = find(key_of(corner_of(cells_[cell].place, deepest_, halves)));
+                const int middle = find(corner_key(cells_[cell].place, halves));
                 if (middle < 0) continue;
                 if (middles == 3) throw std::invalid_argument("CellMesh: cells overlap");
                 Hanging hanging;
@@ -131,8 +138,8 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         for (int axis = 0; axis < 3; ++axis) {
             const auto units = static_cast<double>(vertices[v] >> (21 * (2 - axis)) & 0x1fffff);
             material_(number[v], axis) =
-                units / static_cast<double>(static_cast<std::int64_t>(root.along(axis) - 1)
-                                            << (deepest_ + 1));
+                units /
+                static_cast<double>(static_cast<std::int64_t>(root.cells(axis)) << (deepest_ + 1));
         }
 }
 
@@ -202,7 +209,7 @@ int CellMesh::cell_at(const Vec3& a) const {
     for (int level = 0; level <= deepest_; ++level) {
         CellPlace place{level, {}};
         for (int axis = 0; axis < 3; ++axis) {
-            const int along = (root_.along(axis) - 1) << level;
+            const int along = root_.cells(axis) << level;
             place.at[static_cast<std::size_t>(axis)] =
                 std::clamp(static_cast<int>(std::floor(a[axis] * along)), 0, along - 1);
         }
@@ -225,7 +232,7 @@ Vec3 CellMesh::interpolate(const Points& vertices, const Vec3& a) const {
 
 CellMesh uniform_cells(const GridShape& grid) {
     std::vector<CellPlace> cells;
-    for (int i = 0; i + 1 < grid.m; ++i)
+    for (int i = 0; i < grid.cells(0); ++i)
         for (int j = 0; j + 1 < grid.n; ++j)
             for (int k = 0; k + 1 < grid.o; ++k) cells.push_back({0, {i, j, k}});
     return {grid, std::move(cells)};

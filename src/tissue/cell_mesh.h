@@ -5,6 +5,8 @@
 //   hanging  in the middle of a bigger neighbour's edge or face, hence the mean of 2 or 4 nodes, so that the body has no gap
 //   x_full = P x,  gradient = P^T gradient_full,  P = identity on nodes, 1/2 or 1/4 on hanging vertices
 //
+// A closed grid's cells go round along a1: its last cells lie between the last nodes and the first.
+//
 // Hanging vertices as constraints: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
 

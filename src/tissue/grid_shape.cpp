@@ -12,16 +12,16 @@ using Quad = std::array<int, 4>;
 /// Quads of the six faces, counter-clockwise from outside when the axes are right-handed.
 template <class Visit>
 void for_each_surface_quad(const GridShape& grid, const Visit& visit) {
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = grid.closed ? 1 : 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, w = (axis + 2) % 3;  // u, w, axis right-handed
         for (const bool high : {false, true}) {
             int at[3];
             at[axis] = high ? grid.along(axis) - 1 : 0;
-            for (int a = 0; a + 1 < grid.along(u); ++a)
-                for (int b = 0; b + 1 < grid.along(w); ++b) {
+            for (int a = 0; a < grid.cells(u); ++a)
+                for (int b = 0; b < grid.cells(w); ++b) {
                     const auto node = [&](int du, int dw) {
-                        at[u] = a + du;
-                        at[w] = b + dw;
+                        at[u] = (a + du) % grid.along(u);
+                        at[w] = (b + dw) % grid.along(w);
                         return grid.index(at[0], at[1], at[2]);
                     };
                     const Quad quad = {node(0, 0), node(1, 0), node(1, 1), node(0, 1)};
@@ -77,7 +77,7 @@ std::vector<std::array<int, 2>> grid_lines(const GridShape& grid) {
         for (int j = 0; j < grid.n; ++j)
             for (int k = 0; k < grid.o; ++k) {
                 const int node = grid.index(i, j, k);
-                if (i + 1 < grid.m) lines.push_back({node, grid.index(i + 1, j, k)});
+                if (i < grid.cells(0)) lines.push_back({node, grid.index(grid.next(i), j, k)});
                 if (j + 1 < grid.n) lines.push_back({node, grid.index(i, j + 1, k)});
                 if (k + 1 < grid.o) lines.push_back({node, grid.index(i, j, k + 1)});
             }

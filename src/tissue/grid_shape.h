@@ -20,13 +20,13 @@ Points cylinder_rest(const GridShape& grid, double radius_m, double length_m,
 /// Nodes whose index along `axis` (0, 1 or 2) is `index`, in ascending order.
 std::vector<int> plane_nodes(const GridShape& grid, int axis, int index);
 
-/// The six faces, two triangles per quad, seen counter-clockwise from outside.
+/// The six faces (of a closed grid the four along it), two triangles per quad, seen counter-clockwise from outside.
 Triangles surface_triangles(const GridShape& grid);
 
 /// Every pair of neighbouring nodes, inner ones too, as the thesis draws its solids.
 std::vector<std::array<int, 2>> grid_lines(const GridShape& grid);
 
-/// Signed volume within the six faces, m^3. Each quad is the bilinear patch through its corners, so that the volume is
+/// Signed volume within those faces, m^3. Each quad is the bilinear patch through its corners, so that the volume is
 /// that of the trilinear cells exactly.
 double enclosed_volume(const GridShape& grid, const Points& x);
 

@@ -17,11 +17,15 @@ namespace risorius::tissue {
 /// Nodes per axis of material coordinates; node [m, n, o] is row (m N + n) O + o.
 struct GridShape {
     int m = 2, n = 2, o = 2;  ///< each >= 2
+    /// a1 runs round: cells join the last nodes along it with the first, m >= 3. Only cells know it, differences do not.
+    bool closed = false;
 
     int size() const { return m * n * o; }
     int index(int i, int j, int k) const { return (i * n + j) * o + k; }
     int along(int axis) const { return axis == 0 ? m : axis == 1 ? n : o; }
-    double spacing(int axis) const { return 1.0 / (along(axis) - 1); }  ///< h_i
+    int cells(int axis) const { return along(axis) - (closed && axis == 0 ? 0 : 1); }
+    int next(int i) const { return i + 1 == m && closed ? 0 : i + 1; }  ///< along a1
+    double spacing(int axis) const { return 1.0 / cells(axis); }        ///< h_i
 };
 
 struct SolidMaterial {

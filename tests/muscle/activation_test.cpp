@@ -12,6 +12,8 @@ constexpr ActivationTimes kThelen{0.010, 0.040};
 /// rigs/standard/muscles.json, eyelid muscles.
 constexpr ActivationTimes kEyelid{0.025, 0.045};
 
+constexpr ActivationLaw kSmooth{.form = ActivationLaw::Form::kSmooth};
+
 /// First time at which activation has crossed `level`, starting from a, in steps of 0.1 ms.
 double time_to(double level, double a, double u, const ActivationTimes& times) {
     const double h = 1e-4;
@@ -116,6 +118,92 @@ TEST(Activation, EightyMillisecondPulseClosesTheLidsAndReleasesThem) {
     EXPECT_LT(closed_from_s, 0.080);
     EXPECT_GT(open_from_s, 0.180);
     EXPECT_LT(open_from_s, 0.250);
+}
+
+// Law of De Groote et al. 2016 with the corrected steepness, integrated with the midpoint rule and h = 1 us.
+TEST(SmoothActivation, RisesLikeThelensAndFallsATenthEarlier) {
+    const double h = 1e-5;
+    const auto time = [&](double level, double a, double u) {
+        int i = 0;
+        for (const bool up = u > a; up ? a < level : a > level; ++i)
+            a = advance_activation(a, u, kThelen, h, kSmooth);
+        return i * h;
+    };
+    EXPECT_NEAR(time(0.5, 0, 1), 6.36e-3, 0.03e-3);
+    EXPECT_NEAR(time(0.9, 0, 1), 32.71e-3, 0.03e-3);
+    EXPECT_NEAR(time(0.5, 1, 0), 17.85e-3, 0.03e-3);
+    EXPECT_NEAR(time(0.1, 1, 0), 82.26e-3, 0.03e-3);
+}
+
+TEST(SmoothActivation, WithTheSteepnessFirstPublishedHardlyTellsGrowingFromReturning) {
+    const auto ratio_of_rates = [](const ActivationLaw& law) {
+        return activation_rate(0.4, 0.9, kThelen, law) / -activation_rate(0.4, -0.1, kThelen, law);
+    };
+    const ActivationLaw first{.form = ActivationLaw::Form::kSmooth, .steepness = 0.1};
+    EXPECT_NEAR(ratio_of_rates(kSmooth), ratio_of_rates({}), 0.01);  // 3.306
+    EXPECT_NEAR(ratio_of_rates(first), 1.055, 0.01);
+}
+
+TEST(SmoothActivation, RateHasNoJumpWhereActivationMeetsExcitation) {
+    for (const double a : {0.2, 0.7}) {
+        const double h = 1e-6;
+        const auto relaxation = [&](double u, const ActivationLaw& law) {
+            return activation_rate(a, u, kThelen, law) / (u - a);
+        };
+        EXPECT_NEAR(relaxation(a + h, kSmooth), relaxation(a - h, kSmooth), 1e-2);
+        EXPECT_GT(std::abs(relaxation(a + h, {}) - relaxation(a - h, {})), 20);
+    }
+}
+
+TEST(Activation, AShortStepFollowsTheRate) {
+    const double h = 1e-7;
+    for (const ActivationLaw& law : {ActivationLaw{}, kSmooth})
+        for (const double a : {0.0, 0.3, 0.9, -0.4})
+            for (const double u : {-0.8, 0.0, 0.5, 1.0})
+                EXPECT_NEAR((advance_activation(a, u, kThelen, h, law) - a) / h,
+                            activation_rate(a, u, kThelen, law), 2e-3)
+                    << a << " to " << u;
+}
+
+TEST(Activation, BothLawsAreMonotoneAndNeverPassTheExcitation) {
+    for (const ActivationLaw& law : {ActivationLaw{}, kSmooth})
+        for (const double h : {1e-4, 1.0 / 60, 0.5})
+            for (const double target : {0.7, 0.0}) {
+                double a = target == 0 ? 1 : 0;
+                for (int i = 0; i < 100; ++i) {
+                    const double next = advance_activation(a, target, kThelen, h, law);
+                    EXPECT_LE(std::abs(next - target), std::abs(a - target));
+                    EXPECT_GE((next - target) * (a - target), 0);
+                    a = next;
+                }
+            }
+}
+
+/// When a crosses 0.5, followed by whole frames and then by what is left to t.
+double onset_at(int fps, const ActivationLaw& law, bool up) {
+    const auto at = [&](double t) {
+        double a = up ? 0 : 1;
+        const int frames = static_cast<int>(t * fps);
+        for (int i = 0; i < frames; ++i)
+            a = advance_activation(a, up ? 1 : 0, kEyelid, 1.0 / fps, law);
+        return advance_activation(a, up ? 1 : 0, kEyelid, t - static_cast<double>(frames) / fps,
+                                  law);
+    };
+    double before = 0, after = 0.1;
+    while (after - before > 1e-7) {
+        const double t = 0.5 * (before + after);
+        ((at(t) > 0.5) == up ? after : before) = t;
+    }
+    return before;
+}
+
+TEST(Activation, OnsetIsTheSameWithinATenthOfAMillisecondAtEveryFrameRate) {
+    for (const ActivationLaw& law : {ActivationLaw{}, kSmooth})
+        for (const bool up : {true, false}) {
+            const double reference = onset_at(1000, law, up);
+            for (const int fps : {24, 25, 30, 50, 60, 120})
+                EXPECT_NEAR(onset_at(fps, law, up), reference, 1e-4) << fps << " fps";
+        }
 }
 
 Eigen::VectorXd column_vector(std::initializer_list<double> values) {

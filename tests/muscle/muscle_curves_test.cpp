@@ -6,8 +6,11 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "muscle/curve_sets.h"
 
 namespace risorius::muscle {
 namespace {
@@ -98,17 +101,23 @@ TEST(MuscleCurves, TendonPullsOnlyWhenStretchedAndWithF0AtItsStrain) {
 }
 
 struct NamedCurve {
-    const char* name;
+    std::string name;
     Curve curve;
     double from, to;
 };
 
+/// Of every set.
 std::vector<NamedCurve> all_curves() {
-    const MuscleCurves curves = zajac_curves();
-    return {{"active", curves.active, 0.3, 1.8},
-            {"passive", curves.passive, 0.8, 1.9},
-            {"velocity", curves.velocity, -1.3, 1.5},
-            {"tendon", curves.tendon, -.01, .06}};
+    std::vector<NamedCurve> all;
+    for (const std::string_view set : curve_set_names()) {
+        const std::string name(set);
+        const MuscleCurves curves = make_curves(curve_set_named(name));
+        all.push_back({name + " active", curves.active, 0.3, 1.9});
+        all.push_back({name + " passive", curves.passive, 0.8, 1.9});
+        all.push_back({name + " velocity", curves.velocity, -1.3, 1.5});
+        all.push_back({name + " tendon", curves.tendon, -.01, .06});
+    }
+    return all;
 }
 
 TEST(MuscleCurves, SlopesAndIntegralsAgreeWithDifferences) {
@@ -129,13 +138,29 @@ TEST(MuscleCurves, SlopesAndIntegralsAgreeWithDifferences) {
 
 TEST(MuscleCurves, NeitherValueNorSlopeNorIntegralJumpsAtAJoint) {
     for (const NamedCurve& c : all_curves()) {
-        ASSERT_FALSE(c.curve.joints().empty());
         for (const double joint : c.curve.joints()) {
             const Curve::Value left = c.curve.at(std::nextafter(joint, joint - 1));
             const Curve::Value right = c.curve.at(joint);
             EXPECT_NEAR(left.value, right.value, 1e-12) << c.name << " at " << joint;
             EXPECT_NEAR(left.slope, right.slope, 1e-11) << c.name << " at " << joint;
             EXPECT_NEAR(left.integral, right.integral, 1e-14) << c.name << " at " << joint;
+        }
+    }
+}
+
+TEST(MuscleCurves, EverySetIsNormalised) {
+    for (const std::string_view set : curve_set_names()) {
+        const MuscleCurves curves = make_curves(curve_set_named(std::string(set)));
+        EXPECT_DOUBLE_EQ(curves.active.value(1), 1) << set;
+        EXPECT_NEAR(curves.active.at(1).slope, 0, 1e-12) << set;
+        EXPECT_EQ(curves.passive.value(1), 0) << set;
+        EXPECT_DOUBLE_EQ(curves.velocity.value(0), 1) << set;
+        EXPECT_EQ(curves.tendon.value(0), 0) << set;
+        // A potential needs resistance that never falls: every curve but the active one.
+        for (double x = -1.3; x < 1.5; x += 0.01) {
+            EXPECT_GE(curves.velocity.at(x).slope, 0) << set << " at " << x;
+            EXPECT_GE(curves.passive.at(x + 1).slope, 0) << set << " at " << x + 1;
+            EXPECT_GE(curves.tendon.at(x / 20).slope, 0) << set << " at " << x / 20;
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "paths.h"
@@ -204,6 +205,21 @@ TEST_F(RigFile, EveryFieldOfTheTablesIsAdjustable) {
             std::ifstream in("again.json");
             EXPECT_EQ(Json::parse(in)[table][key], changed[table][key]) << table << "/" << key;
         }
+}
+
+TEST_F(RigFile, TheLawOfActivationIsThelensUnlessTheAnatomySaysOtherwise) {
+    Json json = adult_json();
+    write(json);
+    EXPECT_EQ(read_rig("rig.json").activation.law, "thelen2003");
+    json["anatomy"]["activation"] = {{"law", "smooth"}, {"steepness", 20}};
+    write(json);
+    write_rig(read_rig("rig.json"), "again.json", {source_folder() / "rigs" / "standard", true});
+    EXPECT_EQ(read_rig("again.json").activation.law, "smooth");
+    EXPECT_EQ(read_rig("again.json").activation.steepness, 20);
+    json["anatomy"]["activation"]["law"] = "instant";
+    EXPECT_EQ(complaint(json),
+              "rig.json:/anatomy/activation/law: expected one of \"thelen2003\" \"smooth\", found "
+              "\"instant\"");
 }
 
 TEST_F(RigFile, AnUnknownRoleIsNamedWithItsNeighbour) {

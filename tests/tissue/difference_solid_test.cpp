@@ -19,12 +19,6 @@ using solve::ImplicitStep;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
-    Points force = Points::Zero(x.rows(), 3);
-    term.add_force(0, x, v, force);
-    return force;
-}
-
 /// Relative to the largest force.
 void expect_free_of_net_force_and_torque(const Points& x, const Points& force, double tolerance) {
     const double largest = force.cwiseAbs().maxCoeff();

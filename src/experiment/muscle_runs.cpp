@@ -1,0 +1,117 @@
+#include "experiment/muscle_runs.h"
+
+#include <cmath>
+
+#include "experiment/body_cases.h"
+
+namespace risorius::experiment {
+namespace {
+
+body::MuscleDescription changed_muscle(const JsonCursor& muscle,
+                                       const std::optional<JsonCursor>& change,
+                                       const std::string& run_name) {
+    Json changed = muscle.json();
+    if (change) {
+        change->keys();  // an object
+        changed.merge_patch(change->json());
+    }
+    const JsonCursor json = JsonCursor::from_json(Json{{"muscle", changed}},
+                                                  muscle.file().string() + " (" + run_name + ")")
+                                .at("muscle");
+    json.at("grid");  // which a caller of read_muscle may know better; here none does
+    return body::read_muscle(json);
+}
+
+/// Node indices around the section of plane m, each once.
+std::vector<int> rim(const tissue::GridShape& grid, int m) {
+    std::vector<int> nodes;
+    for (int n = 0; n < grid.n - 1; ++n) nodes.push_back(grid.index(m, n, 0));
+    for (int o = 0; o < grid.o - 1; ++o) nodes.push_back(grid.index(m, grid.n - 1, o));
+    for (int n = grid.n - 1; n > 0; --n) nodes.push_back(grid.index(m, n, grid.o - 1));
+    for (int o = grid.o - 1; o > 0; --o) nodes.push_back(grid.index(m, 0, o));
+    return nodes;
+}
+
+/// Of the section halfway along the grid, m^2.
+double middle_area(const tissue::GridShape& grid, const Points& x) {
+    const std::vector<int> below = rim(grid, (grid.m - 1) / 2), above = rim(grid, grid.m / 2);
+    Vec3 twice = Vec3::Zero();
+    const auto corner = [&](std::size_t i) -> Vec3 {
+        return (x.row(below[i]) + x.row(above[i])).transpose() / 2;
+    };
+    const Vec3 from = corner(0);
+    for (std::size_t i = 1; i + 1 < below.size(); ++i)
+        twice += (corner(i) - from).cross(corner(i + 1) - from);
+    return twice.norm() / 2;
+}
+
+}  // namespace
+
+std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
+                                        const std::vector<std::string_view>& more_keys) {
+    std::vector<std::string_view> keys{"name", "label", "change"};
+    keys.insert(keys.end(), more_keys.begin(), more_keys.end());
+    std::vector<MuscleRun> runs;
+    for (const JsonCursor& json : experiment.at("runs").items()) {
+        json.allow_keys(keys);
+        const std::string name = json.at("name").string();
+        for (const MuscleRun& other : runs)
+            if (other.name == name)
+                json.at("name").fail("a name of its own", "\"" + name + "\" again");
+        MuscleRun run{.name = name,
+                      .label = json.at("label").string(),
+                      .muscle = changed_muscle(experiment.at("muscle"), json.find("change"), name),
+                      .json = json};
+        body::build_muscle(run.muscle, {[](double) { return 0.0; }});
+        runs.push_back(std::move(run));
+    }
+    if (runs.empty()) experiment.at("runs").fail("at least one run");
+    return runs;
+}
+
+std::string discretisation_of(const body::MuscleDescription& muscle) {
+    const bool cells = muscle.discretisation == body::Discretisation::kCells;
+    return grid_name(muscle.grid) + (cells ? " cells" : " differences") +
+           ", K = " + format_number(muscle.moduli.bulk_pa / 1e6) + " MPa";
+}
+
+double lengthening_m(const body::MuscleDescription& muscle, double normalised_length) {
+    return normalised_length * muscle.musculotendon.optimal_length_m - muscle.length_m;
+}
+
+double normalised_length(const body::MuscleDescription& muscle, double lengthening_m) {
+    return (muscle.length_m + lengthening_m) / muscle.musculotendon.optimal_length_m;
+}
+
+Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
+                   const std::string& name, const std::string& caption) {
+    const tissue::GridShape& grid = muscle.body.grid;
+    const int chains = grid.n * grid.o;
+    Shape shape{.name = name,
+                .caption = caption,
+                .positions = x,
+                .surface = muscle.body.surface,
+                .wires = muscle.body.wires,
+                .fixed = {}};
+    for (const muscle::End end : {muscle::End::kOrigin, muscle::End::kInsertion}) {
+        const Points plate = muscle.musculotendon->anchor_points(end, t_s);
+        const auto first = static_cast<int>(shape.positions.rows());
+        shape.positions.conservativeResize(first + chains, 3);
+        shape.positions.bottomRows(chains) = plate;
+        const int belly = end == muscle::End::kOrigin ? 0 : (grid.m - 1) * chains;
+        for (int c = 0; c < chains; ++c) shape.wires.push_back({belly + c, first + c});
+        for (int n = 0; n < grid.n; ++n)
+            for (int o = 0; o < grid.o; ++o) {
+                const int at = first + n * grid.o + o;
+                if (n + 1 < grid.n) shape.wires.push_back({at, at + grid.o});
+                if (o + 1 < grid.o) shape.wires.push_back({at, at + 1});
+            }
+    }
+    return shape;
+}
+
+double bulge(const body::SoftBody& body, const Points& x) {
+    return std::sqrt(middle_area(body.grid, x) / middle_area(body.grid, body.rest));
+}
+
+}  // namespace risorius::experiment

@@ -1,0 +1,46 @@
+// Variations of one muscle for the kinds that experiment on it: an experiment file gives a muscle (body/muscle_body.h) and
+// what each run changes in it.
+//
+//   "muscle": {...}, "runs": [{"name": "k-0.2", "label": "K = 0.2 MPa", "change": {"moduli": {"bulk_pa": 2e5}}}]
+//
+// Lengths of a musculotendon are normalised as in the thesis' figure 11a: (distance of the plates - lTs) / l0, which is 1 at
+// rest for a belly of its optimal length.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "body/muscle_body.h"
+#include "core/json_cursor.h"
+#include "experiment/figure_result.h"
+
+namespace risorius::experiment {
+
+struct MuscleRun {
+    std::string name, label;
+    body::MuscleDescription muscle;
+    JsonCursor json;  ///< of the run, for what else a kind reads there
+};
+
+/// "runs" of the experiment, each with keys "name", "label", "change" and those a kind adds.
+std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
+                                        const std::vector<std::string_view>& more_keys = {});
+
+/// "6x6x6 cells, K = 5 MPa"
+std::string discretisation_of(const body::MuscleDescription& muscle);
+
+inline constexpr Range kNormalisedLengths{0.1, 3};  ///< a file may ask for
+
+/// How far the plates of a muscle at rest have to be moved apart for a normalised length, m; and back.
+double lengthening_m(const body::MuscleDescription& muscle, double normalised_length);
+double normalised_length(const body::MuscleDescription& muscle, double lengthening_m);
+
+/// What a muscle looks like: belly, tendons as lines, plates.
+Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
+                   const std::string& name, const std::string& caption);
+
+/// Width of the middle of the belly over that at rest: root of the ratio of its sections' areas.
+double bulge(const body::SoftBody& body, const Points& x);
+
+}  // namespace risorius::experiment
