@@ -1,6 +1,7 @@
 #include "app/run_record.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/version.h"
 

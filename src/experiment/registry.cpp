@@ -1,6 +1,7 @@
 #include "experiment/registry.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"

@@ -1,6 +1,7 @@
 #include "track/script.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "track/timeline.h"
 
@@ -9,8 +10,6 @@ namespace risorius::track {
 namespace {
 
 constexpr double kLongest_s = 3600;
-
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
 ScriptView read_view(const JsonCursor& json) {
     json.allow_keys({"width_px", "height_px", "camera", "background"});
