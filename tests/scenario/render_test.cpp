@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/animate.h"
@@ -17,8 +18,6 @@ namespace risorius::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kRoot = RISORIUS_SOURCE_DIR;
 
 /// samples/hello, cut to its first moments and made small, as a file in `folder`.
 fs::path short_hello(const Folder& folder, double duration_s, int fps) {

@@ -1,5 +1,6 @@
 // risorius render SCRIPT -o OUT
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/animate.h"
@@ -18,13 +19,13 @@ app::PictureSize size_from(const std::string& text) {
     return size;
 }
 
-struct Arguments {
+struct RenderArguments {
     Common common;
     app::AnimateOptions options;
     std::string size;
 };
 
-void run(Arguments& arguments) {
+void run(RenderArguments& arguments) {
     const int threads = arguments.options.threads;
     if (threads < 1 || threads > 256)
         throw Error("--threads", "an integer in [1, 256]", std::to_string(threads));
@@ -53,7 +54,7 @@ void run(Arguments& arguments) {
 
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<RenderArguments>();
     app::AnimateOptions& options = arguments->options;
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command->add_option("SCRIPT", options.script, "The script")->required();
