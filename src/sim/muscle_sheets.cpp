@@ -11,7 +11,7 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kSpacing_m = 2.2e-3;  ///< of rows, and of columns in the middle
+constexpr double kSpacing_m = 3.0e-3;  ///< of rows, and of columns in the middle
 
 SheetSize sheet_size(double length_m, double width_m) {
     SheetSize size;
