@@ -103,7 +103,6 @@ plot::Chart chart_of_curves(const std::string& name, const std::string& title,
                       .x = {.label = curves.front()->x_label},
                       .y = {.label = "force / F0"}};
     constexpr double kHighest = 2;
-    std::string label = "Zajac/Delp table";
     for (const NamedCurve* named : curves) {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             plot::Series series{.label = named == curves.front() ? sets[i].label : "",
@@ -117,14 +116,17 @@ plot::Chart chart_of_curves(const std::string& name, const std::string& title,
             }
             chart.series.push_back(std::move(series));
         }
-        plot::Series points{.label = label, .mark = plot::Mark::kPoints, .colour = kTableColour};
+        plot::Series points{.label = curves.size() == 1
+                                         ? "Zajac/Delp table"
+                                         : "Zajac/Delp table: " + std::string(named->name),
+                            .mark = plot::Mark::kPoints,
+                            .colour = kTableColour};
         for (const auto& [x, f] : points_for(named->name, /*all=*/true)) {
             points.x.push_back(x);
             points.y.push_back(f);
         }
-        if (points.x.empty()) continue;
+        if (points.x.empty()) continue;  // of tendons
         chart.series.push_back(std::move(points));
-        label.clear();
     }
     return chart;
 }

@@ -65,7 +65,10 @@ StaticsPlan read_statics(const JsonCursor& experiment) {
     if (const auto v = experiment.find("activation")) plan.activation = v->number({0, 1});
     if (const auto v = experiment.find("range_above_peak"))
         plan.range_above_peak = v->number({0, 1});
-    if (const auto v = experiment.find("load_f0")) plan.load_f0 = v->number({1e-3, 1});
+    if (const auto v = experiment.find("load_f0")) {
+        plan.load_f0 = v->number({1e-3, 0.95});
+        for (const MuscleRun& run : plan.runs) require_elastic_tendons(run);
+    }
     if (const auto v = experiment.find("over")) {
         plan.over = v->string();
         for (const MuscleRun& run : plan.runs) plan.at.push_back(run.json.at("at").number());
@@ -215,23 +218,23 @@ plot::Chart over_length(const StaticsPlan& plan, const MuscleRun& run, const Ten
                       .title = "Tension over length: " + discretisation_of(run.muscle),
                       .x = {.label = kLengthLabel},
                       .y = {.label = "tension / F0"}};
-    chart.series = {
-        {"total", x, solid.total, plot::Mark::kLine, 0},
-        {"passive", x, solid.passive, plot::Mark::kLine, 1},
-        {"active = total - passive", x, solid.active, plot::Mark::kLine, 2},
-        {"fibre and tendon in a row", x, line.total, plot::Mark::kDashed, 3},
-        {"", x, line.passive, plot::Mark::kDashed, 3},
-        {"", x, line.active, plot::Mark::kDashed, 3},
-        points_of(plan, muscle::published_active_force(), "Zajac/Delp table, over fibre length"),
-        points_of(plan, muscle::published_passive_force(), "")};
+    chart.series = {{"total", x, solid.total, plot::Mark::kLine, 0},
+                    {"passive", x, solid.passive, plot::Mark::kLine, 1},
+                    {"active = total - passive", x, solid.active, plot::Mark::kLine, 2},
+                    {"1-D equilibrium", x, line.total, plot::Mark::kDashed, 3},
+                    {"", x, line.passive, plot::Mark::kDashed, 3},
+                    {"", x, line.active, plot::Mark::kDashed, 3},
+                    points_of(plan, muscle::published_active_force(), "Zajac/Delp: active"),
+                    points_of(plan, muscle::published_passive_force(), "Zajac/Delp: passive")};
     return chart;
 }
 
 plot::Chart differences(const StaticsPlan& plan, const std::vector<TensionCurves>& solids) {
     plot::Chart chart{.name = "from_line",
-                      .title = "Active force of the solid minus that of fibre and tendon in a row",
+                      .title = "Active force of the solid minus that of the 1-D equilibrium",
                       .x = {.label = kLengthLabel},
-                      .y = {.label = "difference / F0"}};
+                      .y = {.label = "difference / F0"},
+                      .bands = {{"within 0.02 F0", -0.02, 0.02}}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
         const TensionCurves line = line_curves(plan, plan.runs[r]);
         plot::Series series{
@@ -254,7 +257,7 @@ std::vector<plot::Chart> over_parameter(const StaticsPlan& plan,
         .y = {.label = "active force / F0"}};
     plot::Chart over{
         .name = "over_parameter",
-        .title = "Peak force, range and speed: solid (points), fibre and tendon in a row (lines)",
+        .title = "Peak force, range and speed: solid (points), 1-D equilibrium (lines)",
         .x = {.label = plan.over},
         .y = {.label = "ratio to the first"}};
     const std::string range_label =

@@ -41,6 +41,7 @@ ReleasePlan read_releases(const JsonCursor& experiment) {
                                        "reach", "at_fibre_length", "steps"});
     ReleasePlan plan;
     plan.runs = read_muscle_runs(experiment);
+    for (const MuscleRun& run : plan.runs) require_elastic_tendons(run);
     plan.speeds = read_numbers(experiment, "speeds", {-2, 2});
     plan.loads_f0 = read_numbers(experiment, "loads_f0", {1e-3, 0.95});
     if (plan.releases() == 0)

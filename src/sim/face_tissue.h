@@ -18,11 +18,13 @@
 #include "sim/attachments.h"
 #include "sim/contact_search.h"
 #include "sim/jaw.h"
+#include "sim/jaw_dynamics.h"
 #include "sim/lids.h"
 #include "sim/muscle_placement.h"
 #include "sim/muscle_solids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
+#include "sim/wrench.h"
 #include "solve/quasi_newton.h"
 #include "solve/sparse_cholesky.h"
 #include "tissue/contacts.h"
@@ -47,6 +49,13 @@ struct Prescribed {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
+};
+
+/// A jaw that its muscles move within a step of the tissue.
+struct JawInStep {
+    const JawDynamics& dynamics;
+    JawDynamics::Step step;
+    JawVector q;  ///< where it begins and ends
 };
 
 class FaceTissue {
@@ -76,6 +85,17 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
+    /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
+    /// prescribed where the jaw begins.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
+
+    /// Measures how stiff the tissue at rest holds a jaw in steps of length h. Before the first of them; leaves the tissue
+    /// prescribed at rest.
+    void prepare(double h, const JawDynamics& jaw);
+    const JawMatrix& ride_stiffness(double h) const;  ///< N/m, after that
+
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
@@ -99,6 +119,14 @@ class FaceTissue {
     void build_tethers();
     void find_cheeks();
     const solve::SparseCholesky& metric(double h);
+    /// E and its gradient by the nodes.
+    double step_energy(double h, const Points& start, const Points& aim,
+                       const Eigen::VectorXd& activation, const Points& at, Points& gradient);
+    StepFigures figures(const solve::StepReport& report, const Points& x) const;
+    /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
+    void move_mandible(const Rigid& moved);
+    /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
+    Wrench mandible_gradient(const Points& x, const Points& gradient) const;
     double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
 
     const rig::Head& head_;
@@ -109,6 +137,7 @@ class FaceTissue {
     std::vector<Vec3> lips_;
     std::vector<Attachment> attachments_;
     std::optional<MuscleSolids> solids_;
+    mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation
     Points rest_;
     std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
@@ -120,13 +149,15 @@ class FaceTissue {
     tissue::Contacts contacts_;
     tissue::DeadLoads air_;
     Rigid mandible_ = Rigid::Identity();
+    std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
+    std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<LidTether> lid_tethers_;
     std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
     Eigen::SparseMatrix<double> damping_;  // Ks, full symmetric, N/m
     std::vector<Metric> metrics_;          // one per step length used
     solve::QuasiNewton newton_;
-    Points work_, damped_;
+    Points work_, damped_, carried_, carried_gradient_;
 };
 
 }  // namespace risorius::sim

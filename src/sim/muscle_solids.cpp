@@ -198,18 +198,34 @@ bool MuscleSolids::is_solid(const std::string& muscle) const {
                        [&](const Part& part) { return part.place.muscle->id == muscle; });
 }
 
-void MuscleSolids::set_bodies(const std::array<Rigid, kBodies>& bodies) {
+void MuscleSolids::move_bodies(const std::array<Rigid, kBodies>& bodies) {
+    mandible_ = bodies[kMandibleBody];
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (node.on_bone) bone_.row(i) = blended(bodies, node.jaw_share, node.rest).transpose();
     }
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
-        tissue::Tethers::Tether& support = supports_->list()[i];
-        support.target = blended(bodies, node.jaw_share, node.rest);
-        support.normal = ((1 - node.jaw_share) * (bodies[kSkullBody].linear() * node.outward) +
-                          node.jaw_share * (bodies[kMandibleBody].linear() * node.outward))
-                             .normalized();
+        supports_->list()[i].target = blended(bodies, node.jaw_share, node.rest);
+    }
+}
+
+void MuscleSolids::set_bodies(const std::array<Rigid, kBodies>& bodies) {
+    move_bodies(bodies);
+    for (std::size_t i = 0; i < support_node_.size(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
+        supports_->list()[i].normal =
+            ((1 - node.jaw_share) * (bodies[kSkullBody].linear() * node.outward) +
+             node.jaw_share * (bodies[kMandibleBody].linear() * node.outward))
+                .normalized();
+    }
+}
+
+void MuscleSolids::add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const {
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (!node.on_bone && node.jaw_share != 0)
+            sum.add(node.jaw_share * gradient.row(first_ + i).transpose(), mandible * node.rest);
     }
 }
 
@@ -385,25 +401,19 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
             gradient.row(first_ + i) += solid_b_.row(i);
     if (on_bodies == nullptr) return energy;
 
-    const auto give = [&](const Vec3& at, const Vec3& force, double jaw_share) {
-        for (int body : {kSkullBody, kMandibleBody}) {
-            const double share = body == kMandibleBody ? jaw_share : 1 - jaw_share;
-            Wrench& wrench = (*on_bodies)[static_cast<std::size_t>(body)];
-            wrench.force_n += share * force;
-            wrench.torque_nm += share * at.cross(force);
-        }
+    // A node between both bones pulls each with its share, where it would be if it rode on that bone alone
+    const auto give = [&](const SolidNode& node, const Vec3& force) {
+        (*on_bodies)[kSkullBody].add((1 - node.jaw_share) * force, node.rest);
+        (*on_bodies)[kMandibleBody].add(node.jaw_share * force, mandible_ * node.rest);
     };
-    for (int i = 0; i < nodes(); ++i) {
-        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
-        if (node.on_bone)
-            give(bone_.row(i).transpose(), -solid_b_.row(i).transpose(), node.jaw_share);
-    }
+    for (int i = 0; i < nodes(); ++i)
+        if (on_bone(i))
+            give(placement_.nodes[static_cast<std::size_t>(i)], -solid_b_.row(i).transpose());
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
-        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
         const tissue::Tethers::Tether& support = supports_->list()[i];
-        const Vec3 at = x.row(support.node).transpose();
-        give(at, support.kn_n_per_m * (at - support.target).dot(support.normal) * support.normal,
-             node.jaw_share);
+        const Vec3 off = x.row(support.node).transpose() - support.target;
+        give(placement_.nodes[static_cast<std::size_t>(support_node_[i])],
+             support.kn_n_per_m * off.dot(support.normal) * support.normal);
     }
     return energy;
 }

@@ -23,6 +23,7 @@
 #include "sim/muscle_placement.h"
 #include "sim/muscle_surface.h"
 #include "sim/solid_placement.h"
+#include "sim/wrench.h"
 #include "solve/hessian_builder.h"
 #include "solve/sparse_cholesky.h"
 #include "solve/symmetric_factor.h"
@@ -31,11 +32,6 @@
 
 namespace risorius::sim {
 
-/// Force and torque about the origin of the head frame.
-struct Wrench {
-    Vec3 force_n = Vec3::Zero();
-    Vec3 torque_nm = Vec3::Zero();
-};
 using Wrenches = std::array<Wrench, kBodies>;
 
 struct SolidFigures {
@@ -66,8 +62,12 @@ class MuscleSolids {
 
     /// Where skull and mandible are, motions from rest.
     void set_bodies(const std::array<Rigid, kBodies>& bodies);
+    /// The same within a step: the directions in which bone holds muscles off stay those of its start.
+    void move_bodies(const std::array<Rigid, kBodies>& bodies);
     /// Moves nodes as their bones move; nodes on bone exactly to where they belong.
     void carry(Points& x, const Rigid& from, const Rigid& to) const;
+    /// Adds dE/d(motion of the mandible) of nodes that are carried along; `gradient` is that by the nodes.
+    void add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const;
 
     /// Before the minimisation of a step of length h that starts at x.
     void begin_step(double h, const Points& x, const Eigen::VectorXd& activation);
@@ -139,6 +139,7 @@ class MuscleSolids {
     int first_ = 0;  ///< row of the first node in x
     SolidPlacement placement_;
     Points rest_, bone_;  ///< bone_: where nodes on bone are now
+    Rigid mandible_ = Rigid::Identity();
     Eigen::VectorXd mass_;
     std::vector<Part> parts_;
     std::vector<Binding> bindings_;

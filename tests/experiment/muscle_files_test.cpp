@@ -25,10 +25,13 @@ TEST(MuscleFiles, WhatIsWrongWithLengthsAndRunsIsNamed) {
               "mine.json:/runs: expected at least one run, found []");
     EXPECT_EQ(message_of_change("11a", "/runs/1/change/moduli/bulk_pa", "-1"),
               "mine.json (differences):/muscle/moduli/bulk_pa: expected [0, inf), found -1");
-    EXPECT_EQ(message_of_change("11a", "/muscle/grid", "null"), "");
+    EXPECT_EQ(message_of_change("11a", "/muscle/grid", "null"),
+              "mine.json (cells):/muscle/grid: expected an array, found null");
+    EXPECT_EQ(message_of_change("11a", "/muscle/insertion", R"("free")"),
+              "mine.json (cells):/muscle: expected a straight belly between two plates, found "
+              "another");
     EXPECT_EQ(message_of_change("10", "/pictures/0/run", R"("cell")"),
-              "mine.json:/pictures/0/run: expected one of \"cells\", found \"cell\" (did you mean "
-              "\"cells\"?)");
+              "mine.json:/pictures/0/run: expected one of \"cells\", found \"cell\"");
     EXPECT_EQ(message_of_change("pennation", "/runs/1/at", R"("5")"),
               "mine.json:/runs/1/at: expected a number, found \"5\"");
 }
@@ -42,7 +45,7 @@ TEST(MuscleFiles, WhatIsWrongWithTimesIsNamed) {
     EXPECT_EQ(message_of_change("11b", "/length/1", "[0.3]"),
               "mine.json:/length/1: expected [time in s, value], found [0.3]");
     EXPECT_EQ(message_of_change("11b", "/release_s", "2"),
-              "mine.json:/release_s: expected a number in [0, 0.5], found 2");
+              "mine.json:/release_s: expected [0, 0.5], found 2");
     EXPECT_EQ(message_of_change("twitch", "/runs/0/drive/excitation", "[[0, 1]]"),
               "mine.json:/runs/0/drive/excitation: expected none beside \"pulses\", found [[0,1]]");
     EXPECT_EQ(message_of_change("twitch", "/shows/0/quantity", R"("force")"),
@@ -54,12 +57,17 @@ TEST(MuscleFiles, WhatIsWrongWithSpeedsAndCurvesIsNamed) {
     EXPECT_EQ(message_of_change("force-velocity", "/speeds", "[-0.1, 0, 0.1]"),
               "mine.json:/speeds/1: expected a number that is not 0, found 0");
     EXPECT_EQ(message_of_change("isotonic", "/loads_f0", "[]"),
-              "mine.json:: expected \"speeds\", \"loads_f0\" or both, found none of them");
+              "mine.json:/: expected \"speeds\", \"loads_f0\" or both, found none of them");
     EXPECT_EQ(message_of_change("isotonic", "/loads_f0", "[0.3, 0.2]"),
               "mine.json:/loads_f0/1: expected more than the number before it, found 0.2");
     EXPECT_EQ(message_of_change("muscle-curves", "/sets/1/name", R"("zajac")"),
               "mine.json:/sets/1/name: expected a name of its own, found \"zajac\" again");
-    EXPECT_EQ(message_of_change("muscle-curves", "/sets/1/curves", R"("thelen")"), "");
+    EXPECT_EQ(message_of_change("muscle-curves", "/sets/1/curves", R"("thelen")"),
+              "mine.json:/sets/1/curves: expected one of \"zajac\" \"thelen2003\" "
+              "\"millard2013\", found \"thelen\"");
+    EXPECT_EQ(message_of_change("isotonic", "/muscle/musculotendon/tendon", R"("rigid")"),
+              "mine.json (muscle):/muscle/musculotendon/tendon: expected \"elastic\", for rigid "
+              "ones feel no motion, found \"rigid\"");
 }
 
 JsonCursor drive(const char* text) { return JsonCursor::from_json(Json::parse(text), "mine.json"); }
