@@ -43,7 +43,9 @@ struct FacePose {
     Points vertices;                   ///< V x 3, m, the mesh's own order
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
     Rigid head = Rigid::Identity();
-    double jaw_open = 0;  ///< ratio
+    double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
+    JawPlace jaw;
+    double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
 };
 
 class Face {
@@ -53,6 +55,11 @@ class Face {
          const std::string& place);
     ~Face();
     Face(Face&&) noexcept;
+
+    /// What moves the jaw, from the next start() or settle() on. At first its channels do.
+    void drive_jaw_by(track::JawDrive by);
+    /// The drive as the muscles get it: with what the jaw's channels ask of them, when muscles move it.
+    track::Drive driven(track::Drive drive) const;
 
     /// Time 0: activation and tissue in equilibrium with the drive, at rest.
     void start(const DriveAt& drive);

@@ -40,8 +40,8 @@ ScriptView read_view(const JsonCursor& json) {
 }
 
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "channels", "emg",
-                     "events", "view"});
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "channels",
+                     "emg", "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
@@ -57,6 +57,9 @@ ScriptHeader read_header(const JsonCursor& json) {
     if (header.frame_count() < 1)
         duration.fail("at least one frame at " + std::to_string(header.fps) + " fps");
     if (const auto v = json.find("seed")) header.seed = v->integer(0, 2147483647);
+    if (const auto v = json.find("jaw"))
+        header.jaw = v->one_of({"channels", "muscles"}) == "muscles" ? JawDrive::kMuscles
+                                                                     : JawDrive::kChannels;
     if (const auto v = json.find("view")) header.view = read_view(*v);
     return header;
 }

@@ -30,6 +30,7 @@ struct ScriptHeader {
     int fps = 60;                    ///< 1..240
     double duration_s = 0;           ///< (0, 3600], at least one frame
     int seed = 1;
+    JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
     ScriptView view;
 
     int frame_count() const;

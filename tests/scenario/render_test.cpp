@@ -216,6 +216,39 @@ TEST(Render, AStillIsTheFrameOfItsTime) {
     EXPECT_TRUE(fs::exists(folder / "still.png.frames.tsv"));
 }
 
+TEST(Render, ShowsTheMusclesWhenTheCommandOrTheScriptAsks) {
+    const Folder folder;
+    const fs::path script = short_hello(folder, 0.2, 60);
+    app::AnimateOptions options;
+    options.script = script;
+    options.still_s = 0.15;
+    const auto still = [&](const char* name) {
+        options.out = folder / name;
+        const app::RunRecord record = app::animate(options);
+        EXPECT_EQ(Json::parse(text_of(folder / (std::string(name) + ".json")))["show"],
+                  record.show);
+        return record;
+    };
+    const app::RunRecord skin = still("skin.png");
+    EXPECT_EQ(skin.show, "skin");
+    options.show = "muscles";
+    const app::RunRecord muscles = still("muscles.png");
+    EXPECT_EQ(muscles.show, "muscles");
+    EXPECT_NE(muscles.frames_sha256, skin.frames_sha256);
+    EXPECT_EQ(text_of(folder / "muscles.png.frames.tsv"), text_of(folder / "skin.png.frames.tsv"));
+
+    Json json = Json::parse(text_of(script));
+    json["view"]["show"] = "muscles";
+    std::ofstream(script) << json.dump();
+    options.show.reset();
+    options.threads = 1;
+    EXPECT_EQ(still("script.png").frames_sha256, muscles.frames_sha256);
+    const Outcome refused = run("render '" + script.string() + "' --show bones -o x.mp4", kRoot);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(refused.errors,
+              "risorius: --show: expected one of \"skin\", \"muscles\", found \"bones\"\n");
+}
+
 TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
     const Folder folder;
     std::ofstream(folder / "neutral.json") << Json{
@@ -237,7 +270,7 @@ TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
     for (int frame = 1; frame < 9; ++frame) EXPECT_EQ(video.frame(frame).rgba, first.rgba) << frame;
 }
 
-TEST(Render, SaysThatMusclesOfTheJawDoNotMoveIt) {
+TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     const Folder folder;
     Json script = Json::parse(text_of(short_hello(folder, 0.1, 10)));
     script["channels"] = {{"masseter_deep.l", {{"keys", {{0, 0.5}}}}},
@@ -249,8 +282,17 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveIt) {
     const app::RunRecord record = app::animate(options);
     ASSERT_EQ(record.warnings.size(), 1u);
     EXPECT_EQ(record.warnings[0],
-              "channel masseter_deep.l: has no effect in this version, in which jaw_open, "
-              "jaw_forward and jaw_side move the jaw and its muscles do not");
+              "channel masseter_deep.l: does not move the jaw, which follows jaw_open, jaw_forward "
+              "and jaw_side unless the script says \"jaw\": \"muscles\"");
+    EXPECT_EQ(record.jaw, "channels");
+    EXPECT_EQ(record.greatest_bite_n, 0.0);
+
+    script["jaw"] = "muscles";
+    std::ofstream(folder / "jaw.json") << script.dump();
+    const app::RunRecord bitten = app::animate(options);
+    EXPECT_TRUE(bitten.warnings.empty());
+    EXPECT_EQ(bitten.jaw, "muscles");
+    EXPECT_GT(bitten.greatest_bite_n, 20);  // half of one deep masseter, 82 N in the table
 }
 
 TEST(Render, AnInterruptedRunLeavesNothing) {

@@ -115,14 +115,14 @@ TEST_P(AnyTriangleSheet, InternalForcesAddUpToNothing) {
 TEST_P(AnyTriangleSheet, DampingTakesEnergyOut) { expect_damping_dissipates(term, shape); }
 TEST_P(AnyTriangleSheet, SecantIsTheForce) { expect_secant_is_the_force(term, shape); }
 
-std::string name_of_rest(const testing::TestParamInfo<TriangleSurface (*)()>& which) {
+std::string name_of_triangles(const testing::TestParamInfo<TriangleSurface (*)()>& which) {
     static const char* const kNames[] = {"Flat", "Tube", "Curved", "Irregular", "Ball"};
     return kNames[which.index];
 }
 INSTANTIATE_TEST_SUITE_P(Rest, AnyTriangleSheet,
                          testing::Values(&flat_sheet, &tube, &curved_triangles, &irregular_sheet,
                                          &ball),
-                         name_of_rest);
+                         name_of_triangles);
 
 TEST(TriangleSheet, MetricBoundsTheStiffnessOfAFlatSheet) {
     const TriangleSurface surface = flat_sheet();

@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "render/activation_colour.h"
+#include "render/detail/face_order.h"
+#include "render/detail/fibre_texture.h"
 #include "render/detail/shaders.h"
 
 namespace risorius::render {
@@ -62,15 +64,19 @@ MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_s
       right_(camera.clip_from_world.row(0).head<3>().normalized()),
       samples_per_slope_(0.5 * picture_samples * camera.clip_from_world.row(1).head<3>().norm()),
       program_("muscle", muscle_vertex_shader(), muscle_shader()) {
-    std::vector<unsigned> indices;
+    std::vector<Face> faces;
     for (std::size_t m = 0; m < muscle_count_; ++m) {
         const Triangles& triangles = scene.muscles.parts[m].triangles;
-        for (Eigen::Index i = 0; i < triangles.size(); ++i) {
-            const int v = triangles.data()[i];
-            muscle_of_vertex_[static_cast<std::size_t>(v)] = static_cast<int>(m);
-            indices.push_back(static_cast<unsigned>(v));
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+            faces.push_back({triangles(f, 0), triangles(f, 1), triangles(f, 2)});
+            for (const int v : faces.back())
+                muscle_of_vertex_[static_cast<std::size_t>(v)] = static_cast<int>(m);
         }
     }
+    order_for_drawing(scene.muscles.rest, camera.position, faces);
+    std::vector<unsigned> indices;
+    for (const Face& face : faces)
+        for (const int v : face) indices.push_back(static_cast<unsigned>(v));
     index_count_ = static_cast<GLsizei>(indices.size());
     std::vector<float> fixed;
     for (Eigen::Index v = 0; v < vertex_count_; ++v) {
@@ -95,6 +101,10 @@ MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_s
     muscle_attribute(1, 3, kMovingFloats, 3);
     muscle_attribute(2, 3, kMovingFloats, 6);
 
+    fibres_ = make_fibres();
+    program_.use();
+    glUniform2f(program_.location("fibre_tile"), static_cast<float>(kFibreTileAcross_m),
+                static_cast<float>(kFibreTileAlong_m));
     colour_ = muscle_texture(GL_SRGB8_ALPHA8, width_samples, height_samples);
     depth_ = muscle_texture(GL_DEPTH_COMPONENT32F, width_samples, height_samples);
     glGenFramebuffers(1, &framebuffer_);
@@ -109,6 +119,7 @@ MuscleLayer::~MuscleLayer() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteTextures(1, &colour_);
     glDeleteTextures(1, &depth_);
+    glDeleteTextures(1, &fibres_);
     for (const GLuint buffer : {moving_buffer_, fixed_buffer_, elements_})
         glDeleteBuffers(1, &buffer);
     glDeleteVertexArrays(1, &array_);
@@ -159,6 +170,8 @@ void MuscleLayer::draw() const {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_FRAMEBUFFER_SRGB);
     program_.use();
+    glActiveTexture(GL_TEXTURE0 + kFibreUnit);
+    glBindTexture(GL_TEXTURE_2D, fibres_);
     glBindVertexArray(array_);
     glEnable(GL_CULL_FACE);
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);

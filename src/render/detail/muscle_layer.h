@@ -40,7 +40,7 @@ class MuscleLayer {
     GlProgram program_;
     GLsizei index_count_ = 0;
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;
-    GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
+    GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0, fibres_ = 0;
 };
 
 }  // namespace risorius::render

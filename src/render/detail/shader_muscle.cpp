@@ -31,21 +31,19 @@ out vec4 colour;
 
 const vec3 kTendon = vec3(0.54, 0.52, 0.47);
 
-// Bundles of fibres run along the muscle, a millimetre wide.
-vec2 bundles(vec2 at) {
-    return vec2(noise(vec3(at.y * 900.0, at.x * 40.0, 3.0) + 200.0), noise(vec3(at.y * 2300.0, at.x * 80.0, 9.0) + 200.0));
-}
+layout(binding = 5) uniform sampler2D fibre_map;    // see make_fibres()
+uniform vec2 fibre_tile;                            // m, across and along
 
 void main() {
     vec3 n = normalize(normal);
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz, f = fill_direction.xyz;
 
-    // They stand out as ridges, and fray into the tendon.
-    vec2 here = bundles(fibre.xy), beside = bundles(fibre.xy + vec2(0.0, 0.0002));
-    float strand = here.y, streak = 0.6 * here.x + 0.4 * here.y;
+    // Bundles stand out as ridges, and fray into the tendon.
+    vec3 bundle = texture(fibre_map, fibre.yx / fibre_tile).rgb;
+    float streak = bundle.r, strand = bundle.b;
     vec3 across = dFdx(position) * dFdx(fibre.y) + dFdy(position) * dFdy(fibre.y);
-    n = normalize(n - (0.6 * (beside.x - here.x) + 0.4 * (beside.y - here.y)) * 1.1 * across / (length(across) + 1e-12));
+    n = normalize(n - 1.6 * (bundle.g - 0.5) * across / (length(across) + 1e-12));
     float tendon = smoothstep(0.25, 0.75, fibre.z + 0.5 * (streak - 0.5)) * 0.75;
     vec3 albedo = mix(flesh * (0.62 + 0.76 * streak), kTendon * (0.85 + 0.3 * strand), tendon);
 
@@ -62,6 +60,6 @@ void main() {
 }  // namespace
 
 std::string muscle_vertex_shader() { return frame_chunk() + kMuscleVertex; }
-std::string muscle_shader() { return lighting_chunk() + noise_chunk() + kMuscleFragment; }
+std::string muscle_shader() { return lighting_chunk() + kMuscleFragment; }
 
 }  // namespace risorius::render

@@ -87,16 +87,14 @@ float muscle_distance(ivec2 at) {
     return distance_of_depth.y / (2.0 * texelFetch(muscle_depth, at, 0).r - 1.0 + distance_of_depth.x);
 }
 
-// What a muscle nearer to the key light takes of it from what lies under it, d away.
+// What a muscle nearer to the key light takes of it from what lies under it, d away. Each sample of a 2 x 2 block looks
+// at another reach, so that the block together sees four.
 float muscle_shadow(float d) {
     vec2 towards = vec2(dot(key_direction.xyz, right), key_direction.y) * (samples_per_slope / d);
-    float shadow = 0.0;
-    for (int i = 1; i <= 4; ++i) {
-        float reach = 0.0012 * float(i);
-        float higher = d - muscle_distance(ivec2(gl_FragCoord.xy + reach * towards));
-        shadow += smoothstep(0.0, 0.002, higher - 0.3 * reach) * (1.0 - smoothstep(0.010, 0.025, higher));
-    }
-    return 0.25 * shadow;
+    ivec2 q = ivec2(gl_FragCoord.xy) & 1;
+    float reach = 0.0012 * float(1 + q.x + 2 * q.y);
+    float higher = d - muscle_distance(ivec2(gl_FragCoord.xy + reach * towards));
+    return smoothstep(0.0, 0.002, higher - 0.3 * reach) * (1.0 - smoothstep(0.010, 0.025, higher));
 }
 
 vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge) {

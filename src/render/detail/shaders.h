@@ -28,7 +28,8 @@ enum TextureUnit {
     kPaintUnit = 1,
     kPoreUnit = 2,
     kMuscleColourUnit = 3,
-    kMuscleDepthUnit = 4
+    kMuscleDepthUnit = 4,
+    kFibreUnit = 5
 };
 enum VertexAttribute {
     kPosition = 0,
