@@ -144,6 +144,9 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
         const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size *
                              head.size / (strands * bands);
+        const auto muscle =
+            std::find_if(rig.muscles.muscles.begin(), rig.muscles.muscles.end(),
+                         [&](const rig::Muscle& candidate) { return candidate.id == band.muscle; });
         for (int strand = 0; strand < strands; ++strand) {
             const double across =
                 band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
@@ -204,6 +207,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.f0_n = force;
+            fibre.greatest_speed_hz = muscle->greatest_speed_hz;
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);
