@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/frame_table.h"
@@ -108,6 +109,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.width_px = shot.view.width_px;
     record.height_px = shot.view.height_px;
     record.camera = shot.view.camera;
+    record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = options.quality;
     record.nodes = face.node_count();
@@ -135,7 +137,10 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     watch.tell(0, "building the face");
     sim::Face face(files.rig, files.mesh, quality, files.place());
     const track::Timeline timeline(script, channels);
-    render::OffscreenView view(scene_from_rig(face.head(), files.rig, files.mesh), shot.view);
+    render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
+    const bool inside = shot.view.show == render::Show::kMuscles;
+    if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
+    render::OffscreenView view(scene, shot.view);
     Output output(options.out, shot, options.still_s.has_value());
     RunRecord record = describe(options, shot, script, files, face);
     record.warnings = warnings_about(script, files.rig.muscles);
@@ -159,16 +164,20 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
             watch.tell(face.time_s() / t_s, "simulating");
             face.step(drive);
         }
-        sim::FacePose pose = face.pose_at(t_s, drive);
-        table.add(frame, t_s, drive(t_s), face.activation_at(t_s), pose);
+        const sim::FacePose pose = face.pose_at(t_s, drive);
+        const Eigen::VectorXd activation = face.activation_at(t_s);
+        table.add(frame, t_s, drive(t_s), activation, pose);
         most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
+        render::Pose seen = pose_for_view(pose);
+        if (inside)
+            add_muscles(face.muscle_surfaces(), activation, face.muscle_vertices_at(t_s), seen);
         record.timing.simulate_s += stage.seconds();
-        return pose;
+        return seen;
     };
-    const auto show = [&](int frame, const sim::FacePose& pose) {
+    const auto show = [&](int frame, const render::Pose& pose) {
         watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
         const Stopwatch drawing;
-        Image image = view.draw(pose_for_view(pose));
+        Image image = view.draw(pose);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawing.seconds();
         const Stopwatch encoding;

@@ -1,6 +1,7 @@
 #include "app/run_record.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/version.h"
 
@@ -50,6 +51,7 @@ Json RunRecord::json() const {
     json["width_px"] = width_px;
     json["height_px"] = height_px;
     json["camera"] = camera;
+    json["show"] = show;
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;

@@ -7,19 +7,34 @@
 //    "musculotendon": {"f0_n": 94.2, "optimal_length_m": 0.04, "tendon_slack_m": 0.02}}
 //
 // The belly lies along x with its axis through the origin, from x = 0; plates stand half the tendon slack length away
-// from its ends. Field names are the keys.
+// from its ends. In place of "section" and the three sizes any shape of muscle/muscle_shape.h may stand, and in place of
+// a plate nothing or points of a bone:
+//
+//    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
+//    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free"
+//
+// Field names are the keys.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "body/body_description.h"
 #include "body/soft_body.h"
+#include "muscle/muscle_shape.h"
 #include "muscle/musculotendon.h"
 #include "tissue/cell_body.h"
 
 namespace risorius::body {
+
+/// How an end of a muscle is held.
+struct MuscleEnd {
+    enum class Hold { kPlate, kBone, kFree };  ///< "plate", {"points_m"}, "free"
+    Hold hold = Hold::kPlate;
+    Points points_m = {};  ///< of the bone, muscle::bone_anchor
+};
 
 struct MuscleDescription {
     enum class Section {
@@ -32,12 +47,15 @@ struct MuscleDescription {
     tissue::GridShape grid;  ///< a1 along the fibres
     Section section = Section::kRound;
     double length_m = 0, width_m = 0, thickness_m = 0;  ///< along x, y, z     (0, inf)
-    tissue::CellModuli moduli;                          ///< mu > 0; the others >= 0
-    double density_kg_per_m3 = 1060;                    ///< (0, inf)
+    std::optional<muscle::MuscleShape> shape =
+        {};                                 ///< takes the place of the four above; needs cells
+    MuscleEnd origin = {}, insertion = {};  ///< a ring has none
+    tissue::CellModuli moduli;              ///< mu > 0; the others >= 0
+    double density_kg_per_m3 = 1060;        ///< (0, inf)
     muscle::MuscleParameters musculotendon;
     Vec3 gravity_m_per_s2 = Vec3::Zero();
 
-    double rest_volume_m3() const;  ///< of the section before the grid makes it angular
+    double rest_volume_m3() const;  ///< of block and round, before the grid makes them angular
 };
 
 /// Throws Error with file and JSON pointer. "grid" may be left out where the caller sets it.
@@ -46,7 +64,7 @@ MuscleDescription read_muscle(const JsonCursor& json);
 /// What is done to a muscle.
 struct MuscleTask {
     muscle::ActivationAt activation;
-    /// Distance of the plates minus that at rest, m; empty: they stand.
+    /// How far the insertion's plate is moved off along the line from anchor to anchor, m; empty: it stands.
     std::function<double(double t_s)> lengthening_m = {};
 };
 
@@ -54,7 +72,8 @@ struct MuscleBody {
     SoftBody body;
     std::shared_ptr<muscle::Musculotendon> musculotendon;
 
-    /// Mean of what the two plates feel along x, over F0.
+    /// What the anchors feel along the ends of the belly as they lie at rest, mean of both, over F0. Of rigid tendons as
+    /// the muscle stands still, the stress of the belly included. 0 where no end is anchored.
     double tension(double t_s, const Points& x) const;
 };
 

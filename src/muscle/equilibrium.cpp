@@ -7,7 +7,7 @@
 namespace risorius::muscle {
 
 Equilibrium equilibrium(const MuscleParameters& p, const MuscleCurves& curves, double activation,
-                        double length_m, TendonModel tendon) {
+                        double length_m) {
     const double thickness =
         p.optimal_length_m * std::sin(p.pennation_deg * std::numbers::pi / 180);
     // Ratio of F0 that the fibre pulls along the tendon with.
@@ -24,7 +24,7 @@ Equilibrium equilibrium(const MuscleParameters& p, const MuscleCurves& curves, d
 
     // With the tendon slack the fibre is at its longest; a fibre with force is shorter and has stretched the tendon.
     double span = std::max(0.0, length_m - p.tendon_slack_m);
-    if (tendon == TendonModel::kElastic && excess(span) > 0) {
+    if (p.tendon == TendonModel::kElastic && p.tendon_slack_m > 0 && excess(span) > 0) {
         double shortest = 0, longest = span;
         for (int i = 0; i < 200 && longest - shortest > 1e-16 * p.optimal_length_m; ++i) {
             span = 0.5 * (shortest + longest);

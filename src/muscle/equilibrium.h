@@ -12,8 +12,6 @@
 
 namespace risorius::muscle {
 
-enum class TendonModel { kElastic, kRigid };
-
 struct Equilibrium {
     double fibre_m = 0;   ///< l
     double tendon_m = 0;  ///< L - s
@@ -24,8 +22,7 @@ struct Equilibrium {
 /// A muscle shorter than its slack tendon has no force, and its fibre the length at which it has none. Where a falling
 /// limb steeper than the tendon allows several equilibria it is one of them.
 Equilibrium equilibrium(const MuscleParameters& parameters, const MuscleCurves& curves,
-                        double activation, double length_m,
-                        TendonModel tendon = TendonModel::kElastic);
+                        double activation, double length_m);
 
 /// What a fibre pulls with at a length and a speed (> 0 lengthens): F0 [ a fl fv + fp + b v/(vmax l0) ], N, along itself.
 double fibre_force(const MuscleParameters& parameters, const MuscleCurves& curves,

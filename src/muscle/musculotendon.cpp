@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "muscle/muscle_shape.h"
 
 namespace risorius::muscle {
 
@@ -45,7 +46,8 @@ void add_line_block(int i, int j, const Mat3& block, solve::HessianBuilder& hess
 void check(const MuscleParameters& p, const std::string& place) {
     check_positive(p.f0_n, place + "/f0_n");
     check_positive(p.optimal_length_m, place + "/optimal_length_m");
-    check_positive(p.tendon_slack_m, place + "/tendon_slack_m");
+    require(std::isfinite(p.tendon_slack_m) && p.tendon_slack_m >= 0, place + "/tendon_slack_m",
+            "[0, inf)", p.tendon_slack_m);
     check_positive(p.greatest_speed_hz, place + "/greatest_speed_hz");
     require(p.pennation_deg >= 0 && p.pennation_deg < 90, place + "/pennation_deg", "[0, 90)",
             p.pennation_deg);
@@ -54,31 +56,20 @@ void check(const MuscleParameters& p, const std::string& place) {
 
 MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     json.allow_keys({"f0_n", "optimal_length_m", "tendon_slack_m", "greatest_speed_hz",
-                     "pennation_deg", "damping", "curves"});
+                     "pennation_deg", "damping", "curves", "tendon"});
     MuscleParameters p;
     p.f0_n = json.at("f0_n").number();
     p.optimal_length_m = json.at("optimal_length_m").number();
-    p.tendon_slack_m = json.at("tendon_slack_m").number();
+    if (const auto v = json.find("tendon_slack_m")) p.tendon_slack_m = v->number();
     if (const auto v = json.find("greatest_speed_hz")) p.greatest_speed_hz = v->number();
     if (const auto v = json.find("pennation_deg")) p.pennation_deg = v->number();
     if (const auto v = json.find("damping")) p.damping = v->number();
+    if (const auto v = json.find("tendon"))
+        p.tendon = v->one_of({"elastic", "rigid"}) == "rigid" ? TendonModel::kRigid
+                                                              : TendonModel::kElastic;
     if (const auto v = json.find("curves")) p.curves = read_curve_shape(*v);
     check(p, json.place());
     return p;
-}
-
-Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m) {
-    const int chains = grid.n * grid.o;
-    // Each plate stands across the mean of the outermost segments, so that a bent belly is met squarely.
-    const auto plate = [&](int end_row, int inner_row) {
-        const Points ends = rest.middleRows(end_row, chains);
-        const Vec3 outward = (ends - rest.middleRows(inner_row, chains)).colwise().sum();
-        const Vec3 offset = outward.normalized() * (tendon_slack_m / 2);
-        Points points = ends;
-        points.rowwise() += offset.transpose();
-        return points;
-    };
-    return {{plate(0, chains)}, {plate((grid.m - 1) * chains, (grid.m - 2) * chains)}};
 }
 
 Musculotendon::Musculotendon(const MuscleParameters& parameters, MuscleCurves curves,
@@ -89,29 +80,72 @@ Musculotendon::Musculotendon(const MuscleParameters& parameters, MuscleCurves cu
       grid_(grid),
       anchors_(std::move(anchors)),
       activation_(std::move(activation)),
-      chain_force_n_(parameters.f0_n / chains()),
-      half_slack_m_(parameters.tendon_slack_m / 2) {
+      chain_force_n_(parameters.f0_n / chains()) {
     check(parameters, place);
     if (grid.m < 2 || rest.rows() != grid.size())
         throw std::invalid_argument("Musculotendon: the rest shape is not that of the grid");
-    if (anchors_.origin.rest.rows() != chains() || anchors_.insertion.rest.rows() != chains())
-        throw std::invalid_argument("Musculotendon: an anchor needs one point per chain");
+    set_slack();
+    for (const End end : kEnds)
+        if (elastic(end) && !(slack_m_[end == End::kOrigin ? 0 : 1].minCoeff() > 0))
+            throw Error(place + "/tendon_slack_m", "(0, inf) of elastic tendons",
+                        format_number(slack_m_[end == End::kOrigin ? 0 : 1].minCoeff()));
+    for (int c = 0; c < chains(); ++c)
+        for (const int m : {0, grid.m - 1})
+            tied_rest_[m == 0 ? 0 : 1].push_back(rest.row(node(m, c)).transpose());
 
-    const double l0 = parameters.optimal_length_m;
-    const double thickness = l0 * std::sin(parameters.pennation_deg * std::numbers::pi / 180);
-    segments_.resize(static_cast<std::size_t>((grid.m - 1) * chains()));
-    for (int c = 0; c < chains(); ++c) {
-        std::vector<double> span;
-        double total = 0;
-        for (int m = 0; m + 1 < grid.m; ++m) {
-            span.push_back(line(rest.row(node(m, c)), rest.row(node(m + 1, c)), 0).span);
-            if (!(span.back() > 0))
-                throw std::invalid_argument("Musculotendon: a segment without length");
-            total += span.back();
+    const Eigen::VectorXd lengths = fibre_lengths(grid, rest);
+    optimal_m_ = lengths * (parameters.optimal_length_m / lengths.mean());
+    const double sine = std::sin(parameters.pennation_deg * std::numbers::pi / 180);
+    segments_.resize(static_cast<std::size_t>(segments_along() * chains()));
+    for (int m = 0; m < segments_along(); ++m)
+        for (int c = 0; c < chains(); ++c) {
+            const double span = line(rest.row(node(m, c)), rest.row(next_node(m, c)), 0).span;
+            if (!(span > 0)) throw std::invalid_argument("Musculotendon: a segment without length");
+            const double l0 = span / lengths[c] * optimal_m_[c];
+            segments_[static_cast<std::size_t>(node(m, c))] = {l0, l0 * sine};
         }
-        for (int m = 0; m + 1 < grid.m; ++m) {
-            const double share = span[static_cast<std::size_t>(m)] / total;
-            segments_[static_cast<std::size_t>(node(m, c))] = {share * l0, share * thickness};
+}
+
+void Musculotendon::set_slack() {
+    const int ends = (anchored(End::kOrigin) ? 1 : 0) + (anchored(End::kInsertion) ? 1 : 0);
+    if (grid_.closed && ends > 0)
+        throw std::invalid_argument("Musculotendon: a ring has no ends to anchor");
+    for (const End end : kEnds) {
+        if (!anchored(end)) continue;
+        const Anchor& a = anchor(end);
+        if (a.rest.rows() != chains() || (a.slack_m.size() > 0 && a.slack_m.size() != chains()))
+            throw std::invalid_argument("Musculotendon: an anchor needs one point per chain");
+        slack_m_[end == End::kOrigin ? 0 : 1] =
+            a.slack_m.size() > 0
+                ? a.slack_m
+                : Eigen::VectorXd::Constant(chains(), parameters_.tendon_slack_m / ends);
+    }
+}
+
+std::vector<int> Musculotendon::tied_nodes() const {
+    std::vector<int> nodes;
+    if (parameters_.tendon == TendonModel::kElastic) return nodes;
+    for (const End end : kEnds)
+        for (int c = 0; anchored(end) && c < chains(); ++c) nodes.push_back(tendon_node(end, c));
+    return nodes;
+}
+
+void Musculotendon::place_tied(double t_s, Points& x, Points& v) const {
+    if (parameters_.tendon == TendonModel::kElastic) return;
+    constexpr double kRateStep =
+        1e-6;  // s; error of the rate about 1e-9 of the motion's third derivative
+    for (const End end : kEnds) {
+        if (!anchored(end)) continue;
+        const auto& motion = anchor(end).motion;
+        for (int c = 0; c < chains(); ++c) {
+            const Vec3& rest = tied_rest_[end == End::kOrigin ? 0 : 1][static_cast<std::size_t>(c)];
+            const int i = tendon_node(end, c);
+            x.row(i) = (motion ? Vec3(motion(t_s) * rest) : rest).transpose();
+            v.row(i).setZero();
+            if (motion)
+                v.row(i) = ((motion(t_s + kRateStep) * rest - motion(t_s - kRateStep) * rest) /
+                            (2 * kRateStep))
+                               .transpose();
         }
     }
 }
@@ -133,7 +167,7 @@ Musculotendon::Line Musculotendon::line(const Vec3& from, const Vec3& to, double
 }
 
 Musculotendon::Line Musculotendon::fibre(const Points& x, int m, int chain) const {
-    return line(x.row(node(m, chain)), x.row(node(m + 1, chain)), segment(m, chain).thickness_m);
+    return line(x.row(node(m, chain)), x.row(next_node(m, chain)), segment(m, chain).thickness_m);
 }
 
 Musculotendon::Line Musculotendon::tendon(const Points& x, const Points& plate, End end,
@@ -142,24 +176,24 @@ Musculotendon::Line Musculotendon::tendon(const Points& x, const Points& plate, 
 }
 
 Points Musculotendon::anchor_points(End end, double t_s) const {
-    const Anchor& anchor = end == End::kOrigin ? anchors_.origin : anchors_.insertion;
-    if (!anchor.motion) return anchor.rest;
-    const Rigid motion = anchor.motion(t_s);
-    return (anchor.rest * motion.linear().transpose()).rowwise() + motion.translation().transpose();
+    const Anchor& a = anchor(end);
+    if (!a.motion || !anchored(end)) return a.rest;
+    const Rigid motion = a.motion(t_s);
+    return (a.rest * motion.linear().transpose()).rowwise() + motion.translation().transpose();
 }
 
 double Musculotendon::mean_stretch(const Points& x, int chain) const {
     double length = 0;
-    for (int m = 0; m + 1 < grid_.m; ++m) length += fibre(x, m, chain).length;
-    return length / parameters_.optimal_length_m;
+    for (int m = 0; m < segments_along(); ++m) length += fibre(x, m, chain).length;
+    return length / optimal_m_[chain];
 }
 
 void Musculotendon::add_force(double t_s, const Points& x, const Points& v, Points& force) const {
     const double a = activation_(t_s);
     for (int c = 0; c < chains(); ++c) {
         const double active = a == 0 ? 0 : a * curves_.active.value(mean_stretch(x, c));
-        for (int m = 0; m + 1 < grid_.m; ++m) {
-            const int i = node(m, c), j = node(m + 1, c);
+        for (int m = 0; m < segments_along(); ++m) {
+            const int i = node(m, c), j = next_node(m, c);
             const Segment& s = segment(m, c);
             const Line f = fibre(x, m, c);
             const double rate = f.slope * (v.row(j) - v.row(i)).dot(f.direction.transpose());
@@ -178,6 +212,7 @@ void Musculotendon::add_force(double t_s, const Points& x, const Points& v, Poin
 void Musculotendon::add_tendon_force(double t_s, const Points& x, double sign,
                                      Points& force) const {
     for (const End end : kEnds) {
+        if (!elastic(end)) continue;
         const Points pulled = anchor_forces(end, t_s, x);
         for (int c = 0; c < chains(); ++c) force.row(tendon_node(end, c)) -= sign * pulled.row(c);
     }
@@ -186,11 +221,13 @@ void Musculotendon::add_tendon_force(double t_s, const Points& x, double sign,
 double Musculotendon::tendon_energy(double t_s, const Points& x) const {
     double energy = 0;
     for (const End end : kEnds) {
+        if (!elastic(end)) continue;
         const Points points = anchor_points(end, t_s);
-        for (int c = 0; c < chains(); ++c)
-            energy +=
-                chain_force_n_ * half_slack_m_ *
-                curves_.tendon.at(tendon(x, points, end, c).span / half_slack_m_ - 1).integral;
+        for (int c = 0; c < chains(); ++c) {
+            const double slack = slack_m(end, c);
+            energy += chain_force_n_ * slack *
+                      curves_.tendon.at(tendon(x, points, end, c).span / slack - 1).integral;
+        }
     }
     return energy;
 }
@@ -199,9 +236,9 @@ double Musculotendon::energy(double t_s, const Points& x) const {
     const double a = activation_(t_s);
     double energy = 0;
     for (int c = 0; c < chains(); ++c) {
-        energy += chain_force_n_ * parameters_.optimal_length_m * a *
-                  curves_.active.at(mean_stretch(x, c)).integral;
-        for (int m = 0; m + 1 < grid_.m; ++m) {
+        energy +=
+            chain_force_n_ * optimal_m_[c] * a * curves_.active.at(mean_stretch(x, c)).integral;
+        for (int m = 0; m < segments_along(); ++m) {
             const double l0 = segment(m, c).optimal_m;
             energy += chain_force_n_ * l0 * curves_.passive.at(fibre(x, m, c).length / l0).integral;
         }
@@ -249,9 +286,9 @@ double Musculotendon::add_potential(const ImplicitStep& step, const Points& x,
     add_tendon_force(step.end_s, x, -1, gradient);
     for (int c = 0; c < chains(); ++c) {
         const Active chain = active(step, x, c);
-        potential += chain_force_n_ * parameters_.optimal_length_m * chain.integral;
-        for (int m = 0; m + 1 < grid_.m; ++m) {
-            const int i = node(m, c), j = node(m + 1, c);
+        potential += chain_force_n_ * optimal_m_[c] * chain.integral;
+        for (int m = 0; m < segments_along(); ++m) {
+            const int i = node(m, c), j = next_node(m, c);
             const Line f = fibre(x, m, c);
             const Pull pull = fibre_pull(step, f, m, c, chain.force);
             potential += pull.energy;
@@ -267,28 +304,29 @@ void Musculotendon::add_hessian(const ImplicitStep& step, const Points& x, Curva
                                 solve::HessianBuilder& hessian) const {
     for (int c = 0; c < chains(); ++c) {
         const Active chain = active(step, x, c);
-        for (int m = 0; m + 1 < grid_.m; ++m) {
+        for (int m = 0; m < segments_along(); ++m) {
             const Line f = fibre(x, m, c);
             if (!(f.span > 0)) continue;
             const Pull pull = fibre_pull(step, f, m, c, chain.force);
             const double along = pull.slope * f.slope * f.slope + pull.tension * f.curvature;
             const double across = pull.tension * f.slope / f.span;
-            add_line_block(node(m, c), node(m + 1, c),
+            add_line_block(node(m, c), next_node(m, c),
                            line_block(f.direction, along, across, curvature), hessian);
         }
         if (chain.slope != 0 && (chain.slope > 0 || curvature == Curvature::kExact))
-            add_chain_block(x, c, chain_force_n_ * chain.slope / parameters_.optimal_length_m,
-                            hessian);
+            add_chain_block(x, c, chain_force_n_ * chain.slope / optimal_m_[c], hessian);
     }
     for (const End end : kEnds) {
+        if (!elastic(end)) continue;
         const Points points = anchor_points(end, step.end_s);
         for (int c = 0; c < chains(); ++c) {
             const Line t = tendon(x, points, end, c);
-            const Curve::Value tension = curves_.tendon.at(t.span / half_slack_m_ - 1);
+            const double slack = slack_m(end, c);
+            const Curve::Value tension = curves_.tendon.at(t.span / slack - 1);
             if (tension.value == 0) continue;
             const int i = tendon_node(end, c);
             hessian.add(i, i,
-                        line_block(t.direction, chain_force_n_ * tension.slope / half_slack_m_,
+                        line_block(t.direction, chain_force_n_ * tension.slope / slack,
                                    chain_force_n_ * tension.value / t.span, curvature));
         }
     }
@@ -301,10 +339,10 @@ void Musculotendon::add_chain_block(const Points& x, int chain, double stiffness
     Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * count);  // of the chain's length
     for (int m = 0; m < count; ++m) {
         rows[static_cast<std::size_t>(m)] = node(m, chain);
-        if (m + 1 == count) break;
+        if (m == segments_along()) break;
         const Line f = fibre(x, m, chain);
         g.segment<3>(3 * m) -= f.slope * f.direction;
-        g.segment<3>(3 * m + 3) += f.slope * f.direction;
+        g.segment<3>(3 * grid_.next(m)) += f.slope * f.direction;
     }
     const Eigen::MatrixXd block = stiffness * g * g.transpose();
     hessian.add_dense(rows.data(), count, block.data());
@@ -315,23 +353,42 @@ void Musculotendon::add_metric(double step_s, solve::MetricBuilder& metric) cons
     const double rate = steepest / (parameters_.greatest_speed_hz * step_s);  // 0 in an equilibrium
     const double c[2] = {-1, 1};
     for (int chain = 0; chain < chains(); ++chain) {
-        for (int m = 0; m + 1 < grid_.m; ++m) {
-            const int rows[2] = {node(m, chain), node(m + 1, chain)};
+        for (int m = 0; m < segments_along(); ++m) {
+            const int rows[2] = {node(m, chain), next_node(m, chain)};
             // At full force a fibre resists turning with F0 / l0.
             metric.add_outer(rows, c, 2, chain_force_n_ / segment(m, chain).optimal_m * (1 + rate));
         }
         const double stiffest = curves_.tendon.at(1).slope;  // far beyond its toe
         for (const End end : kEnds)
-            metric.add_diagonal(tendon_node(end, chain), chain_force_n_ / half_slack_m_ * stiffest);
+            if (elastic(end))
+                metric.add_diagonal(tendon_node(end, chain),
+                                    chain_force_n_ / slack_m(end, chain) * stiffest);
     }
 }
 
+double Musculotendon::isometric_tension(double t_s, const Points& x, int m, int chain) const {
+    return chain_force_n_ *
+           (activation_(t_s) * curves_.active.value(mean_stretch(x, chain)) +
+            curves_.passive.value(fibre(x, m, chain).length / segment(m, chain).optimal_m));
+}
+
 Points Musculotendon::anchor_forces(End end, double t_s, const Points& x) const {
-    const Points points = anchor_points(end, t_s);
+    if (!anchored(end)) return Points(0, 3);
     Points forces(chains(), 3);
+    if (!elastic(end)) {
+        const int m = end == End::kOrigin ? 0 : segments_along() - 1;
+        const double inward = end == End::kOrigin ? 1 : -1;
+        for (int c = 0; c < chains(); ++c) {
+            const Line f = fibre(x, m, c);
+            forces.row(c) =
+                inward * isometric_tension(t_s, x, m, c) * f.slope * f.direction.transpose();
+        }
+        return forces;
+    }
+    const Points points = anchor_points(end, t_s);
     for (int c = 0; c < chains(); ++c) {
         const Line t = tendon(x, points, end, c);
-        const double tension = chain_force_n_ * curves_.tendon.value(t.span / half_slack_m_ - 1);
+        const double tension = chain_force_n_ * curves_.tendon.value(t.span / slack_m(end, c) - 1);
         forces.row(c) = -tension * t.direction.transpose();
     }
     return forces;
@@ -351,7 +408,7 @@ double Musculotendon::segment_spread(const Points& x) const {
     double worst = 0;
     for (int c = 0; c < chains(); ++c) {
         double least = INFINITY, greatest = 0;
-        for (int m = 0; m + 1 < grid_.m; ++m) {
+        for (int m = 0; m < segments_along(); ++m) {
             const double l = fibre(x, m, c).length / segment(m, c).optimal_m;
             least = std::min(least, l);
             greatest = std::max(greatest, l);

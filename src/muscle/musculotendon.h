@@ -1,5 +1,5 @@
-// Zajac's musculotendon in a grid solid: fibres between successive nodes along a1, and tendons from both ends of the belly
-// to two planar anchors.
+// Zajac's musculotendon in a grid solid: fibres between successive nodes along a1, and tendons from the ends of the belly
+// to its anchors.
 //
 //   F0   greatest isometric force, N       l0   optimal fibre length, m      lTs   slack length of both tendons together, m
 //   vmax greatest shortening speed, l0/s   alpha  pennation at l0            a   activation, 0..1     b   damping
@@ -7,9 +7,17 @@
 //           T = F0 [ a fl(mean of l/l0 along the chain) fv(l'/(vmax l0)) + fp(l/l0) + b l'/(vmax l0) ] along s: T s/l
 //   tendon  T = F0 fT((lT - lTs/2) / (lTs/2)), one at either end of a chain
 //
-// (M-1) N O fibres and 2 N O tendons share F0 among the N O chains. Force-length is taken of the whole chain's mean
-// length: taken segment by segment, segments in series on the falling limb run apart. For an implicit step fl is that of
+// (M-1) N O fibres and 2 N O tendons share F0 among the N O chains; l0 is the mean of the chains', which share it as they
+// share length at rest, so that every fibre is stretched alike there. Force-length is taken of the whole chain's mean length: taken segment by segment, segments in series on the falling limb run apart. For an implicit step fl is that of
 // the step's start and fv is implicit, which makes the potential convex; in an equilibrium fl has a potential of its own.
+//
+// Ends: an end without anchor points is free: what the muscle runs into, such as skin, holds its nodes. A closed grid, a
+// sphincter, has M N O fibres and no ends; l0 and s are then once round. Of one anchored end lTs is that end's alone.
+//
+// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then
+// points of the anchor, no unknowns: the system has to hold those nodes (tied_nodes) and move them (place_tied), the
+// fibre length is that of the path from anchor to anchor less lTs, and the outermost fibres pull on the anchor itself.
+// Nothing is stiff, no step is limited; lTs may be 0, as of short facial muscles that begin on the bone.
 //
 // Sources: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, 4.2.
 #pragma once
@@ -19,6 +27,7 @@
 #include <vector>
 
 #include "core/json_cursor.h"
+#include "muscle/anchors.h"
 #include "muscle/curve_sets.h"
 #include "muscle/muscle_curves.h"
 #include "solve/force_term.h"
@@ -26,35 +35,23 @@
 
 namespace risorius::muscle {
 
+enum class TendonModel { kElastic, kRigid };
+
 struct MuscleParameters {
     double f0_n = 0;                ///< F0                                        (0, inf)
     double optimal_length_m = 0;    ///< l0                                        (0, inf)
-    double tendon_slack_m = 0;      ///< lTs                                       (0, inf)
+    double tendon_slack_m = 0;      ///< lTs; above 0 where elastic tendons are    [0, inf)
     double greatest_speed_hz = 10;  ///< vmax, optimal lengths per second          (0, inf)
     double pennation_deg = 0;       ///< alpha                                     [0, 90)
     double damping = 0.05;          ///< b, ratio of F0 at vmax                    [0, inf)
-    CurveShape curves = {};         ///< for make_curves
+    TendonModel tendon = TendonModel::kElastic;  ///< "elastic", "rigid"
+    CurveShape curves = {};                      ///< for make_curves
 };
 
 /// Throws Error with the field named below `place`.
 void check(const MuscleParameters& parameters, const std::string& place);
-/// An object whose keys are the fields; the first three are required.
+/// An object whose keys are the fields; the first two are required.
 MuscleParameters read_muscle_parameters(const JsonCursor& json);
-
-enum class End { kOrigin, kInsertion };  ///< beside m = 0 and beside m = M - 1
-
-/// What one end of a muscle is tied to: a point per chain on a rigid plate or bone.
-struct Anchor {
-    Points rest;  ///< N O x 3, m; chain n O + o
-    std::function<Rigid(double t_s)> motion =
-        {};  ///< of the plate from rest; empty: it stands still
-};
-
-/// Plates across the ends of a belly at rest, half the slack length away along the chains' mean direction.
-struct Anchors {
-    Anchor origin, insertion;
-};
-Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m);
 
 /// Activation at a time.
 using ActivationAt = std::function<double(double t_s)>;
@@ -62,8 +59,8 @@ using ActivationAt = std::function<double(double t_s)>;
 class Musculotendon final : public solve::ForceTerm {
   public:
     /// Nodes are those of the grid; `rest` tells how segments share l0, by their lengths. Throws Error for parameters
-    /// outside their ranges (named below `place`) and std::invalid_argument for arrays of wrong size or a segment without
-    /// length.
+    /// outside their ranges (named below `place`), an elastic tendon without length among them, and std::invalid_argument
+    /// for arrays of wrong size, a segment without length or a ring with anchors.
     Musculotendon(const MuscleParameters& parameters, MuscleCurves curves,
                   const tissue::GridShape& grid, const Points& rest, Anchors anchors,
                   ActivationAt activation, const std::string& place = "muscle");
@@ -81,8 +78,15 @@ class Musculotendon final : public solve::ForceTerm {
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
-    Points anchor_points(End end, double t_s) const;  ///< N O x 3, m
-    /// What each tendon pulls its point of the anchor with, N O x 3, N; and their sum.
+    /// Nodes that rigid tendons make part of an anchor, ascending; none for elastic ones.
+    std::vector<int> tied_nodes() const;
+    /// Puts them where the anchors are: a solve::PrescribedMotion.
+    void place_tied(double t_s, Points& x, Points& v) const;
+
+    bool anchored(End end) const { return anchor(end).rest.rows() > 0; }
+    Points anchor_points(End end, double t_s) const;  ///< N O x 3, m; no rows of a free end
+    /// What each tendon pulls its point of the anchor with, N O x 3, N; and their sum. Of rigid tendons: the outermost
+    /// fibres at rest; the belly's own stress in tied nodes comes on top.
     Points anchor_forces(End end, double t_s, const Points& x) const;
     Vec3 anchor_pull(End end, double t_s, const Points& x) const;
 
@@ -114,7 +118,18 @@ class Musculotendon final : public solve::ForceTerm {
     };
 
     int chains() const { return grid_.n * grid_.o; }
+    const Anchor& anchor(End end) const {
+        return end == End::kOrigin ? anchors_.origin : anchors_.insertion;
+    }
+    bool elastic(End end) const {
+        return parameters_.tendon == TendonModel::kElastic && anchored(end);
+    }
+    double slack_m(End end, int chain) const {
+        return slack_m_[end == End::kOrigin ? 0 : 1][chain];
+    }
+    int segments_along() const { return grid_.cells(0); }
     int node(int m, int chain) const { return m * chains() + chain; }
+    int next_node(int m, int chain) const { return node(grid_.next(m), chain); }
     /// Of the belly, where the tendon of that end begins.
     int tendon_node(End end, int chain) const {
         return node(end == End::kOrigin ? 0 : grid_.m - 1, chain);
@@ -130,6 +145,8 @@ class Musculotendon final : public solve::ForceTerm {
     Active active(const solve::ImplicitStep& step, const Points& x, int chain) const;
     Pull fibre_pull(const solve::ImplicitStep& step, const Line& now, int m, int chain,
                     double active) const;
+    void set_slack();
+    double isometric_tension(double t_s, const Points& x, int m, int chain) const;
     double tendon_energy(double t_s, const Points& x) const;
     void add_tendon_force(double t_s, const Points& x, double sign, Points& force) const;
     void add_chain_block(const Points& x, int chain, double stiffness,
@@ -140,8 +157,10 @@ class Musculotendon final : public solve::ForceTerm {
     tissue::GridShape grid_;
     Anchors anchors_;
     ActivationAt activation_;
-    double chain_force_n_;  ///< F0 / (N O)
-    double half_slack_m_;   ///< lTs / 2
+    double chain_force_n_;            ///< F0 / (N O)
+    Eigen::VectorXd slack_m_[2];      ///< of the tendons at either end, per chain
+    Eigen::VectorXd optimal_m_;       ///< l0 of each chain
+    std::vector<Vec3> tied_rest_[2];  ///< nodes of the belly at either end
     std::vector<Segment> segments_;
 };
 

@@ -18,6 +18,7 @@ struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
     std::string camera = "front";  ///< a name of render::camera_names()
+    std::string show = "skin";     ///< a name of render::show_names()
     bool transparent = false;      ///< background "transparent"
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
 };
@@ -29,6 +30,7 @@ struct ScriptHeader {
     int fps = 60;                    ///< 1..240
     double duration_s = 0;           ///< (0, 3600], at least one frame
     int seed = 1;
+    JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
     ScriptView view;
 
     int frame_count() const;

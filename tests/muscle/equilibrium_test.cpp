@@ -18,6 +18,11 @@ MuscleParameters pennated(double deg) {
     return p;
 }
 
+MuscleParameters rigidly(MuscleParameters parameters) {
+    parameters.tendon = TendonModel::kRigid;
+    return parameters;
+}
+
 TEST(Equilibrium, FibreAndTendonPullAlike) {
     for (const std::string_view set : curve_set_names()) {
         const MuscleCurves curves = make_curves(curve_set_named(std::string(set)));
@@ -41,8 +46,7 @@ TEST(Equilibrium, OfAStiffTendonIsThatOfARigidOne) {
     const MuscleCurves stiff = zajac_curves({.tendon_strain = 1e-6});
     for (double length = 0.05; length < 0.08; length += 0.005) {
         const Equilibrium elastic = equilibrium(kMuscle, stiff, 0.7, length);
-        const Equilibrium rigid =
-            equilibrium(kMuscle, zajac_curves(), 0.7, length, TendonModel::kRigid);
+        const Equilibrium rigid = equilibrium(rigidly(kMuscle), zajac_curves(), 0.7, length);
         EXPECT_NEAR(elastic.force_n, rigid.force_n, 1e-3);
         EXPECT_DOUBLE_EQ(rigid.tendon_m, 0.02);
         EXPECT_DOUBLE_EQ(rigid.fibre_m, length - 0.02);
@@ -103,14 +107,13 @@ TEST(Scaling, PennationGrowsAtConstantThickness) {
     const MuscleCurves curves = zajac_curves();
     const double thickness = 0.04 * std::sin(25 * std::numbers::pi / 180);
     for (double length = 0.045; length < 0.075; length += 0.005) {
-        const Equilibrium at = equilibrium(pennated(25), curves, 1, length, TendonModel::kRigid);
+        const Equilibrium at = equilibrium(rigidly(pennated(25)), curves, 1, length);
         EXPECT_NEAR(at.fibre_m * std::sin(at.pennation_rad), thickness, 1e-15);
     }
     // At optimal length cos(alpha) of F0 reaches the tendon.
     const double cosine = std::cos(25 * std::numbers::pi / 180);
-    EXPECT_NEAR(
-        equilibrium(pennated(25), curves, 1, 0.02 + 0.04 * cosine, TendonModel::kRigid).force_n,
-        94.2 * cosine, 1e-9);
+    EXPECT_NEAR(equilibrium(rigidly(pennated(25)), curves, 1, 0.02 + 0.04 * cosine).force_n,
+                94.2 * cosine, 1e-9);
 }
 
 }  // namespace

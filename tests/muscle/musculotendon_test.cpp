@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -216,7 +217,7 @@ TEST(Musculotendon, ParametersOutsideTheirRangesAreRefusedByName) {
     EXPECT_EQ(message_of(p), "muscle.json:/muscle/optimal_length_m: expected (0, inf), found 0");
     p = kPrototype;
     p.tendon_slack_m = kInfinite;
-    EXPECT_EQ(message_of(p), "muscle.json:/muscle/tendon_slack_m: expected (0, inf), found inf");
+    EXPECT_EQ(message_of(p), "muscle.json:/muscle/tendon_slack_m: expected [0, inf), found inf");
     p = kPrototype;
     p.greatest_speed_hz = std::nan("");
     EXPECT_EQ(message_of(p), "muscle.json:/muscle/greatest_speed_hz: expected (0, inf), found nan");
