@@ -186,8 +186,11 @@ struct Face::Impl {
     }
 
     // Where it is, or where the drive wants it.
-    Rigid mandible(const State& state, const track::Drive& drive) const {
-        return jaw_dynamics ? jaw_joint.pose(state.jaw.q).motion : mandible(drive);
+    Rigid mandible(const JawVector& q, const track::Drive& drive) const {
+        return jaw_dynamics ? jaw_joint.pose(q).motion : mandible(drive);
+    }
+    JawVector jaw_between(double share) const {
+        return (1 - share) * before.jaw.q + share * now.jaw.q;
     }
 
     // One step of the tissue, and of the jaw if muscles move it.
@@ -204,8 +207,8 @@ struct Face::Impl {
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
-        tissue.carry_with_bone(x, mandible(now, now.drive), mandible(now, drive));
-        tissue.prescribe({mandible(now, drive),
+        tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
+        tissue.prescribe({mandible(now.jaw.q, drive),
                           {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                           drive.at(track::Kinematic::kMouthPressure)});
     }
@@ -303,7 +306,8 @@ struct Face::Impl {
         make_surfaces();
         const track::Drive drive = drive_between(share);
         Points vertices = surfaces.rest;
-        straps->place((1 - share) * before.x + share * now.x, mandible(drive), vertices);
+        straps->place((1 - share) * before.x + share * now.x, mandible(jaw_between(share), drive),
+                      vertices);
         follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
         return vertices;
     }
@@ -318,10 +322,10 @@ struct Face::Impl {
                 (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
         }
         FacePose out;
-        State between;
-        between.jaw.q = (1 - share) * before.jaw.q + share * now.jaw.q;
-        const Rigid moved = mandible(between, drive);
+        const JawVector q = jaw_between(share);
+        const Rigid moved = mandible(q, drive);
         out.jaw = jaw_joint.place(moved);
+        if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
                                     : drive.at(track::Kinematic::kJawOpen);
         const auto gaze_of = [&](track::Kinematic channel) {

@@ -146,7 +146,8 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                              head.size / (strands * bands);
         FibreBundle bundle;
         bundle.muscle = band.muscle;
-        if (!band.crosses_midline()) bundle.side = side;
+        if (channels.column(band.muscle, Side::kLeft) != channels.column(band.muscle, Side::kRight))
+            bundle.side = side;
         bundle.column = column;
         bundle.first_fibre = static_cast<int>(out.fibres.size());
         bundle.width_m = band.width_m / bands * head.size;

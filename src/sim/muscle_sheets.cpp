@@ -226,16 +226,17 @@ void BoneSheet::place(const Rigid& mandible, Points& grid) const {
     std::vector<Vec3> centre(centre_.size());
     for (std::size_t i = 0; i < centre_.size(); ++i)
         centre[i] = centre_[i] + share_[i] * (mandible * centre_[i] - centre_[i]);
-    // Of constant volume: as much wider and thicker as it is shorter.
-    const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre)));
+    // As much wider (and thicker) as keeps its volume when it is shorter, but for its ends on the bone
+    const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre))) - 1;
     grid.resize(size_.points(), 3);
     for (int row = 0; row < size_.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
+        const double bulge = 1 + wider * std::sin(std::numbers::pi * size_.along(row));
         const Mat3 turn = Mat3::Identity() + share_[i] * (mandible.linear() - Mat3::Identity());
         for (int column = 0; column < size_.columns; ++column) {
             const int p = row * size_.columns + column;
             grid.row(p) =
-                (centre[i] + wider * (turn * offset_[static_cast<std::size_t>(p)])).transpose();
+                (centre[i] + bulge * (turn * offset_[static_cast<std::size_t>(p)])).transpose();
         }
     }
 }
