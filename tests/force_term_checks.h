@@ -22,6 +22,12 @@ inline Points random_points(long rows, double amount, unsigned seed) {
     return out;
 }
 
+inline Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
+    Points force = Points::Zero(x.rows(), 3);
+    term.add_force(0, x, v, force);
+    return force;
+}
+
 inline Points potential_gradient(const solve::ForceTerm& term, const solve::ImplicitStep& step,
                                  const Points& x) {
     Points gradient = Points::Zero(x.rows(), 3);

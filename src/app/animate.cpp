@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/frame_table.h"
@@ -16,6 +17,7 @@
 #include "media/video_writer.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
+#include "track/simulated_emg.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -88,10 +90,13 @@ std::vector<std::string> warnings_about(const track::ScriptDescription& script,
     return out;
 }
 
-RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFiles& files,
+RunRecord describe(const AnimateOptions& options, const Shot& shot,
+                   const track::ScriptDescription& script, const RigFiles& files,
                    const sim::Face& face) {
     RunRecord record;
     record.script = {options.script, media::sha256_of_file(options.script)};
+    for (const fs::path& recording : script.recordings)
+        record.recordings.push_back({recording, media::sha256_of_file(recording)});
     record.rig = {files.file, media::sha256_of_file(files.file)};
     record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
     for (const fs::path& table : files.rig.table_files)
@@ -104,6 +109,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot, const RigFil
     record.width_px = shot.view.width_px;
     record.height_px = shot.view.height_px;
     record.camera = shot.view.camera;
+    record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = options.quality;
     record.nodes = face.node_count();
@@ -131,17 +137,23 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     watch.tell(0, "building the face");
     sim::Face face(files.rig, files.mesh, quality, files.place());
     const track::Timeline timeline(script, channels);
-    render::OffscreenView view(scene_from_rig(face.head(), files.rig, files.mesh), shot.view);
+    render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
+    const bool inside = shot.view.show == render::Show::kMuscles;
+    if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
+    render::OffscreenView view(scene, shot.view);
     Output output(options.out, shot, options.still_s.has_value());
-    RunRecord record = describe(options, shot, files, face);
+    RunRecord record = describe(options, shot, script, files, face);
     record.warnings = warnings_about(script, files.rig.muscles);
     record.timing.build_s = total.seconds();
 
     // One picture per frame
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
-    FrameTable table(channels, LandmarkPoints(face.head(), files.rig),
-                     {.landmarks = options.landmarks,
-                      .project = [&](const Vec3& world) { return view.project(world); }});
+    FrameTableOptions columns{.landmarks = options.landmarks,
+                              .project = [&](const Vec3& world) { return view.project(world); },
+                              .emg = {}};
+    track::SimulatedEmg emg(channels, drive);
+    if (options.emg) columns.emg = [&](double t_s) { return emg.at(t_s); };
+    FrameTable table(channels, LandmarkPoints(face.head(), files.rig), std::move(columns));
     media::Sha256 hash;
     int most_inverted_tets = 0;
     const auto simulate = [&](int frame) {
@@ -152,16 +164,20 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
             watch.tell(face.time_s() / t_s, "simulating");
             face.step(drive);
         }
-        sim::FacePose pose = face.pose_at(t_s, drive);
-        table.add(frame, t_s, drive(t_s), face.activation_at(t_s), pose);
+        const sim::FacePose pose = face.pose_at(t_s, drive);
+        const Eigen::VectorXd activation = face.activation_at(t_s);
+        table.add(frame, t_s, drive(t_s), activation, pose);
         most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
+        render::Pose seen = pose_for_view(pose);
+        if (inside)
+            add_muscles(face.muscle_surfaces(), activation, face.muscle_vertices_at(t_s), seen);
         record.timing.simulate_s += stage.seconds();
-        return pose;
+        return seen;
     };
-    const auto show = [&](int frame, const sim::FacePose& pose) {
+    const auto show = [&](int frame, const render::Pose& pose) {
         watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
         const Stopwatch drawing;
-        Image image = view.draw(pose_for_view(pose));
+        Image image = view.draw(pose);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawing.seconds();
         const Stopwatch encoding;

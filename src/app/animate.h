@@ -22,10 +22,12 @@ struct AnimateOptions {
     std::optional<PictureSize> size;
     std::optional<int> fps;
     std::optional<std::string> camera;
-    std::optional<double> still_s;  ///< one picture, of this time, instead of a video
-    std::string quality = "video";  ///< sim::quality_named
-    bool landmarks = false;         ///< their places in the table
-    int threads = 2;                ///< 1, or more to simulate beside drawing; same frames
+    std::optional<std::string> show;  ///< render::show_names()
+    std::optional<double> still_s;    ///< one picture, of this time, instead of a video
+    std::string quality = "video";    ///< sim::quality_named
+    bool landmarks = false;           ///< their places in the table
+    bool emg = false;                 ///< what electrodes would record, in the table
+    int threads = 2;                  ///< 1, or more to simulate beside drawing; same frames
 };
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for

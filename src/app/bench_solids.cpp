@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/stopwatch.h"
@@ -17,7 +18,7 @@ namespace risorius::app {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60, kEdge_m = 3;
-constexpr int kFewest = 2, kMost = 30;
+constexpr int kFewestIterations = 2, kMostIterations = 30;
 
 /// The cube of figures 5 and 9: 4 kg, lambda 1.5 N/m^3, omega 0.1 N s/m^3, held at its highest plane of a3.
 struct HangingCube {
@@ -51,20 +52,21 @@ struct HangingCube {
     }
 };
 
-double median(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
     const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), half, values.end());
     return *half;
 }
 
-struct Run {
+struct Fall {
     std::vector<double> step_ms, converged_ms, error;
 };
 
 /// Falls with so many iterations per step; every so often the same step is converged too. Ends early once an error exceeds
 /// what is accepted.
-Run fall(const HangingCube& cube, const std::shared_ptr<tissue::CellPreconditioner>& preconditioner,
-         int iterations, const SolidBenchOptions& options) {
+Fall fall(const HangingCube& cube,
+          const std::shared_ptr<tissue::CellPreconditioner>& preconditioner, int iterations,
+          const SolidBenchOptions& options) {
     const auto stepper = [&](solve::RealTimeOptions how) {
         how.step_s = kStep_s;
         how.length_scale_m = kEdge_m;
@@ -72,7 +74,7 @@ Run fall(const HangingCube& cube, const std::shared_ptr<tissue::CellPrecondition
     };
     solve::RealTimeStep fast = stepper({.iterations = iterations});
     solve::RealTimeStep converged = stepper({.iterations = 100, .memory = 20, .accuracy = 1e-6});
-    Run run;
+    Fall run;
     solve::MotionState state = cube.at_rest;
     for (int step = 0; step < options.first_step + options.steps; ++step) {
         const solve::MotionState before = state;
@@ -114,7 +116,7 @@ Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
     out["cases"] = Json::array();
     out["growth_exponents"] = Json::array();
     double nodes_before = 0, ms_before = 0;
-    int iterations = kFewest;  // finer grids need no fewer
+    int iterations = kFewestIterations;  // finer grids need no fewer
     for (std::size_t i = 0; i < options.nodes_per_edge.size(); ++i) {
         const int edge = options.nodes_per_edge[i];
         const double share =
@@ -125,20 +127,20 @@ Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
         const auto preconditioner =
             std::make_shared<tissue::CellPreconditioner>(cube.system, cube.solid, kStep_s);
 
-        Run run = fall(cube, preconditioner, iterations, options);
-        while (!(run.error.back() <= options.accuracy) && iterations < kMost) {
+        Fall run = fall(cube, preconditioner, iterations, options);
+        while (!(run.error.back() <= options.accuracy) && iterations < kMostIterations) {
             watch.tell(share, name);
             run = fall(cube, preconditioner, ++iterations, options);
         }
-        const double nodes = cube.system.size(), ms = median(run.step_ms);
+        const double nodes = cube.system.size(), ms = middle_of(run.step_ms);
         out["cases"].push_back(
             {{"nodes", cube.system.size()},
              {"iterations", iterations},
              {"step_ms", ms},
              {"least_step_ms", *std::min_element(run.step_ms.begin(), run.step_ms.end())},
-             {"median_error", median(run.error)},
+             {"median_error", middle_of(run.error)},
              {"worst_error", *std::max_element(run.error.begin(), run.error.end())},
-             {"converged_step_ms", median(run.converged_ms)},
+             {"converged_step_ms", middle_of(run.converged_ms)},
              {"newton_step_ms",
               edge <= options.newton_nodes_per_edge ? Json(newton_ms(cube)) : Json(nullptr)}});
         if (i > 0)

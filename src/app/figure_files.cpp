@@ -1,6 +1,7 @@
 #include "app/figure_files.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/staged_file.h"

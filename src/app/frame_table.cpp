@@ -25,6 +25,8 @@ FrameTable::FrameTable(const track::ChannelTable& channels, const LandmarkPoints
     text_ = "frame\ttime_s";
     for (const char* kind : {"excitation.", "activation."})
         for (const std::string& column : channels.column_names()) text_ += "\t" + (kind + column);
+    if (options_.emg)
+        for (const std::string& column : channels.column_names()) text_ += "\temg:" + column;
     for (const track::KinematicChannel& channel : track::kinematic_channels())
         text_ += "\t" + std::string(channel.name);
     text_ += "\tlip_aperture_mm\tlip_width_mm\tlid_aperture_l_mm\tlid_aperture_r_mm";
@@ -40,6 +42,8 @@ void FrameTable::add(int frame, double time_s, const track::Drive& drive,
     // A muscle whose activation is set directly has no excitation of its own.
     for (double value : drive.excitation) text_ += cell(value, 6);
     for (double value : activation) text_ += cell(value, 6);
+    if (options_.emg)
+        for (double value : options_.emg(time_s)) text_ += cell(value, 6);
     for (double value : drive.kinematic) text_ += cell(value, 6);
     for (const auto& [a, b] : {std::pair{"stos", "stoi"}, std::pair{"ch_l", "ch_r"},
                                std::pair{"ps_l", "pi_l"}, std::pair{"ps_r", "pi_r"}})

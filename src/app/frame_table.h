@@ -2,6 +2,7 @@
 //
 //   frame, time_s
 //   excitation.<column>, activation.<column>    ratio, every column of the rig
+//   emg:<column>                                with emg: what electrodes would record, ratio of the greatest
 //   jaw_open ... tongue_out                     kinematic channels, in the units of their names
 //   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
 //   lip_width_mm      corner to corner, ch_l - ch_r
@@ -20,7 +21,8 @@ namespace risorius::app {
 
 struct FrameTableOptions {
     bool landmarks = false;
-    std::function<Vec2(const Vec3& world)> project;  ///< pixels; needed with landmarks
+    std::function<Vec2(const Vec3& world)> project;     ///< pixels; needed with landmarks
+    std::function<Eigen::VectorXd(double time_s)> emg;  ///< per column; empty: no such columns
 };
 
 class FrameTable {

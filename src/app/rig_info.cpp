@@ -1,6 +1,7 @@
 #include "app/rig_info.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/rig_files.h"
 #include "rig/head.h"

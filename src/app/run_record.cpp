@@ -1,6 +1,7 @@
 #include "app/run_record.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/version.h"
 
@@ -41,6 +42,8 @@ Json RunRecord::json() const {
     json["mesh"] = file(mesh);
     json["tables"] = Json::array();
     for (const File& table : tables) json["tables"].push_back(file(table));
+    json["recordings"] = Json::array();
+    for (const File& recording : recordings) json["recordings"].push_back(file(recording));
     json["seed"] = seed;
     json["fps"] = fps;
     json["frames"] = frames;
@@ -48,6 +51,7 @@ Json RunRecord::json() const {
     json["width_px"] = width_px;
     json["height_px"] = height_px;
     json["camera"] = camera;
+    json["show"] = show;
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;

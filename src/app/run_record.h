@@ -34,12 +34,13 @@ struct RunRecord {
         std::string sha256;
     };
     File script, rig, mesh;
-    std::vector<File> tables;  ///< files that the rig names
+    std::vector<File> tables;      ///< files that the rig names
+    std::vector<File> recordings;  ///< and that the script does
     std::filesystem::path out;
     int seed = 1;
     int fps = 60, frames = 0, width_px = 0, height_px = 0;
     double first_frame_s = 0;  ///< 0 but for a still
-    std::string camera, background;
+    std::string camera, show, background;
     std::string quality;
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
     SolverFigures solver;

@@ -100,8 +100,30 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
 }
 
 render::Pose pose_for_view(const sim::FacePose& pose) {
-    return {
-        .positions = pose.vertices, .eye_rotation = pose.eye_rotation, .jaw_open = pose.jaw_open};
+    render::Pose out;
+    out.positions = pose.vertices;
+    out.eye_rotation = pose.eye_rotation;
+    out.jaw_open = pose.jaw_open;
+    return out;
+}
+
+render::Muscles muscles_for_view(const sim::MuscleSurfaces& surfaces) {
+    render::Muscles muscles;
+    muscles.rest = surfaces.rest;
+    muscles.fibre = surfaces.fibre;
+    muscles.tendon = surfaces.tendon;
+    for (const sim::MuscleSurface& surface : surfaces.muscles) {
+        const int side = surface.side ? static_cast<int>(*surface.side) : -1;
+        muscles.parts.push_back({surface.muscle, side, surface.triangles});
+    }
+    return muscles;
+}
+
+void add_muscles(const sim::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
+                 Points vertices, render::Pose& pose) {
+    pose.muscle_positions = std::move(vertices);
+    for (const sim::MuscleSurface& surface : surfaces.muscles)
+        pose.activations.push_back(surface.column < 0 ? 0.0 : activation[surface.column]);
 }
 
 }  // namespace risorius::app

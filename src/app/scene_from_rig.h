@@ -14,4 +14,9 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
 
 render::Pose pose_for_view(const sim::FacePose& pose);
 
+/// What a picture needs to show the muscles: their shapes, once, and what of a frame colours and moves them.
+render::Muscles muscles_for_view(const sim::MuscleSurfaces& surfaces);
+void add_muscles(const sim::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
+                 Points vertices, render::Pose& pose);
+
 }  // namespace risorius::app

@@ -38,6 +38,7 @@ Shot plan_shot(const AnimateOptions& options) {
     shot.view.width_px = options.size ? options.size->width_px : asked.width_px;
     shot.view.height_px = options.size ? options.size->height_px : asked.height_px;
     shot.view.camera = options.camera.value_or(asked.camera);
+    shot.view.show = render::show_named(options.show.value_or(asked.show), "--show");
     shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
     shot.view.threads = options.threads > 1 ? options.threads : 0;
 

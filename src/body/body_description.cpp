@@ -9,10 +9,9 @@
 namespace risorius::body {
 namespace {
 
+using detail::kMostNodesPerAxis;
 using detail::not_negative;
 using detail::positive;
-
-constexpr int kMostNodesPerAxis = 1000;
 
 const std::vector<Quantity>& quantities_of(Kind kind) {
     static const std::vector<Quantity> solid = {

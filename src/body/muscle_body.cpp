@@ -16,10 +16,9 @@ namespace risorius::body {
 
 namespace {
 
+using detail::kMostNodesPerAxis;
 using detail::not_negative;
 using detail::positive;
-
-constexpr int kMostNodesPerAxis = 1000;
 
 tissue::GridShape read_grid(const JsonCursor& json) {
     const std::vector<JsonCursor> counts = json.items();

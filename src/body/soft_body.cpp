@@ -45,14 +45,21 @@ Matter matter_of_solid(const BodyDescription& description) {
     return matter;
 }
 
+/// What sheets and curves have alike; the wires are left.
+template <class Term, class Grid>
+Matter matter_of_grid(const Grid& grid, const std::string& place) {
+    tissue::check(grid, place);
+    Matter matter;
+    matter.rest = grid.rest;
+    matter.mass_kg = tissue::node_mass(grid);
+    matter.drag_ns_per_m = tissue::node_drag(grid);
+    matter.inner = std::make_shared<Term>(grid);
+    return matter;
+}
+
 Matter matter_of_surface(const BodyDescription& description) {
     const tissue::GridSurface surface = grid_surface(description);
-    tissue::check(surface, description.place);
-    Matter matter;
-    matter.rest = surface.rest;
-    matter.mass_kg = tissue::node_mass(surface);
-    matter.drag_ns_per_m = tissue::node_drag(surface);
-    matter.inner = std::make_shared<tissue::GridSurfaceTerm>(surface);
+    Matter matter = matter_of_grid<tissue::GridSurfaceTerm>(surface, description.place);
     matter.surface = tissue::surface_triangles(surface.grid);
     matter.wires = tissue::grid_lines(surface.grid);
     return matter;
@@ -79,13 +86,8 @@ Matter matter_of_triangles(const BodyDescription& description) {
 }
 
 Matter matter_of_curve(const BodyDescription& description) {
-    const tissue::GridCurve curve = grid_curve(description);
-    tissue::check(curve, description.place);
-    Matter matter;
-    matter.rest = curve.rest;
-    matter.mass_kg = tissue::node_mass(curve);
-    matter.drag_ns_per_m = tissue::node_drag(curve);
-    matter.inner = std::make_shared<tissue::GridCurveTerm>(curve);
+    Matter matter =
+        matter_of_grid<tissue::GridCurveTerm>(grid_curve(description), description.place);
     for (int i = 0; i + 1 < description.grid.m; ++i) matter.wires.push_back({i, i + 1});
     return matter;
 }

@@ -1,14 +1,10 @@
 #include "contact/carried_frame.h"
 
+#include "core/cross_matrix.h"
+
 namespace risorius::contact {
 
 namespace {
-
-Mat3 cross_matrix(const Vec3& u) {
-    Mat3 m;
-    m << 0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0;
-    return m;
-}
 
 /// How b - a depends on corner i.
 constexpr double kAlong[3] = {-1, 1, 0};

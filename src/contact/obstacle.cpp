@@ -52,6 +52,24 @@ class Capsule : public Shape {
     double radius_;
 };
 
+/// The shortest turn of one unit vector to another that is not its opposite. Eigen's FromTwoVectors needs a singular value
+/// decomposition for opposites, which takes as long to compile as the rest of this folder.
+Eigen::Quaterniond turn_between(const Vec3& from, const Vec3& to) {
+    const double s = std::sqrt((1 + from.dot(to)) * 2);
+    Eigen::Quaterniond turn;
+    turn.vec() = from.cross(to) * (1 / s);
+    turn.w() = s * 0.5;
+    return turn;
+}
+
+Eigen::Quaterniond turn_from_z(const Vec3& direction) {
+    const Vec3 up = Vec3::UnitZ(), to = direction.normalized();
+    constexpr double kNearOpposite = -1 + 1e-12;
+    if (up.dot(to) >= kNearOpposite) return turn_between(up, to);
+    const Eigen::Quaterniond half_turn(0, 1, 0, 0);  // about x
+    return turn_between(-up, to) * half_turn;
+}
+
 void check_size(double value, const std::string& place) {
     if (!(value > 0 && std::isfinite(value))) throw Error(place, "(0, inf)", format_number(value));
 }
@@ -106,7 +124,7 @@ RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double e
 
 Rigid plane_place(const Vec3& point, const Vec3& normal) {
     Rigid place = Rigid::Identity();
-    place.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix();
+    place.linear() = turn_from_z(normal).toRotationMatrix();
     place.translation() = point;
     return place;
 }

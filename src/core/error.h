@@ -19,4 +19,7 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// For names in messages.
+inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
 }  // namespace risorius

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -154,6 +155,11 @@ const std::filesystem::path& JsonCursor::file() const { return file_; }
 std::string JsonCursor::place() const {
     return file_.string() + ":" + (pointer_.empty() ? "/" : pointer_);
 }
+
+bool JsonCursor::is_object() const { return value_->is_object(); }
+bool JsonCursor::is_array() const { return value_->is_array(); }
+bool JsonCursor::is_string() const { return value_->is_string(); }
+bool JsonCursor::is_number() const { return value_->is_number(); }
 
 bool JsonCursor::has(std::string_view key) const {
     return value_->is_object() && value_->contains(key);

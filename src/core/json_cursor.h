@@ -3,8 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +16,10 @@
 
 namespace risorius {
 
-/// Keys keep the order of the file.
+/// Keys keep the order of the file. Declared only: who looks into one includes <nlohmann/json.hpp>, which costs seconds.
 using Json = nlohmann::ordered_json;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Closed interval; the ends may be infinite.
 struct Range {
@@ -46,10 +49,10 @@ class JsonCursor {
     void allow_keys(const std::vector<std::string_view>& known) const;
     std::vector<std::string> keys() const;  ///< throws when this is not an object
     std::vector<JsonCursor> items() const;  ///< throws when this is not an array
-    bool is_object() const { return value_->is_object(); }
-    bool is_array() const { return value_->is_array(); }
-    bool is_string() const { return value_->is_string(); }
-    bool is_number() const { return value_->is_number(); }
+    bool is_object() const;
+    bool is_array() const;
+    bool is_string() const;
+    bool is_number() const;
 
     double number() const;  ///< finite
     double number(Range range) const;

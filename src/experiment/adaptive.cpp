@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "body/integrator_description.h"
@@ -17,7 +16,6 @@ namespace {
 
 /// On meshes that are refined again: Newton's last move, share of the body's length
 constexpr double kToleranceOnTheWay = 1e-3;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Push {
     body::NodeSelection nodes;

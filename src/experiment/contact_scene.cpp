@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -16,7 +15,6 @@
 namespace risorius::experiment {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kAround = 48;  // corners of a drawn circle
 
 struct DrawnSurface {

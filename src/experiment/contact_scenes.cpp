@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -13,8 +12,6 @@
 
 namespace risorius::experiment {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct SlopeRun {
     std::string name, label;

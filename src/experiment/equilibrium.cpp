@@ -12,7 +12,6 @@
 namespace risorius::experiment {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Case {

@@ -1,6 +1,7 @@
 #include "experiment/hanging_curve.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "body/integrator_description.h"
 #include "experiment/body_cases.h"

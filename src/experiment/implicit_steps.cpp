@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "body/integrator_description.h"
@@ -14,8 +14,6 @@
 
 namespace risorius::experiment {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct MethodRun {
     std::string name, label;

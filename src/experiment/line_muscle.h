@@ -1,6 +1,5 @@
-// A muscle without a body: one fibre and its tendon in a row, the law a solid muscle is held against.
-//
-//   F0 fT(eps) = F0 [a fl(l/l0) + fp(l/l0)] s/l,   s = L l0 - eps lTs,   l = sqrt(s^2 + w^2)     L  normalised length
+// The law a solid muscle is held against: one fibre and its tendon in a row (muscle/equilibrium.h), in the units of the
+// figures: normalised lengths (muscle_runs.h), forces over F0, speeds over vmax l0.
 #pragma once
 
 #include "body/muscle_body.h"

@@ -1,6 +1,7 @@
 #include "experiment/linear_modes.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -9,11 +10,24 @@ namespace {
 
 using Complex = std::complex<double>;
 
-double largest(const Eigen::Matrix4cd& companion) {
-    return Eigen::ComplexEigenSolver<Eigen::Matrix4cd>(companion, /*computeEigenvectors=*/false)
-        .eigenvalues()
-        .cwiseAbs()
-        .maxCoeff();
+std::vector<Complex> eigenvalues(const Eigen::MatrixXd& matrix) {
+    const Eigen::VectorXcd values =
+        Eigen::EigenSolver<Eigen::MatrixXd>(matrix, /*computeEigenvectors=*/false).eigenvalues();
+    return {values.begin(), values.end()};
+}
+
+/// Of the eigenvalues of a complex matrix: those of ((Re, -Im), (Im, Re)) are they and their conjugates.
+double largest(const Eigen::Matrix4cd& matrix) {
+    Eigen::MatrixXd doubled(8, 8);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            doubled(i, j) = doubled(4 + i, 4 + j) = matrix(i, j).real();
+            doubled(4 + i, j) = matrix(i, j).imag();
+            doubled(i, 4 + j) = -matrix(i, j).imag();
+        }
+    double most = 0;
+    for (const Complex& value : eigenvalues(doubled)) most = std::max(most, std::abs(value));
+    return most;
 }
 
 /// Largest root of z^4 = c3 z^3 + c2 z^2 + c1 z + c0.
@@ -72,9 +86,7 @@ std::vector<Complex> small_motions(const body::SoftBody& body, const Points& x) 
         v(node, axis) = 0;
         motion.block(n, n + c, n, 1) = column(step_m);
     }
-    const Eigen::VectorXcd values =
-        Eigen::EigenSolver<Eigen::MatrixXd>(motion, /*computeEigenvectors=*/false).eigenvalues();
-    return {values.begin(), values.end()};
+    return eigenvalues(motion);
 }
 
 double growth_per_step(solve::Method method, Complex lambda, double step_s) {

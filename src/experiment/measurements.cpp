@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <string_view>
 
 namespace risorius::experiment {
@@ -20,7 +19,6 @@ std::vector<Check> Measurements::check(const JsonCursor& experiment) const {
 
     std::vector<std::string_view> names;
     for (const Measurement& m : list_) names.push_back(m.name);
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const JsonCursor& json : listed->items()) {
         json.allow_keys(
             {"measured", "name", "low", "high", "range", "published", "differs", "note"});

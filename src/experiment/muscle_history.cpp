@@ -64,6 +64,7 @@ HistoryPlan read_history(const JsonCursor& experiment) {
     HistoryPlan plan;
     plan.phases = read_phases(experiment.at("phases"));
     for (MuscleRun& muscle : read_muscle_runs(experiment, {"drive", "length"})) {
+        require_elastic_tendons(muscle);
         const JsonCursor& json = muscle.json;
         Drive drive = read_drive(own_or_common(json, experiment, "drive"), plan.end_s());
         auto length = read_course(own_or_common(json, experiment, "length"), kNormalisedLengths);

@@ -11,7 +11,7 @@ namespace risorius::experiment {
 namespace {
 
 constexpr double kGravity_m_per_s2 = 9.81;
-constexpr double kSlowest = 1e-3;  ///< speed a release is given time for, vmax l0
+constexpr double kSlowest = 0.01;  ///< speed a release is given time for, vmax l0
 constexpr double kPatience = 3;    ///< times the steps it should take
 constexpr double kStepOfSwing =
     0.2;  ///< of the load on the tendons, over 1 / its angular frequency

@@ -1,7 +1,9 @@
 #include "experiment/muscle_runs.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "experiment/body_cases.h"
 
 namespace risorius::experiment {
@@ -20,6 +22,15 @@ body::MuscleDescription changed_muscle(const JsonCursor& muscle,
                                 .at("muscle");
     json.at("grid");  // which a caller of read_muscle may know better; here none does
     return body::read_muscle(json);
+}
+
+/// Of a straight belly, at rest; 0 of any other.
+double belly_length_m(const body::MuscleDescription& muscle) {
+    using Form = muscle::MuscleShape::Form;
+    if (!muscle.shape) return muscle.length_m;
+    const Form form = muscle.shape->form;
+    const bool straight = form == Form::kBlock || form == Form::kRound || form == Form::kSheet;
+    return straight ? muscle.shape->length_m : 0;
 }
 
 /// Node indices around the section of plane m, each once.
@@ -62,11 +73,23 @@ std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                       .label = json.at("label").string(),
                       .muscle = changed_muscle(experiment.at("muscle"), json.find("change"), name),
                       .json = json};
+        const auto is_held = [](const body::MuscleEnd& end) {
+            return end.hold == body::MuscleEnd::Hold::kPlate;
+        };
+        if (!(belly_length_m(run.muscle) > 0) || !is_held(run.muscle.origin) ||
+            !is_held(run.muscle.insertion))
+            throw Error(run.muscle.place, "a straight belly between two plates", "another");
         body::build_muscle(run.muscle, {[](double) { return 0.0; }});
         runs.push_back(std::move(run));
     }
     if (runs.empty()) experiment.at("runs").fail("at least one run");
     return runs;
+}
+
+void require_elastic_tendons(const MuscleRun& run) {
+    if (run.muscle.musculotendon.tendon != muscle::TendonModel::kElastic)
+        throw Error(run.muscle.place + "/musculotendon/tendon",
+                    "\"elastic\", for rigid ones feel no motion", "\"rigid\"");
 }
 
 std::string discretisation_of(const body::MuscleDescription& muscle) {
@@ -76,11 +99,11 @@ std::string discretisation_of(const body::MuscleDescription& muscle) {
 }
 
 double lengthening_m(const body::MuscleDescription& muscle, double normalised_length) {
-    return normalised_length * muscle.musculotendon.optimal_length_m - muscle.length_m;
+    return normalised_length * muscle.musculotendon.optimal_length_m - belly_length_m(muscle);
 }
 
 double normalised_length(const body::MuscleDescription& muscle, double lengthening_m) {
-    return (muscle.length_m + lengthening_m) / muscle.musculotendon.optimal_length_m;
+    return (belly_length_m(muscle) + lengthening_m) / muscle.musculotendon.optimal_length_m;
 }
 
 Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,

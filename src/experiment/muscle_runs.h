@@ -23,9 +23,12 @@ struct MuscleRun {
     JsonCursor json;  ///< of the run, for what else a kind reads there
 };
 
-/// "runs" of the experiment, each with keys "name", "label", "change" and those a kind adds.
+/// "runs" of the experiment: straight bellies between two plates, each with keys "name", "label", "change" and those a kind adds.
 std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                                         const std::vector<std::string_view>& more_keys = {});
+
+/// Tension is known of moving muscles with elastic tendons. Throws Error.
+void require_elastic_tendons(const MuscleRun& run);
 
 /// "6x6x6 cells, K = 5 MPa"
 std::string discretisation_of(const body::MuscleDescription& muscle);

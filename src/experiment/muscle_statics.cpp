@@ -10,6 +10,7 @@
 #include "experiment/muscle_runs.h"
 #include "experiment/progress.h"
 #include "experiment/still_muscle.h"
+#include "muscle/published_tables.h"
 
 namespace risorius::experiment {
 namespace {
@@ -64,7 +65,10 @@ StaticsPlan read_statics(const JsonCursor& experiment) {
     if (const auto v = experiment.find("activation")) plan.activation = v->number({0, 1});
     if (const auto v = experiment.find("range_above_peak"))
         plan.range_above_peak = v->number({0, 1});
-    if (const auto v = experiment.find("load_f0")) plan.load_f0 = v->number({1e-3, 1});
+    if (const auto v = experiment.find("load_f0")) {
+        plan.load_f0 = v->number({1e-3, 0.95});
+        for (const MuscleRun& run : plan.runs) require_elastic_tendons(run);
+    }
     if (const auto v = experiment.find("over")) {
         plan.over = v->string();
         for (const MuscleRun& run : plan.runs) plan.at.push_back(run.json.at("at").number());
@@ -195,26 +199,42 @@ TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const Stati
 
 constexpr const char* kLengthLabel = "(distance of the plates - tendon slack length) / l0";
 
+/// Within the lengths of the plan.
+plot::Series points_of(const StaticsPlan& plan, const muscle::PublishedTable& table,
+                       const std::string& label) {
+    plot::Series points{.label = label, .mark = plot::Mark::kPoints, .colour = 6};
+    for (const auto& [length, force] : table) {
+        if (length < plan.lengths.front() || length > plan.lengths.back()) continue;
+        points.x.push_back(length);
+        points.y.push_back(force);
+    }
+    return points;
+}
+
 plot::Chart over_length(const StaticsPlan& plan, const MuscleRun& run, const TensionCurves& solid) {
     const TensionCurves line = line_curves(plan, run);
     const std::vector<double>& x = plan.lengths;
-    return {.name = "tension_" + run.name,
-            .title = "Tension over length: " + discretisation_of(run.muscle),
-            .x = {.label = kLengthLabel},
-            .y = {.label = "tension / F0"},
-            .series = {{"total", x, solid.total, plot::Mark::kLine, 0},
-                       {"passive", x, solid.passive, plot::Mark::kLine, 1},
-                       {"active = total - passive", x, solid.active, plot::Mark::kLine, 2},
-                       {"line muscle", x, line.total, plot::Mark::kDashed, 3},
-                       {"", x, line.passive, plot::Mark::kDashed, 3},
-                       {"", x, line.active, plot::Mark::kDashed, 3}}};
+    plot::Chart chart{.name = "tension_" + run.name,
+                      .title = "Tension over length: " + discretisation_of(run.muscle),
+                      .x = {.label = kLengthLabel},
+                      .y = {.label = "tension / F0"}};
+    chart.series = {{"total", x, solid.total, plot::Mark::kLine, 0},
+                    {"passive", x, solid.passive, plot::Mark::kLine, 1},
+                    {"active = total - passive", x, solid.active, plot::Mark::kLine, 2},
+                    {"1-D equilibrium", x, line.total, plot::Mark::kDashed, 3},
+                    {"", x, line.passive, plot::Mark::kDashed, 3},
+                    {"", x, line.active, plot::Mark::kDashed, 3},
+                    points_of(plan, muscle::published_active_force(), "Zajac/Delp: active"),
+                    points_of(plan, muscle::published_passive_force(), "Zajac/Delp: passive")};
+    return chart;
 }
 
 plot::Chart differences(const StaticsPlan& plan, const std::vector<TensionCurves>& solids) {
     plot::Chart chart{.name = "from_line",
-                      .title = "Active force of the solid minus that of a line muscle",
+                      .title = "Active force of the solid minus that of the 1-D equilibrium",
                       .x = {.label = kLengthLabel},
-                      .y = {.label = "difference / F0"}};
+                      .y = {.label = "difference / F0"},
+                      .bands = {{"within 0.02 F0", -0.02, 0.02}}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
         const TensionCurves line = line_curves(plan, plan.runs[r]);
         plot::Series series{
@@ -235,10 +255,11 @@ std::vector<plot::Chart> over_parameter(const StaticsPlan& plan,
         .title = "Active force over length: " + discretisation_of(plan.runs.front().muscle),
         .x = {.label = kLengthLabel},
         .y = {.label = "active force / F0"}};
-    plot::Chart over{.name = "over_parameter",
-                     .title = "Peak force, range and speed: solid (points), line muscle (lines)",
-                     .x = {.label = plan.over},
-                     .y = {.label = "ratio to the first"}};
+    plot::Chart over{
+        .name = "over_parameter",
+        .title = "Peak force, range and speed: solid (points), 1-D equilibrium (lines)",
+        .x = {.label = plan.over},
+        .y = {.label = "ratio to the first"}};
     const std::string range_label =
         "range above " + format_number(plan.range_above_peak) + " of the peak";
     std::vector<plot::Series> solid{{.label = "peak force"}, {.label = range_label}};

@@ -8,6 +8,7 @@
 #include "experiment/muscle_release.h"
 #include "experiment/muscle_runs.h"
 #include "experiment/progress.h"
+#include "muscle/published_tables.h"
 
 namespace risorius::experiment {
 namespace {
@@ -40,8 +41,9 @@ ReleasePlan read_releases(const JsonCursor& experiment) {
                                        "reach", "at_fibre_length", "steps"});
     ReleasePlan plan;
     plan.runs = read_muscle_runs(experiment);
+    for (const MuscleRun& run : plan.runs) require_elastic_tendons(run);
     plan.speeds = read_numbers(experiment, "speeds", {-2, 2});
-    plan.loads_f0 = read_numbers(experiment, "loads_f0", {0, 1});
+    plan.loads_f0 = read_numbers(experiment, "loads_f0", {1e-3, 0.95});
     if (plan.releases() == 0)
         throw Error(experiment.place(), "\"speeds\", \"loads_f0\" or both", "none of them");
     ReleaseBench& bench = plan.bench;
@@ -115,12 +117,28 @@ void measure(const ReleasePlan& plan, const MuscleRun& run, const std::vector<Pa
                          found.speed[static_cast<std::size_t>(best)]);
 }
 
-/// a fl fv(v) + fp + b v of the first run between two speeds; over speed, or speed over force.
-plot::Series law_curve(const ReleasePlan& plan, double from, double to, bool over_force) {
-    plot::Series series{.label = "Hill's law", .mark = plot::Mark::kDashed};
-    for (int i = 0; i < kLawPoints; ++i) {
-        const double speed = from + (to - from) * i / (kLawPoints - 1);
-        const double force = law(plan, plan.runs.front(), speed);
+/// a fl fv(v) + fp + b v of every run between two speeds, over speed or speed over force.
+void add_laws(const ReleasePlan& plan, double from, double to, bool over_force,
+              plot::Chart& chart) {
+    for (std::size_t r = 0; r < plan.runs.size(); ++r) {
+        plot::Series series{.label = r == 0 ? "law of the fibres" : "",
+                            .mark = plot::Mark::kDashed,
+                            .colour = plan.runs.size() == 1 ? 1 : static_cast<int>(r)};
+        for (int i = 0; i < kLawPoints; ++i) {
+            const double speed = from + (to - from) * i / (kLawPoints - 1);
+            const double force = law(plan, plan.runs[r], speed);
+            series.x.push_back(over_force ? force : speed);
+            series.y.push_back(over_force ? -speed : force);
+        }
+        chart.series.push_back(std::move(series));
+    }
+}
+
+/// Between two speeds, over speed or speed over force.
+plot::Series published_points(double from, double to, bool over_force) {
+    plot::Series series{.label = "Zajac/Delp table", .mark = plot::Mark::kPoints, .colour = 6};
+    for (const auto& [speed, force] : muscle::published_velocity_force()) {
+        if (speed < from || speed > to) continue;
         series.x.push_back(over_force ? force : speed);
         series.y.push_back(over_force ? -speed : force);
     }
@@ -136,7 +154,8 @@ plot::Chart force_velocity(const ReleasePlan& plan,
         .x = {.label = "speed of the fibres / vmax (lengthening > 0)"},
         .y = {.label = "tension / F0"}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
-        plot::Series solid{.label = plan.runs[r].label, .mark = plot::Mark::kLine};
+        plot::Series solid{
+            .label = plan.runs[r].label, .mark = plot::Mark::kLine, .colour = static_cast<int>(r)};
         for (std::size_t i = 0; i < plan.speeds.size(); ++i) {
             const Passing& passing = passings[r][i];
             if (!passing.found) continue;
@@ -145,8 +164,10 @@ plot::Chart force_velocity(const ReleasePlan& plan,
         }
         chart.series.push_back(std::move(solid));
     }
-    chart.series.push_back(law_curve(plan, std::min(-1.0, plan.speeds.front()),
-                                     std::max(0.0, plan.speeds.back()), /*over_force=*/false));
+    const double from = std::min(-1.0, plan.speeds.front());
+    const double to = std::max(0.0, plan.speeds.back());
+    add_laws(plan, from, to, /*over_force=*/false, chart);
+    chart.series.push_back(published_points(from, to, /*over_force=*/false));
     return chart;
 }
 
@@ -157,7 +178,8 @@ plot::Chart load_velocity(const ReleasePlan& plan,
                       .x = {.label = "load / F0"},
                       .y = {.label = "speed of shortening / vmax"}};
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
-        plot::Series solid{.label = plan.runs[r].label, .mark = plot::Mark::kLine};
+        plot::Series solid{
+            .label = plan.runs[r].label, .mark = plot::Mark::kLine, .colour = static_cast<int>(r)};
         for (std::size_t i = plan.speeds.size(); i < plan.releases(); ++i) {
             const Passing& passing = passings[r][i];
             if (!passing.found) continue;
@@ -166,7 +188,8 @@ plot::Chart load_velocity(const ReleasePlan& plan,
         }
         chart.series.push_back(std::move(solid));
     }
-    chart.series.push_back(law_curve(plan, -1, 0, /*over_force=*/true));
+    add_laws(plan, -1, 0, /*over_force=*/true, chart);
+    chart.series.push_back(published_points(-1, 0, /*over_force=*/true));
     return chart;
 }
 

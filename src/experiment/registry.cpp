@@ -1,11 +1,13 @@
 #include "experiment/registry.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiment/adaptive.h"
 #include "experiment/contact_scenes.h"
 #include "experiment/equilibrium.h"
 #include "experiment/experiment_kind.h"
+#include "experiment/force_curves.h"
 #include "experiment/hanging_curve.h"
 #include "experiment/implicit_steps.h"
 #include "experiment/muscle_history.h"
@@ -34,6 +36,7 @@ const std::vector<NamedKind>& kind_table() {
         {"muscle-statics", run_muscle_statics},
         {"muscle-history", run_muscle_history},
         {"muscle-velocity", run_muscle_velocity},
+        {"muscle-curves", run_muscle_curves},
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
         {"hanging-curve", run_hanging_curve},
@@ -56,8 +59,8 @@ const std::vector<Figure>& figures() {
         {"9a", "Change of the sum of volume elements", "volume-history", 18},
         {"9b", "Change of volume", "volume-history", 18},
         {"10", "Muscle at rest, and shortened and activated", "muscle-statics", 1},
-        {"11a", "Zajac's tension-length experiment", "muscle-statics", 4},
-        {"11b", "Quick release after Gasser and Hill", "muscle-history", 5},
+        {"11a", "Zajac's tension-length experiment", "muscle-statics", 5},
+        {"11b", "Quick release after Gasser and Hill", "muscle-history", 6},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 12},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",
          "muscle-stability", 50},
@@ -66,11 +69,13 @@ const std::vector<Figure>& figures() {
          Origin::kBeyond},
         {"curve", "Curve hanging between two points against the catenary", "hanging-curve", 2,
          Origin::kBeyond},
+        {"muscle-curves", "Published force curves of muscle side by side", "muscle-curves", 1,
+         Origin::kBeyond},
         {"force-velocity", "Force of a muscle that shortens or lengthens", "muscle-velocity", 2,
          Origin::kBeyond},
         {"isotonic", "Isotonic contraction: lifting weights", "muscle-velocity", 2,
          Origin::kBeyond},
-        {"twitch", "Twitch, and twitches that fuse to a tetanus", "muscle-history", 2,
+        {"twitch", "Twitch, and twitches that fuse to a tetanus", "muscle-history", 3,
          Origin::kBeyond},
         {"pennation", "What the angle of the fibres does", "muscle-statics", 3, Origin::kBeyond},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30,

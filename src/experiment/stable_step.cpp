@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "experiment/body_cases.h"
 #include "experiment/linear_modes.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "experiment/body_cases.h"
 #include "experiment/progress.h"
@@ -10,8 +9,6 @@
 
 namespace risorius::experiment {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Result {
     Settled settled;

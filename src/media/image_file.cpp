@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-bool has_transparency(const Image& image) {
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-        if (image.rgba[i] != 255) return true;
-    return false;
-}
-
 /// Whether the chunks (length, type, data, checksum) run from the signature to IEND inside the
 /// file. libpng would complain on standard error about a file cut short; this says it first.
 bool chunks_are_whole(const std::vector<unsigned char>& bytes) {
@@ -41,6 +35,12 @@ bool chunks_are_whole(const std::vector<unsigned char>& bytes) {
 }
 
 }  // namespace
+
+bool has_transparency(const Image& image) {
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        if (image.rgba[i] != 255) return true;
+    return false;
+}
 
 void write_png(const Image& image, const std::filesystem::path& file) {
     if (image.width_px < 1 || image.height_px < 1 ||

@@ -9,6 +9,8 @@ namespace risorius::media {
 
 /// Written beside and renamed, never half. Alpha is kept when any pixel is not opaque. Throws RunError when it cannot be written.
 void write_png(const Image& image, const std::filesystem::path& file);
+/// Whether any pixel is not opaque.
+bool has_transparency(const Image& image);
 Image read_png(const std::filesystem::path& file);
 
 }  // namespace risorius::media

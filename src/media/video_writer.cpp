@@ -67,12 +67,6 @@ void check_folder(const fs::path& target) {
                         "\"" + entry.path().filename().string() + "\" in it");
 }
 
-bool has_transparency(const Image& frame) {
-    for (std::size_t i = 3; i < frame.rgba.size(); i += 4)
-        if (frame.rgba[i] != 255) return true;
-    return false;
-}
-
 std::string size_text(int width, int height) {
     return std::to_string(width) + " x " + std::to_string(height);
 }

@@ -54,6 +54,12 @@ class FibreSet {
     /// Fibre::column.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
 
+    /// dE/d(place of a point) in the last call of add_energy, N: what a point on a body pulls it with is the negative of it.
+    Vec3 point_gradient(int point) const {
+        const solve::Lanes force = force_[point];
+        return {force[0], force[1], force[2]};
+    }
+
     /// F0/(2 l0) per segment on the difference of its ends.
     void add_metric(solve::MetricBuilder& builder) const;
 

@@ -6,11 +6,13 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/detail/activation_scale.h"
 #include "render/detail/camera.h"
 #include "render/detail/framebuffer.h"
 #include "render/detail/gl_context.h"
 #include "render/detail/lights.h"
 #include "render/detail/materials.h"
+#include "render/detail/muscle_layer.h"
 #include "render/detail/occlusion.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/resolve.h"
@@ -49,11 +51,34 @@ Box skin_box(const Scene& scene) {
     return box;
 }
 
+/// Painted scalp hair would hide what lies below; the brows stay.
+Scene without_hair(Scene scene) {
+    scene.look.scalp_hair = 0;
+    return scene;
+}
+
+constexpr const char* kShowNames[] = {"skin", "muscles"};  // in the order of Show
+
 }  // namespace
+
+const std::vector<std::string>& show_names() {
+    static const std::vector<std::string> names(std::begin(kShowNames), std::end(kShowNames));
+    return names;
+}
+
+Show show_named(const std::string& name, const std::string& place) {
+    std::string known;
+    for (std::size_t i = 0; i < show_names().size(); ++i) {
+        if (name == kShowNames[i]) return static_cast<Show>(i);
+        known.append(i > 0 ? ", \"" : "\"").append(kShowNames[i]).append("\"");
+    }
+    throw Error(place, "one of " + known, "\"" + name + "\"");
+}
 
 struct OffscreenView::Impl {
     Impl(const Scene& scene, const ViewOptions& view_options)
         : options(checked(view_options)),
+          look(scene.look),
           box(skin_box(scene)),
           camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
                              static_cast<double>(options.width_px) / options.height_px)),
@@ -72,11 +97,17 @@ struct OffscreenView::Impl {
             sky_seen_at_rest(scene.rest, buffers->normals(), buffers->index_count(), centre, reach);
         const std::vector<float> inside = marks.inside_mouth(scene, sky);
         buffers->set_occlusion(sky, inside);
-        paint_map = paint_skin(scene, centre, buffers->paintable_triangles(inside));
+        const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
+        paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, centre,
+                               buffers->paintable_triangles(inside));
         pore_map = make_pores(scene.look.seed);
 
+        if (options.show == Show::kMuscles)
+            muscles = std::make_unique<MuscleLayer>(
+                scene, camera, options.height_px * options.supersampling,
+                picture.tile_width_samples(), picture.tile_height_samples());
         buffers->bind();
-        materials = std::make_unique<Materials>(scene, *buffers);
+        materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
         lights = std::make_unique<Lights>(camera, centre);
         target = std::make_unique<Framebuffer>(picture.tile_width_samples(),
                                                picture.tile_height_samples());
@@ -95,6 +126,7 @@ struct OffscreenView::Impl {
         target.reset();
         lights.reset();
         materials.reset();
+        muscles.reset();
         buffers.reset();
     }
 
@@ -105,8 +137,12 @@ struct OffscreenView::Impl {
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 
-        target->bind();
         picture.set_viewport(tile);
+        if (muscles) {
+            muscles->draw();
+            buffers->bind();
+        }
+        target->bind();
         glClearColor(0, 0, 0, 0);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
@@ -121,6 +157,7 @@ struct OffscreenView::Impl {
     }
 
     ViewOptions options;
+    Look look;
     Box box;
     Camera camera;
     PosedMarks marks;
@@ -129,6 +166,7 @@ struct OffscreenView::Impl {
     Eigen::Index vertex_count;
     GlContext context;
     std::unique_ptr<SceneBuffers> buffers;
+    std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<Framebuffer> target;
@@ -150,6 +188,7 @@ Image OffscreenView::draw(const Pose& pose) {
     // What moved
     view.buffers->bind();
     view.buffers->upload(pose.positions);
+    if (view.muscles) view.muscles->upload(pose);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
@@ -162,6 +201,7 @@ Image OffscreenView::draw(const Pose& pose) {
     // The picture, tile by tile
     Image image(view.options.width_px, view.options.height_px);
     for (const Tile& tile : view.picture.tiles()) view.draw_tile(tile, pose, frame, image);
+    if (view.muscles) draw_activation_scale(view.look, view.options.background, image);
     return image;
 }
 

@@ -20,11 +20,22 @@ struct Background {
     std::array<double, 3> rgb{0.5, 0.5, 0.5};  ///< sRGB 0..1
 };
 
+/// What of the face a picture shows.
+enum class Show {
+    kSkin,     ///< the face as one sees it
+    kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
+};
+/// "skin", "muscles"
+const std::vector<std::string>& show_names();
+/// Throws Error naming `place` and the names for an unknown one.
+Show show_named(const std::string& name, const std::string& place);
+
 struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
     std::string camera =
         "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
+    Show show = Show::kSkin;
     Background background{};
     int supersampling =
         2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square

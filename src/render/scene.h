@@ -42,19 +42,37 @@ struct Look {
     unsigned seed = 1;
 };
 
+/// A muscle below the skin, a closed surface.
+struct Muscle {
+    std::string name;
+    int side = -1;        ///< 0 left, 1 right, -1 across the midline
+    Triangles triangles;  ///< F x 3, into the muscles' own vertices, counter-clockwise from outside
+};
+
+/// Seen with Show::kMuscles, over a vertex array of their own.
+struct Muscles {
+    std::vector<Muscle> parts;
+    Points rest;                 ///< M x 3, m, head frame
+    TexCoords fibre;             ///< M x 2, along and across the fibres at rest, m
+    std::vector<double> tendon;  ///< M, 0 flesh, 1 tendon
+};
+
 struct Scene {
     Points rest;  ///< V x 3, m, head frame
     std::vector<Surface> surfaces;
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Look look;
+    Muscles muscles;  ///< none unless they are shown
 };
 
 /// What changes from frame to frame.
 struct Pose {
     Points positions;  ///< V x 3, m, world = head frame at rest
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};  ///< world from rest eye
-    double jaw_open = 0.0;  ///< ratio, darkens or lights the mouth
+    double jaw_open = 0.0;            ///< ratio, darkens or lights the mouth
+    Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
+    std::vector<double> activations;  ///< per muscle of the scene, ratio
 };
 
 }  // namespace risorius::render

@@ -1,6 +1,7 @@
 #include "rig/atlas.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace risorius::rig {
 

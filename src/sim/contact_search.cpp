@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/muscle_placement.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -135,6 +136,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
         contact.point = carried ? Vec3(*carried * point) : point;
         contact.normal = carried ? Vec3(carried->linear() * normal) : normal;
         contact.rest_gap_m = rest_gap;
+        contact.body = carried ? kMandibleBody : kSkullBody;
         contact.stiffness_n_per_m = inside * node.stiffness;
         out.push_back(contact);
     };

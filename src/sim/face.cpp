@@ -8,7 +8,10 @@
 #include "sim/face_tissue.h"
 #include "sim/follow.h"
 #include "sim/jaw.h"
+#include "sim/jaw_dynamics.h"
+#include "sim/jaw_synergies.h"
 #include "sim/lids.h"
+#include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
 #include "sim/tissue_mesh.h"
@@ -45,6 +48,13 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
     return motion;
 }
 
+// A frame that falls on a step shows that step, whatever rounding made of its time.
+double exact_step(double t_s) {
+    const double place = t_s / kStep_s;
+    const double nearest = std::round(place);
+    return std::abs(place - nearest) < 1e-6 ? nearest : place;
+}
+
 }  // namespace
 
 Quality quality_named(const std::string& name) {
@@ -73,13 +83,19 @@ struct Face::Impl {
         Points x;
         Eigen::VectorXd activation;
         track::Drive drive;
+        JawDynamics::State jaw;  // when muscles move it
     };
     State now, before;
+    std::optional<JawDynamics> jaw_dynamics;  // the same
+    std::optional<JawSynergies> jaw_synergies;
+    JawJoint jaw_joint;
     Points velocity;
     long steps = 0;
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
+    MuscleSurfaces surfaces;
+    std::optional<MuscleStraps> straps;  // of the surfaces, when they were asked for
 
     Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
          const Quality& q, const std::string& place)
@@ -92,6 +108,7 @@ struct Face::Impl {
           shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
+          jaw_joint(head, rig.jaw),
           channels(rig.channels()) {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
@@ -143,10 +160,52 @@ struct Face::Impl {
                           drive.at(track::Kinematic::kJawSide));
     }
 
+    void drive_jaw_by(track::JawDrive by) {
+        if (by == track::JawDrive::kChannels) {
+            jaw_dynamics.reset();
+            jaw_synergies.reset();
+        } else if (!jaw_dynamics) {
+            jaw_dynamics.emplace(head, rig);
+            for (const double h : {kStep_s, kStaticStep_s}) tissue.prepare(h, *jaw_dynamics);
+            const auto reach = [&](double open, double forward, double side) {
+                return jaw_joint.place(jaw.motion(open, forward, side));
+            };
+            jaw_synergies.emplace(
+                *jaw_dynamics, channels,
+                JawSynergies::Ranges{reach(1, 0, 0).open_m, reach(0, 1, 0).forward_m,
+                                     reach(0, 0, 1).side_m},
+                tissue.ride_stiffness(kStaticStep_s));
+        }
+    }
+
+    Eigen::VectorXd with_jaw(const Eigen::VectorXd& excitation, const track::Drive& drive) const {
+        if (!jaw_dynamics) return excitation;
+        return excitation.cwiseMax(jaw_synergies->excitation(
+            drive.at(track::Kinematic::kJawOpen), drive.at(track::Kinematic::kJawForward),
+            drive.at(track::Kinematic::kJawSide)));
+    }
+
+    // Where it is, or where the drive wants it.
+    Rigid mandible(const State& state, const track::Drive& drive) const {
+        return jaw_dynamics ? jaw_joint.pose(state.jaw.q).motion : mandible(drive);
+    }
+
+    // One step of the tissue, and of the jaw if muscles move it.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x) {
+        if (!jaw_dynamics) return tissue.implicit_step(h, start, aim, activation, options, x);
+        JawInStep jaw_step{*jaw_dynamics, jaw_dynamics->begin(h, now.jaw, activation), now.jaw.q};
+        const StepFigures figures =
+            tissue.implicit_step(h, start, aim, activation, options, x, jaw_step);
+        now.jaw = jaw_dynamics->end(jaw_step.step, jaw_step.q);
+        return figures;
+    }
+
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
-        tissue.carry_with_bone(x, mandible(now.drive), mandible(drive));
-        tissue.prescribe({mandible(drive),
+        tissue.carry_with_bone(x, mandible(now, now.drive), mandible(now, drive));
+        tissue.prescribe({mandible(now, drive),
                           {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                           drive.at(track::Kinematic::kMouthPressure)});
     }
@@ -159,12 +218,13 @@ struct Face::Impl {
         while (figures.iterations < iterations) {
             tissue.find_contacts(x);
             const Points start = x;
-            const StepFigures part = tissue.implicit_step(kStaticStep_s, start, start, activation,
-                                                          {.iterations = kContactRefresh,
-                                                           .memory = kMemory,
-                                                           .step_cap_m = kStepCap_m,
-                                                           .tolerance_rms_m = 1e-6},
-                                                          x);
+            now.jaw.velocity = JawDynamics::still();
+            const StepFigures part = implicit_step(kStaticStep_s, start, start, activation,
+                                                   {.iterations = kContactRefresh,
+                                                    .memory = kMemory,
+                                                    .step_cap_m = kStepCap_m,
+                                                    .tolerance_rms_m = 1e-6},
+                                                   x);
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
@@ -191,7 +251,8 @@ struct Face::Impl {
         Eigen::VectorXd excitation;
         dynamics->advance(
             [&](double t) -> const Eigen::VectorXd& {
-                excitation = drive_at(t).excitation;
+                const track::Drive then = drive_at(t);
+                excitation = with_jaw(then.excitation, then);
                 return excitation;
             },
             drive.activation, from, to);
@@ -202,14 +263,13 @@ struct Face::Impl {
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
         const Points aim = now.x + kStep_s * velocity;
-        const StepFigures figures =
-            tissue.implicit_step(kStep_s, now.x, aim, activation,
-                                 {.iterations = quality.iterations,
-                                  .least_iterations = quality.least_iterations,
-                                  .memory = kMemory,
-                                  .step_cap_m = kStepCap_m,
-                                  .tolerance_rms_m = quality.tolerance_rms_m},
-                                 x);
+        const StepFigures figures = implicit_step(kStep_s, now.x, aim, activation,
+                                                  {.iterations = quality.iterations,
+                                                   .least_iterations = quality.least_iterations,
+                                                   .memory = kMemory,
+                                                   .step_cap_m = kStepCap_m,
+                                                   .tolerance_rms_m = quality.tolerance_rms_m},
+                                                  x);
         velocity = (x - now.x) / kStep_s;
         now.x = x;
         now.activation = activation;
@@ -219,12 +279,35 @@ struct Face::Impl {
         return figures;
     }
 
-    FacePose pose(double share) const {
-        // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
+    track::Drive drive_between(double share) const {
         track::Drive drive = now.drive;
         for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
             drive.kinematic[k] =
                 (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
+        return drive;
+    }
+
+    // Where t lies between the last two steps, 0..1
+    double share_of_step(double t_s) const {
+        return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
+    }
+
+    void make_surfaces() {
+        if (!straps) straps.emplace(head, rig, tissue.muscles(), surfaces);
+    }
+
+    Points muscle_vertices(double share) {
+        make_surfaces();
+        const track::Drive drive = drive_between(share);
+        Points vertices = surfaces.rest;
+        straps->place((1 - share) * before.x + share * now.x, mandible(drive), vertices);
+        follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
+        return vertices;
+    }
+
+    FacePose pose(double share) const {
+        const track::Drive drive = drive_between(share);
         const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
         Points displacement(static_cast<long>(shell.vertex.size()), 3);
         for (long v = 0; v < displacement.rows(); ++v) {
@@ -233,8 +316,12 @@ struct Face::Impl {
                 (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
         }
         FacePose out;
-        const Rigid moved = mandible(drive);
-        out.jaw_open = drive.at(track::Kinematic::kJawOpen);
+        State between;
+        between.jaw.q = (1 - share) * before.jaw.q + share * now.jaw.q;
+        const Rigid moved = mandible(between, drive);
+        out.jaw = jaw_joint.place(moved);
+        out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
+                                    : drive.at(track::Kinematic::kJawOpen);
         const auto gaze_of = [&](track::Kinematic channel) {
             return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
         };
@@ -265,9 +352,16 @@ Face::Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const 
 Face::~Face() = default;
 Face::Face(Face&&) noexcept = default;
 
+void Face::drive_jaw_by(track::JawDrive by) { impl_->drive_jaw_by(by); }
+
+track::Drive Face::driven(track::Drive drive) const {
+    drive.excitation = impl_->with_jaw(drive.excitation, drive);
+    return drive;
+}
+
 void Face::start(const DriveAt& drive) {
     const track::Drive first = drive(0.0);
-    Eigen::VectorXd activation = first.excitation;
+    Eigen::VectorXd activation = impl_->with_jaw(first.excitation, first);
     for (long i = 0; i < activation.size(); ++i)
         if (first.activation.size() > 0 && !std::isnan(first.activation[i]))
             activation[i] = first.activation[i];
@@ -279,6 +373,7 @@ void Face::start(const DriveAt& drive) {
                          first.at(track::Kinematic::kMouthPressure) == 0.0;
     impl_->now.x = impl_->mesh.nodes;
     impl_->now.drive.kinematic.fill(0.0);
+    impl_->now.jaw = {};
     impl_->velocity.setZero();
     if (at_rest) {
         impl_->now.activation = activation;
@@ -292,25 +387,27 @@ void Face::start(const DriveAt& drive) {
 StepFigures Face::step(const DriveAt& drive) { return impl_->step(drive); }
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
-    // A frame that falls on a step shows that step, whatever rounding made of its time.
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    while (static_cast<double>(impl_->steps) < exact) impl_->step(drive);
-    return impl_->pose(1.0 - (static_cast<double>(impl_->steps) - exact));
+    while (static_cast<double>(impl_->steps) < exact_step(t_s)) impl_->step(drive);
+    return impl_->pose(impl_->share_of_step(t_s));
+}
+
+const MuscleSurfaces& Face::muscle_surfaces() const {
+    impl_->make_surfaces();
+    return impl_->surfaces;
+}
+
+Points Face::muscle_vertices_at(double t_s) const {
+    return impl_->muscle_vertices(impl_->share_of_step(t_s));
 }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double place = t_s / kStep_s;
-    const double nearest = std::round(place);
-    const double exact = std::abs(place - nearest) < 1e-6 ? nearest : place;
-    const double share = 1.0 - (static_cast<double>(impl_->steps) - exact);
+    const double share = impl_->share_of_step(t_s);
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 
 StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                          int iterations) {
-    return impl_->settle(activation, kinematic, iterations);
+    return impl_->settle(impl_->with_jaw(activation, kinematic), kinematic, iterations);
 }
 
 FacePose Face::pose() const { return impl_->pose(1.0); }

@@ -14,6 +14,7 @@
 #include "rig/head.h"
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
+#include "sim/muscle_surface.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -42,7 +43,8 @@ struct FacePose {
     Points vertices;                   ///< V x 3, m, the mesh's own order
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
     Rigid head = Rigid::Identity();
-    double jaw_open = 0;  ///< ratio
+    double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
+    JawPlace jaw;         ///< where the jaw is
 };
 
 class Face {
@@ -52,6 +54,11 @@ class Face {
          const std::string& place);
     ~Face();
     Face(Face&&) noexcept;
+
+    /// What moves the jaw, from the next start() or settle() on. At first its channels do.
+    void drive_jaw_by(track::JawDrive by);
+    /// The drive as the muscles get it: with what the jaw's channels ask of them, when muscles move it.
+    track::Drive driven(track::Drive drive) const;
 
     /// Time 0: activation and tissue in equilibrium with the drive, at rest.
     void start(const DriveAt& drive);
@@ -70,6 +77,12 @@ class Face {
     double time_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
     Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
+
+    /// The muscles as surfaces, made when first asked for, and where their vertices are at the time of the pose: after
+    /// pose_at(t_s), with the head's own turn.
+    const MuscleSurfaces& muscle_surfaces() const;
+    Points muscle_vertices_at(double t_s) const;
+
     int node_count() const;
     int tet_count() const;
     int inverted_tets() const;

@@ -37,8 +37,8 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_tethers();
     muscle::HillShape hill;
     hill.passive_strain = rig_.tissue.fibre_passive_strain;
-    const MusclePlacement muscles = place_muscles(head_, rig_, shell_, mesh_);
-    fibres_.emplace(muscles.points, muscles.fibres, mesh_.nodes, hill);
+    muscles_ = place_muscles(head_, rig_, shell_, mesh_);
+    fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
     find_cheeks();
     mass_ = tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes());
     solve::MetricBuilder laplacian(nodes());
@@ -191,7 +191,13 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
         }
 }
 
-void FaceTissue::find_contacts(const Points& x) { contacts_.set(search_.find(x, mandible_)); }
+void FaceTissue::find_contacts(const Points& x) {
+    contacts_.set(search_.find(x, mandible_));
+    contact_on_mandible_.clear();
+    const Rigid to_rest = mandible_.inverse();
+    for (const tissue::Contacts::Contact& contact : contacts_.list())
+        contact_on_mandible_.push_back(to_rest * contact.point);
+}
 
 double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
                              Points& gradient) const {
@@ -204,26 +210,35 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     return energy;
 }
 
+double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
+                               const Eigen::VectorXd& activation, const Points& at,
+                               Points& gradient) {
+    const double inertia = 1.0 / (h * h), viscous = rig_.tissue.damping_s / h;
+    work_ = at - start;
+    damped_.noalias() = damping_ * work_;
+    gradient = viscous * damped_;
+    double value = 0.5 * viscous * work_.cwiseProduct(damped_).sum();
+    work_ = at - aim;
+    for (int i = 0; i < nodes(); ++i) {
+        value += 0.5 * inertia * mass_[i] * work_.row(i).squaredNorm();
+        gradient.row(i) += inertia * mass_[i] * work_.row(i);
+    }
+    value += potential(at, activation, gradient);
+    for (int i = 0; i < nodes(); ++i)
+        if (fixed_[i]) gradient.row(i).setZero();
+    return value;
+}
+
 StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
                                       const Eigen::VectorXd& activation,
                                       const solve::QuasiNewtonOptions& options, Points& x) {
-    const double inertia = 1.0 / (h * h), viscous = rig_.tissue.damping_s / h;
     const auto energy = [&](const Points& at, Points& gradient) {
-        work_ = at - start;
-        damped_.noalias() = damping_ * work_;
-        gradient = viscous * damped_;
-        double value = 0.5 * viscous * work_.cwiseProduct(damped_).sum();
-        work_ = at - aim;
-        for (int i = 0; i < nodes(); ++i) {
-            value += 0.5 * inertia * mass_[i] * work_.row(i).squaredNorm();
-            gradient.row(i) += inertia * mass_[i] * work_.row(i);
-        }
-        value += potential(at, activation, gradient);
-        for (int i = 0; i < nodes(); ++i)
-            if (fixed_[i]) gradient.row(i).setZero();
-        return value;
+        return step_energy(h, start, aim, activation, at, gradient);
     };
-    const solve::StepReport report = newton_.minimise(energy, metric(h), x, options);
+    return figures(newton_.minimise(energy, metric(h), x, options), x);
+}
+
+StepFigures FaceTissue::figures(const solve::StepReport& report, const Points& x) const {
     StepFigures figures;
     figures.iterations = report.iterations;
     figures.evaluations = report.evaluations;

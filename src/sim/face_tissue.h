@@ -18,9 +18,12 @@
 #include "sim/attachments.h"
 #include "sim/contact_search.h"
 #include "sim/jaw.h"
+#include "sim/jaw_dynamics.h"
 #include "sim/lids.h"
+#include "sim/muscle_placement.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
+#include "sim/wrench.h"
 #include "solve/quasi_newton.h"
 #include "solve/sparse_cholesky.h"
 #include "tissue/contacts.h"
@@ -46,6 +49,13 @@ struct Prescribed {
     double mouth_pressure_pa = 0;
 };
 
+/// A jaw that its muscles move within a step of the tissue.
+struct JawInStep {
+    const JawDynamics& dynamics;
+    JawDynamics::Step step;
+    JawVector q;  ///< where it begins and ends
+};
+
 class FaceTissue {
   public:
     /// Keeps references: all arguments must outlive it.
@@ -68,11 +78,23 @@ class FaceTissue {
                               const Eigen::VectorXd& activation,
                               const solve::QuasiNewtonOptions& options, Points& x);
 
+    /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
+    /// prescribed where the jaw begins.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
+
+    /// Measures how stiff the tissue at rest holds a jaw in steps of length h. Before the first of them; leaves the tissue
+    /// prescribed at rest.
+    void prepare(double h, const JawDynamics& jaw);
+    const JawMatrix& ride_stiffness(double h) const;  ///< N/m, after that
+
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
-    const Eigen::VectorXd& mass() const { return mass_; }  ///< per node, kg
+    const MusclePlacement& muscles() const { return muscles_; }  ///< at rest
+    const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
 
   private:
     struct LidTether {
@@ -91,6 +113,14 @@ class FaceTissue {
     void build_tethers();
     void find_cheeks();
     const solve::SparseCholesky& metric(double h);
+    /// E and its gradient by the nodes.
+    double step_energy(double h, const Points& start, const Points& aim,
+                       const Eigen::VectorXd& activation, const Points& at, Points& gradient);
+    StepFigures figures(const solve::StepReport& report, const Points& x) const;
+    /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
+    void move_mandible(const Rigid& moved);
+    /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
+    Wrench mandible_gradient(const Points& x, const Points& gradient) const;
     double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
 
     const rig::Head& head_;
@@ -104,18 +134,21 @@ class FaceTissue {
     std::optional<tissue::TetSolid> tets_;
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
     ContactSearch search_;
     tissue::Contacts contacts_;
     tissue::DeadLoads air_;
     Rigid mandible_ = Rigid::Identity();
+    std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
+    std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<LidTether> lid_tethers_;
     std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
     Eigen::SparseMatrix<double> damping_;  // Ks, full symmetric, N/m
     std::vector<Metric> metrics_;          // one per step length used
     solve::QuasiNewton newton_;
-    Points work_, damped_;
+    Points work_, damped_, carried_, carried_gradient_;
 };
 
 }  // namespace risorius::sim

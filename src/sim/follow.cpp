@@ -100,19 +100,39 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
     }
 
     // The head turns above the jaw line; the neck gives way down to its base
-    const double top = head.mm(-70),
-                 base = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
+    neck_top_m_ = head.mm(-70);
+    neck_base_m_ = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
     head_share_.resize(static_cast<std::size_t>(count));
-    for (long v = 0; v < count; ++v) {
-        const Vec3 p = head.vertices.row(v).transpose();
-        // Behind the jaw the neck begins higher up than under the chin.
-        const double under_chin = smoothstep(head.mm(10), head.mm(60), p.z());
-        const double start = top - head.mm(30) * under_chin;
+    for (long v = 0; v < count; ++v)
         head_share_[v] =
             head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
-                ? smoothstep(base, start, p.y())
+                ? head_share(head.vertices.row(v).transpose())
                 : 1.0;
-    }
+}
+
+double Follow::head_share(const Vec3& rest) const {
+    // Behind the jaw the neck begins higher up than under the chin.
+    const double under_chin = smoothstep(head_.mm(10), head_.mm(60), rest.z());
+    const double start = neck_top_m_ - head_.mm(30) * under_chin;
+    return smoothstep(neck_base_m_, start, rest.y());
+}
+
+Vec3 Follow::turned(const Rigid& head, double share, const Vec3& p) const {
+    if (share <= 0) return p;
+    if (share >= 1) return head * p;
+    // Part of the turn about the same pivot
+    const Vec3 pivot(0, head_.mm(-30), head_.mm(-10));
+    const Vec3 moved_pivot = head * pivot;
+    const Eigen::Quaterniond part =
+        Eigen::Quaterniond::Identity().slerp(share, Eigen::Quaterniond(head.linear()));
+    return part * (p - pivot) + pivot + share * (moved_pivot - pivot);
+}
+
+void Follow::turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
+    if (head.isApprox(Rigid::Identity(), 0.0)) return;
+    for (long p = 0; p < points.rows(); ++p)
+        points.row(p) = turned(head, head_share(rest.row(p).transpose()), points.row(p).transpose())
+                            .transpose();
 }
 
 void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
@@ -157,21 +177,9 @@ void Follow::apply(const FollowDrive& drive, Points& vertices) const {
             (rest + out + t.over_jaw * (drive.mandible * (rest + out) - (rest + out))).transpose();
     }
     if (drive.head.isApprox(Rigid::Identity(), 0.0)) return;
-    const Eigen::Quaterniond turn(drive.head.linear());
-    for (long v = 0; v < vertices.rows(); ++v) {
-        const double share = head_share_[v];
-        const Vec3 p = vertices.row(v).transpose();
-        if (share <= 0) continue;
-        if (share >= 1) {
-            vertices.row(v) = (drive.head * p).transpose();
-            continue;
-        }
-        // Part of the turn about the same pivot
-        const Vec3 pivot(0, head_.mm(-30), head_.mm(-10));
-        const Vec3 moved_pivot = drive.head * pivot;
-        const Eigen::Quaterniond part = Eigen::Quaterniond::Identity().slerp(share, turn);
-        vertices.row(v) = (part * (p - pivot) + pivot + share * (moved_pivot - pivot)).transpose();
-    }
+    for (long v = 0; v < vertices.rows(); ++v)
+        vertices.row(v) =
+            turned(drive.head, head_share_[v], vertices.row(v).transpose()).transpose();
 }
 
 }  // namespace risorius::sim

@@ -30,6 +30,9 @@ class Follow {
     /// `vertices` come with the skin already moved.
     void apply(const FollowDrive& drive, Points& vertices) const;
 
+    /// The head's turn on soft points of the head and neck, in place; `rest` says how much of it each takes.
+    void turn_with_head(const Rigid& head, const Points& rest, Points& points) const;
+
   private:
     struct LidVertex {
         int side;
@@ -42,6 +45,8 @@ class Follow {
         double over_jaw;  ///< share of the mandible's motion
     };
     void apply_lids(const FollowDrive& drive, Points& vertices) const;
+    double head_share(const Vec3& rest) const;
+    Vec3 turned(const Rigid& head, double share, const Vec3& p) const;
 
     const rig::Head& head_;
     const std::array<EyeLids, 2>& lids_;
@@ -51,6 +56,7 @@ class Follow {
     std::vector<std::pair<int, double>> on_jaw_;  // vertex, share of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
     std::vector<double> head_share_;  ///< V, of the head's turn
+    double neck_top_m_, neck_base_m_;
     double tongue_range_m_;
 };
 

@@ -144,6 +144,14 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
         const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size *
                              head.size / (strands * bands);
+        FibreBundle bundle;
+        bundle.muscle = band.muscle;
+        if (!band.crosses_midline()) bundle.side = side;
+        bundle.column = column;
+        bundle.first_fibre = static_cast<int>(out.fibres.size());
+        bundle.width_m = band.width_m / bands * head.size;
+        bundle.origin_on_bone = band.origin_attach == "bone";
+        bundle.insertion_on_bone = band.insertion_attach == "bone";
         for (int strand = 0; strand < strands; ++strand) {
             const double across =
                 band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
@@ -208,6 +216,8 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             out.fibres.push_back(fibre);
             out.paths.push_back(places);
         }
+        bundle.fibre_count = static_cast<int>(out.fibres.size()) - bundle.first_fibre;
+        if (bundle.fibre_count > 0) out.bundles.push_back(bundle);
     };
     for (const rig::MuscleBand& band : rig.atlas.bands) {
         if (channels.column(band.muscle, Side::kLeft) < 0) continue;

@@ -1,6 +1,8 @@
 // Mimetic muscles as bundles of fibres through the tissue, placed from their bands in landmark terms.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/types.h"
@@ -13,10 +15,21 @@ namespace risorius::sim {
 
 enum BodyIndex { kSkullBody = 0, kMandibleBody = 1, kBodies = 2 };
 
+/// The fibres of one band of a muscle, side by side.
+struct FibreBundle {
+    std::string muscle;
+    std::optional<Side> side;  ///< none: across the midline
+    int column = 0;            ///< of the activation vector
+    int first_fibre = 0, fibre_count = 0;
+    double width_m = 0;
+    bool origin_on_bone = false, insertion_on_bone = false;
+};
+
 struct MusclePlacement {
     std::vector<muscle::FibrePoint> points;
     std::vector<muscle::Fibre> fibres;
     std::vector<std::vector<Vec3>> paths;  ///< of each fibre at rest, for drawing
+    std::vector<FibreBundle> bundles;
 };
 
 MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,

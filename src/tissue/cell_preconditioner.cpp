@@ -102,8 +102,7 @@ CellPreconditioner::CellPreconditioner(const solve::MotionSystem& system,
     const CellMesh& mesh = body.mesh;
     if (!mesh.uniform())
         throw std::invalid_argument("CellPreconditioner: the cells are not a uniform grid");
-    if (mesh.root().closed)
-        throw std::invalid_argument("CellPreconditioner: the cells go round");
+    if (mesh.root().closed) throw std::invalid_argument("CellPreconditioner: the cells go round");
     if (system.size() != mesh.node_count())
         throw std::invalid_argument("CellPreconditioner: the nodes are not those of the solid");
     if (options.degree < 1)

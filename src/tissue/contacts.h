@@ -26,10 +26,12 @@ class Contacts {
         Vec3 normal = Vec3::UnitZ();       ///< n, length 1, towards node a
         double rest_gap_m = 0;             ///< g <= 0
         double stiffness_n_per_m = 0;      ///< kc
+        int body = 0;                      ///< what p rides on, as the caller counts bodies
     };
 
     void set(std::vector<Contact> contacts);
     const std::vector<Contact>& list() const { return contacts_; }
+    std::vector<Contact>& list() { return contacts_; }
 
     static double gap(const Contact& contact, const Points& x);  ///< m
 

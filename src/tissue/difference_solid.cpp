@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/cross_matrix.h"
+
 namespace risorius::tissue {
 
 namespace {
@@ -30,12 +32,6 @@ void cross(const Lanes a[3], const Lanes b[3], Lanes c[3]) {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-    Mat3 m;
-    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-    return m;
 }
 
 /// Columns r_2 x r_3, r_3 x r_1, r_1 x r_2: the derivative of dV by the tangents.

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/cross_matrix.h"
+
 namespace risorius::tissue {
 
 namespace {
@@ -19,12 +21,6 @@ Vec3 difference(const int (&node)[kMost], const double (&coefficient)[kMost], in
     Vec3 sum = Vec3::Zero();
     for (int k = 0; k < count; ++k) sum += coefficient[k] * x.row(node[k]).transpose();
     return sum;
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-    Mat3 m;
-    m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-    return m;
 }
 
 /// The unit normal and what its change with the tangents needs.

@@ -2,15 +2,11 @@
 
 #include <cmath>
 
+#include "core/cross_matrix.h"
+
 namespace risorius::tissue {
 
 namespace {
-
-Mat3 cross_matrix(const Vec3& a) {
-    Mat3 m;
-    m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-    return m;
-}
 
 struct Hinge {
     Vec3 e, a, b;   ///< edge; from x0 to xa and xb

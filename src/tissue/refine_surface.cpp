@@ -95,7 +95,7 @@ Points with_middles(const Points& x, const std::vector<Edge>& middle_of) {
     return all;
 }
 
-constexpr double kLeastStrain = 1e-12;  ///< below is rounding
+constexpr double kLeastSheetStrain = 1e-12;  ///< below is rounding
 
 }  // namespace
 
@@ -266,7 +266,7 @@ bool AdaptiveSurface::refine(solve::MotionState& state) {
     // Shrunk to a point, the surface has strains of the order of one
     const double one = term_->metric_energy(Points::Zero(state.x.rows(), 3));
     error_ = 0;
-    if (!(energy > kLeastStrain * kLeastStrain * one)) return false;
+    if (!(energy > kLeastSheetStrain * kLeastSheetStrain * one)) return false;
     error_ = std::sqrt(squared.sum() / energy);
     const double due =
         options_.tolerance * options_.tolerance * energy / static_cast<double>(squared.size());

@@ -7,7 +7,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+
+#include "tissue/detail/sheet_edges.h"
 
 namespace risorius::tissue {
 
@@ -15,9 +16,10 @@ using solve::Lanes;
 
 namespace {
 
-constexpr double kRounding = 0.1;  ///< of a hinge's rest length
+constexpr double kHingeRounding = 0.1;  ///< of a hinge's rest length
 
-Vec3 point(const Points& x, int i) { return x.row(i).transpose(); }
+using detail::EdgeSide;
+using detail::point;
 
 /// Cotangent of the angle at `apex` between the directions to a and b.
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b) {
@@ -29,11 +31,6 @@ double area(const Points& x, const Triangles& triangles, int t) {
     const Vec3 p = point(x, triangles(t, 0));
     return 0.5 * (point(x, triangles(t, 1)) - p).cross(point(x, triangles(t, 2)) - p).norm();
 }
-
-/// One side of one triangle.
-struct HalfEdge {
-    int low, high, triangle, opposite;
-};
 
 }  // namespace
 
@@ -66,33 +63,16 @@ SkinSheet::SkinSheet(const Triangles& triangles, const Points& rest,
 
 void SkinSheet::add_hinges(const Triangles& triangles, const Points& rest,
                            const Eigen::VectorXd& bending_n_m) {
-    std::vector<HalfEdge> sides;
-    sides.reserve(static_cast<std::size_t>(3 * triangle_count_));
-    for (int t = 0; t < triangle_count_; ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-            sides.push_back({std::min(a, b), std::max(a, b), t, triangles(t, (k + 2) % 3)});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const HalfEdge& p, const HalfEdge& q) {
-        return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
-    });
-    std::vector<std::array<HalfEdge, 2>> edges;
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low &&
-               sides[end].high == sides[i].high)
-            ++end;
-        if (end - i == 2) edges.push_back({sides[i], sides[i + 1]});
-        i = end;
-    }
-
+    const auto edges = detail::inner_edges(triangles);
     hinge_count_ = static_cast<int>(edges.size());
     hinges_.resize((edges.size() + 3) / 4);
+    const auto opposite = [&](const EdgeSide& side) {
+        return triangles(side.triangle, (side.edge + 2) % 3);
+    };
     for (int slot = 0; slot < 4 * static_cast<int>(hinges_.size()); ++slot) {
         const auto& [first, second] =
             edges[static_cast<std::size_t>(std::min(slot, hinge_count_ - 1))];
-        const int nodes[4] = {first.low, first.high, first.opposite, second.opposite};
+        const int nodes[4] = {first.low, first.high, opposite(first), opposite(second)};
         const Vec3 x0 = point(rest, nodes[0]), x1 = point(rest, nodes[1]);
         const Vec3 xa = point(rest, nodes[2]), xb = point(rest, nodes[3]);
         const double at_0a = cotangent(x0, x1, xa), at_0b = cotangent(x0, x1, xb);
@@ -105,7 +85,7 @@ void SkinSheet::add_hinges(const Triangles& triangles, const Points& rest,
 
         HingeGroup& group = hinges_[static_cast<std::size_t>(slot / 4)];
         const int lane = slot % 4;
-        const double rounding = kRounding * s;
+        const double rounding = kHingeRounding * s;
         group.w[lane] = slot < hinge_count_ ? 3.0 * bending / areas : 0.0;
         group.rest_length[lane] = std::sqrt(s * s + rounding * rounding);
         group.squared_rounding[lane] = rounding * rounding;

@@ -6,8 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
+#include "tissue/detail/sheet_edges.h"
 #include "tissue/hinge_angle.h"
 
 namespace risorius::tissue {
@@ -16,37 +16,11 @@ namespace {
 
 using Flat = Eigen::Matrix<double, 2, 3>;  ///< three points of a plane, one per column
 
-Vec3 point(const Points& x, int node) { return x.row(node).transpose(); }
+using detail::EdgeSide;
+using detail::point;
 
 HingeCorners corners_of(const int (&node)[4], const Points& x) {
     return {point(x, node[0]), point(x, node[1]), point(x, node[2]), point(x, node[3])};
-}
-
-struct Side {
-    int low, high, triangle, edge;  ///< edge k runs from corner k to k + 1
-};
-
-/// Edges with exactly two triangles.
-std::vector<std::array<Side, 2>> inner_edges(const Triangles& triangles) {
-    std::vector<Side> sides;
-    for (int t = 0; t < triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-            sides.push_back({std::min(a, b), std::max(a, b), t, k});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) {
-        return std::tie(p.low, p.high, p.triangle) < std::tie(q.low, q.high, q.triangle);
-    });
-    std::vector<std::array<Side, 2>> edges;
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low &&
-               sides[end].high == sides[i].high)
-            ++end;
-        if (end - i == 2) edges.push_back({sides[i], sides[i + 1]});
-        i = end;
-    }
-    return edges;
 }
 
 /// A triangle of the rest shape in its own plane, first edge along x.
@@ -111,9 +85,9 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
         double sign = 1;
     };
     std::vector<std::array<EdgeOf, 3>> edges_of(static_cast<std::size_t>(triangles.rows()));
-    for (const auto& sides : inner_edges(triangles)) {
-        const Side& first = sides[0];
-        const Side& second = sides[1];
+    for (const auto& sides : detail::inner_edges(triangles)) {
+        const EdgeSide& first = sides[0];
+        const EdgeSide& second = sides[1];
         Hinge hinge;
         hinge.node[0] = triangles(first.triangle, first.edge);
         hinge.node[1] = triangles(first.triangle, (first.edge + 1) % 3);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "tissue/detail/sheet_edges.h"
 
 namespace risorius::tissue {
 
@@ -14,11 +15,7 @@ namespace {
 
 using Flat = Eigen::Matrix<double, 2, 3>;
 
-Vec3 point(const Points& x, int node) { return x.row(node).transpose(); }
-
-}  // namespace
-
-namespace {
+using detail::point;
 
 using Coordinates =
     Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< a of each node, MN x 2

@@ -79,6 +79,9 @@ struct ChannelTable {
     std::vector<std::string> column_names() const;
 };
 
+/// What moves the jaw: the channels jaw_open, jaw_forward and jaw_side place it, or muscles pull it, which those channels then ask to.
+enum class JawDrive { kChannels, kMuscles };
+
 /// Everything that drives a face at one moment.
 struct Drive {
     Eigen::VectorXd excitation;  ///< per column, ratio of maximal neural drive, [min, 1]

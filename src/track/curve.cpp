@@ -57,6 +57,20 @@ double Curve::at(double t_s) const {
     return std::clamp(cubic, std::min(from.value, to.value), std::max(from.value, to.value));
 }
 
+SampledCurve::SampledCurve(std::vector<double> samples, double rate_hz, double start_s)
+    : samples_(std::move(samples)), rate_hz_(rate_hz), start_s_(start_s) {
+    assert(rate_hz > 0);
+}
+
+double SampledCurve::at(double t_s) const {
+    const double place = (t_s - start_s_) * rate_hz_;
+    const double last = static_cast<double>(samples_.size()) - 1;
+    if (!(place >= 0 && place <= last)) return 0;
+    const auto i = static_cast<std::size_t>(place);
+    if (i + 1 == samples_.size()) return samples_[i];
+    return samples_[i] + (place - static_cast<double>(i)) * (samples_[i + 1] - samples_[i]);
+}
+
 double minimum_jerk(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return s * s * s * (10 + s * (-15 + 6 * s));

@@ -28,6 +28,19 @@ class Curve {
     Interpolation interpolation_;
 };
 
+/// A value recorded at a constant rate: straight between samples, 0 before the first and after the last.
+class SampledCurve {
+  public:
+    /// The first sample is at `start_s`.
+    SampledCurve(std::vector<double> samples, double rate_hz, double start_s);
+
+    double at(double t_s) const;
+
+  private:
+    std::vector<double> samples_;
+    double rate_hz_, start_s_;
+};
+
 /// Shortest movement from 0 to 1 in the sense of jerk: rest at both ends; s is clamped to [0, 1].
 /// Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
 double minimum_jerk(double s);

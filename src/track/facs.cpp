@@ -4,8 +4,6 @@ namespace risorius::track {
 
 namespace {
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
-
 std::string did_you_mean(const std::string& name, const std::vector<std::string_view>& known) {
     const std::string near = nearest_name(name, known);
     return near.empty() ? "" : " (did you mean " + quoted(near) + "?)";

@@ -1,7 +1,9 @@
 #include "track/script.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "track/emg_source.h"
 #include "track/timeline.h"
 
 namespace risorius::track {
@@ -10,16 +12,15 @@ namespace {
 
 constexpr double kLongest_s = 3600;
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
-
 ScriptView read_view(const JsonCursor& json) {
-    json.allow_keys({"width_px", "height_px", "camera", "background"});
+    json.allow_keys({"width_px", "height_px", "camera", "show", "background"});
     ScriptView view;
     if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
     if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
     if (const auto v = json.find("camera"))
         view.camera = v->one_of(
             {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"});
+    if (const auto v = json.find("show")) view.show = v->one_of({"skin", "muscles"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);
@@ -39,8 +40,8 @@ ScriptView read_view(const JsonCursor& json) {
 }
 
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys(
-        {"format", "version", "rig", "fps", "duration_s", "seed", "channels", "events", "view"});
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "channels",
+                     "emg", "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
@@ -56,6 +57,9 @@ ScriptHeader read_header(const JsonCursor& json) {
     if (header.frame_count() < 1)
         duration.fail("at least one frame at " + std::to_string(header.fps) + " fps");
     if (const auto v = json.find("seed")) header.seed = v->integer(0, 2147483647);
+    if (const auto v = json.find("jaw"))
+        header.jaw = v->one_of({"channels", "muscles"}) == "muscles" ? JawDrive::kMuscles
+                                                                     : JawDrive::kChannels;
     if (const auto v = json.find("view")) header.view = read_view(*v);
     return header;
 }
@@ -234,6 +238,10 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())
             script.channels.push_back(reader.channel(table->at(name), name));
+    if (const auto emg = json.find("emg")) {
+        script.emg = read_emg(*emg, channels);
+        script.recordings.push_back(emg->at("file").path());
+    }
     if (const auto events = json.find("events"))
         for (const JsonCursor& event : events->items()) {
             if (event.has("expression") == event.has("blink"))

@@ -18,6 +18,7 @@ struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
     std::string camera = "front";  ///< a name of render::camera_names()
+    std::string show = "skin";     ///< a name of render::show_names()
     bool transparent = false;      ///< background "transparent"
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
 };
@@ -29,6 +30,7 @@ struct ScriptHeader {
     int fps = 60;                    ///< 1..240
     double duration_s = 0;           ///< (0, 3600], at least one frame
     int seed = 1;
+    JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
     ScriptView view;
 
     int frame_count() const;
@@ -66,11 +68,20 @@ struct BlinkEvent {
     Expansion drives;  ///< of AU45 at this intensity
 };
 
+/// Excitation from a recorded electromyogram, [min of the muscle, 1].
+struct EmgTrack {
+    std::string muscle;  ///< "zygomaticus_major.l"
+    SampledCurve excitation;
+    Expansion drives;  ///< what it at 1 adds
+};
+
 struct ScriptDescription {
     ScriptHeader header;
     std::vector<ChannelTrack> channels;
+    std::vector<EmgTrack> emg;
     std::vector<ExpressionEvent> expressions;
     std::vector<BlinkEvent> blinks;
+    std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
 };
 
 /// Reads the header and leaves channels and events for later. Throws Error.

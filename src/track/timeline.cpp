@@ -18,7 +18,10 @@ double expression_profile(const ExpressionEvent& event, double delay, double t_s
 }
 
 Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels)
-    : expressions_(script.expressions), blinks_(script.blinks), column_min_(channels.column_min()) {
+    : emg_(script.emg),
+      expressions_(script.expressions),
+      blinks_(script.blinks),
+      column_min_(channels.column_min()) {
     for (const ChannelTrack& channel : script.channels) {
         Curve curve(channel.keys, channel.interpolation);
         if (!channel.activation) {
@@ -38,6 +41,7 @@ Drive Timeline::at(double t_s) const {
 
     // What adds up
     for (const Source& source : sources_) sum.add(source.drives, source.curve.at(t_s));
+    for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
         for (const ExpressionEvent::Part& part : event.parts)
             if (const double share = expression_profile(event, part.delay, t_s); share > 0)

@@ -38,6 +38,7 @@ class Timeline {
     };
 
     std::vector<Source> sources_;
+    std::vector<EmgTrack> emg_;
     std::vector<DirectActivation> activations_;
     std::vector<ExpressionEvent> expressions_;
     std::vector<BlinkEvent> blinks_;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 
-#include "body/integrator_description.h"
 #include "body/soft_body.h"
 
 namespace risorius::body {
@@ -33,9 +33,8 @@ std::string message_of(const std::function<void()>& step) {
     return "no error";
 }
 
-/// The message of reading the cube with one value changed.
-std::string message_with(const char* pointer, const char* value) {
-    Json json = cube();
+/// The message of reading a body with one value changed.
+std::string message_with(const char* pointer, const char* value, Json json = cube()) {
     json[Json::json_pointer(pointer)] = Json::parse(value);
     return message_of([&] { read(json); });
 }
@@ -351,13 +350,12 @@ TEST(BodyDescription, SurfacesAndTubesHaveTwoAxes) {
 }
 
 TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
-    const auto message = [](const char* pointer, const char* value) {
-        Json json = Json::parse(R"({
-            "kind": "surface", "grid": [3, 3], "rest": {"sheet_m": [1, 1]},
-            "material": {"mass_kg": 1, "elastic_n_per_m3": 1, "damping_ns_per_m3": 0.1,
-                         "bending_n_per_m": 0.01, "drag_ns_per_m": 0.1}})");
-        json[Json::json_pointer(pointer)] = Json::parse(value);
-        return message_of([&] { read(json); });
+    const Json json = Json::parse(R"({
+        "kind": "surface", "grid": [3, 3], "rest": {"sheet_m": [1, 1]},
+        "material": {"mass_kg": 1, "elastic_n_per_m3": 1, "damping_ns_per_m3": 0.1,
+                     "bending_n_per_m": 0.01, "drag_ns_per_m": 0.1}})");
+    const auto message = [&](const char* pointer, const char* value) {
+        return message_with(pointer, value, json);
     };
     EXPECT_EQ(message("/material/mass_kg", "-1"),
               "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -1");
@@ -386,12 +384,11 @@ TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
 }
 
 TEST(BodyDescription, BadNumbersOfCurvesAreNamedWithTheirPlace) {
-    const auto message = [](const char* pointer, const char* value) {
-        Json json = Json::parse(R"({
-            "kind": "curve", "grid": [5], "rest": {"path_m": [[0, 0, 0], [1, 0, 0]]},
-            "material": {"mass_kg": 1, "elastic_n_per_m3": 100, "bending_n_per_m": 0.1}})");
-        json[Json::json_pointer(pointer)] = Json::parse(value);
-        return message_of([&] { read(json); });
+    const Json json = Json::parse(R"({
+        "kind": "curve", "grid": [5], "rest": {"path_m": [[0, 0, 0], [1, 0, 0]]},
+        "material": {"mass_kg": 1, "elastic_n_per_m3": 100, "bending_n_per_m": 0.1}})");
+    const auto message = [&](const char* pointer, const char* value) {
+        return message_with(pointer, value, json);
     };
     EXPECT_EQ(message("/material/mass_kg", "-1"),
               "cube.json:/body/material/mass_kg: expected a number in (0, inf), found -1");
@@ -477,25 +474,6 @@ TEST(SoftBody, MeasuresVolumeAndStartsAtRest) {
     Points force;
     body.system.force(0, body.rest, body.start().v, force);
     EXPECT_NEAR(force.col(2).sum(), -4 * 9.81, 1e-10) << "only weight acts at rest";
-}
-
-TEST(IntegratorDescription, SaysWhatIsWrong) {
-    const auto message = [](const char* text) {
-        return message_of(
-            [&] { read_integrator(JsonCursor::from_json(Json::parse(text), "run.json")); });
-    };
-    EXPECT_EQ(message(R"({"method": "rk4", "step_s": 0})"),
-              "run.json:/step_s: expected a number in (0, inf), found 0");
-    EXPECT_EQ(message(R"({"method": "rk4", "steps_s": 1})"),
-              "run.json:/steps_s: expected a known key (did you mean \"step_s\"?), found unknown "
-              "key \"steps_s\"");
-    EXPECT_EQ(message(R"({"method": "rk3"})").substr(0, 46),
-              "run.json:/method: expected one of \"euler\" \"ver");
-    const auto options = read_integrator(JsonCursor::from_json(
-        Json::parse(R"({"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6})"), "run.json"));
-    EXPECT_EQ(options.method, solve::Method::kCashKarp);
-    EXPECT_EQ(options.step_s, 1e-3);
-    EXPECT_EQ(options.tolerance, 1e-6);
 }
 
 }  // namespace

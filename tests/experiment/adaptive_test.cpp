@@ -1,6 +1,8 @@
 // Adaptive against uniform resolution: the shortened figure, the same bytes for any number of threads, and wrong files.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "experiment/samples.h"
 
 namespace risorius::experiment {

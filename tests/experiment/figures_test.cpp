@@ -2,6 +2,8 @@
 // prototype (3 m cube, 4 kg, held at its top).
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "body/soft_body.h"
 #include "experiment/body_cases.h"
 #include "experiment/linear_modes.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "paths.h"
@@ -68,7 +69,7 @@ TEST(ImplicitSteps, ItTakesTenTimesTheStepOfTerzopoulosWithTheRateInTheMatrix) {
         EXPECT_EQ(usable(step_s, {"terzopoulos-lagged"})["terzopoulos-lagged"], kNone) << step_s;
 }
 
-std::string message_of(const Json& experiment) {
+std::string message_about(const Json& experiment) {
     Outcome outcome;
     try {
         run_implicit_steps(JsonCursor::from_json(experiment, "table.json"), {.threads = 1},
@@ -82,15 +83,15 @@ std::string message_of(const Json& experiment) {
 TEST(ImplicitSteps, WhatIsWrongIsNamed) {
     Json experiment = table_of_the_thesis();
     experiment["methods"][0]["published_s"] = {1, 2};
-    EXPECT_EQ(message_of(experiment),
+    EXPECT_EQ(message_about(experiment),
               "table.json:/methods/0/published_s: expected one number per grid, 3, found 2");
     experiment = table_of_the_thesis();
     experiment["methods"][1]["name"] = "newton";
-    EXPECT_EQ(message_of(experiment),
+    EXPECT_EQ(message_about(experiment),
               "table.json:/methods/3/name: expected a name of its own, found \"newton\" again");
     experiment = table_of_the_thesis();
     experiment["ratios"] = {{"newton"}};
-    EXPECT_EQ(message_of(experiment).substr(0, 60),
+    EXPECT_EQ(message_about(experiment).substr(0, 60),
               "table.json:/ratios/0: expected the names of two methods, fou");
 }
 

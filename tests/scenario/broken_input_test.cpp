@@ -2,6 +2,8 @@
 // nothing left behind.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/json_cursor.h"
 #include "paths.h"
 #include "scenario/run_program.h"
@@ -11,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RISORIUS_SOURCE_DIR;
 const fs::path kBroken = kRoot / "tests/data/broken";
 
 Json expected_in(const char* folder) {

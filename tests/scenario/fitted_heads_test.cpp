@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RISORIUS_SOURCE_DIR;
-
 struct HeadFiles {
     const char* name;
     const char* mesh;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/animate.h"
@@ -17,8 +18,6 @@ namespace risorius::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kRoot = RISORIUS_SOURCE_DIR;
 
 /// samples/hello, cut to its first moments and made small, as a file in `folder`.
 fs::path short_hello(const Folder& folder, double duration_s, int fps) {
@@ -215,6 +214,39 @@ TEST(Render, AStillIsTheFrameOfItsTime) {
     EXPECT_EQ(frame.rgba, still.rgba);
     EXPECT_TRUE(fs::exists(folder / "frames.json"));
     EXPECT_TRUE(fs::exists(folder / "still.png.frames.tsv"));
+}
+
+TEST(Render, ShowsTheMusclesWhenTheCommandOrTheScriptAsks) {
+    const Folder folder;
+    const fs::path script = short_hello(folder, 0.2, 60);
+    app::AnimateOptions options;
+    options.script = script;
+    options.still_s = 0.15;
+    const auto still = [&](const char* name) {
+        options.out = folder / name;
+        const app::RunRecord record = app::animate(options);
+        EXPECT_EQ(Json::parse(text_of(folder / (std::string(name) + ".json")))["show"],
+                  record.show);
+        return record;
+    };
+    const app::RunRecord skin = still("skin.png");
+    EXPECT_EQ(skin.show, "skin");
+    options.show = "muscles";
+    const app::RunRecord muscles = still("muscles.png");
+    EXPECT_EQ(muscles.show, "muscles");
+    EXPECT_NE(muscles.frames_sha256, skin.frames_sha256);
+    EXPECT_EQ(text_of(folder / "muscles.png.frames.tsv"), text_of(folder / "skin.png.frames.tsv"));
+
+    Json json = Json::parse(text_of(script));
+    json["view"]["show"] = "muscles";
+    std::ofstream(script) << json.dump();
+    options.show.reset();
+    options.threads = 1;
+    EXPECT_EQ(still("script.png").frames_sha256, muscles.frames_sha256);
+    const Outcome refused = run("render '" + script.string() + "' --show bones -o x.mp4", kRoot);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(refused.errors,
+              "risorius: --show: expected one of \"skin\", \"muscles\", found \"bones\"\n");
 }
 
 TEST(Render, ANeutralScriptShowsOnePictureThroughout) {

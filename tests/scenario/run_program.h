@@ -19,6 +19,8 @@ namespace risorius::scenario {
 
 using Folder = TemporaryFolder;
 
+inline const std::filesystem::path kRoot = RISORIUS_SOURCE_DIR;
+
 inline std::string text_of(const std::filesystem::path& file) { return bytes_of(file); }
 
 struct Outcome {

@@ -19,12 +19,6 @@ using solve::ImplicitStep;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
-    Points force = Points::Zero(x.rows(), 3);
-    term.add_force(0, x, v, force);
-    return force;
-}
-
 /// Relative to the largest force.
 void expect_free_of_net_force_and_torque(const Points& x, const Points& force, double tolerance) {
     const double largest = force.cwiseAbs().maxCoeff();
@@ -69,7 +63,7 @@ GridSolid bent_solid(Parameters parameters = Parameters::kPerNode) {
     return solid;
 }
 
-Points shaken(const GridSolid& solid, double amplitude, unsigned seed) {
+Points shaken_rest(const GridSolid& solid, double amplitude, unsigned seed) {
     return solid.rest + random_points(solid.rest.rows(), amplitude, seed);
 }
 
@@ -179,14 +173,14 @@ TEST(DifferenceSolid, RestOfAnyShapeIsExactlyFreeOfForceAndEnergy) {
 TEST(DifferenceSolid, ForceIsTheSlopeOfTheEnergy) {
     // Acceptance T1. Step 1e-4 m of a body of 1 m: truncation and rounding are near 1e-9.
     const GridSolid solid = bent_solid();
-    expect_force_is_minus_slope_of_energy(DifferenceSolid(solid), 0, shaken(solid, 0.1, 1), 1e-5,
-                                          1e-8);
+    expect_force_is_minus_slope_of_energy(DifferenceSolid(solid), 0, shaken_rest(solid, 0.1, 1),
+                                          1e-5, 1e-8);
 }
 
 TEST(DifferenceSolid, ForceIsThatOfThePrintedFormulas) {
     // Acceptance T2: (3), (6) and (8) from the thesis' operators, coded apart.
     const GridSolid solid = bent_solid();
-    const Points x = shaken(solid, 0.3, 2), v = random_points(x.rows(), 2.0, 3);
+    const Points x = shaken_rest(solid, 0.3, 2), v = random_points(x.rows(), 2.0, 3);
     const Points printed = PrintedFormulas(solid).force(x, v);
     const Points force = force_of(DifferenceSolid(solid), x, v);
     EXPECT_LT((force - printed).cwiseAbs().maxCoeff(), 1e-12 * printed.cwiseAbs().maxCoeff());
@@ -195,14 +189,14 @@ TEST(DifferenceSolid, ForceIsThatOfThePrintedFormulas) {
 TEST(DifferenceSolid, InternalForcesNeitherPushNorTurnTheBody) {
     // Acceptance T3, with damping and a large deformation.
     const GridSolid solid = bent_solid();
-    const Points x = shaken(solid, 0.3, 4), v = random_points(x.rows(), 2.0, 5);
+    const Points x = shaken_rest(solid, 0.3, 4), v = random_points(x.rows(), 2.0, 5);
     expect_free_of_net_force_and_torque(x, force_of(DifferenceSolid(solid), x, v), 1e-11);
 }
 
 TEST(DifferenceSolid, DampingOnlyTakesEnergyAway) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
-    const Points x = shaken(solid, 0.3, 6), still = Points::Zero(x.rows(), 3);
+    const Points x = shaken_rest(solid, 0.3, 6), still = Points::Zero(x.rows(), 3);
     for (unsigned seed = 10; seed < 20; ++seed) {
         const Points v = random_points(x.rows(), 2.0, seed);
         const Points damping = force_of(term, x, v) - force_of(term, x, still);
@@ -221,14 +215,14 @@ TEST(DifferenceSolid, RigidMotionMeetsNoForce) {
         x.row(i) = (motion * Vec3(solid.rest.row(i).transpose())).transpose();
         v.row(i) = Vec3(0.3, -2, 1).cross(Vec3(x.row(i).transpose())).transpose();
     }
-    const double typical = force_of(term, shaken(solid, 0.1, 1), v).cwiseAbs().maxCoeff();
+    const double typical = force_of(term, shaken_rest(solid, 0.1, 1), v).cwiseAbs().maxCoeff();
     EXPECT_LT(force_of(term, x, v).cwiseAbs().maxCoeff(), 1e-12 * typical);
 }
 
 TEST(DifferenceSolid, PotentialWithoutMotionIsTheEnergyAndItsGradientTheForce) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
-    const Points x = shaken(solid, 0.2, 8), still = Points::Zero(x.rows(), 3);
+    const Points x = shaken_rest(solid, 0.2, 8), still = Points::Zero(x.rows(), 3);
     Points gradient = still;
     const double potential =
         term.add_potential({.end_s = 0, .step_s = kForever, .start = solid.rest}, x, gradient);
@@ -238,7 +232,8 @@ TEST(DifferenceSolid, PotentialWithoutMotionIsTheEnergyAndItsGradientTheForce) {
 
 TEST(DifferenceSolid, GradientOfAStepIsTheSlopeOfItsPotential) {
     const GridSolid solid = bent_solid();
-    const Points start = shaken(solid, 0.1, 9), x = start + random_points(start.rows(), 0.1, 10);
+    const Points start = shaken_rest(solid, 0.1, 9),
+                 x = start + random_points(start.rows(), 0.1, 10);
     expect_gradient_of_potential(DifferenceSolid(solid),
                                  {.end_s = 0, .step_s = 0.02, .start = start}, x, 1e-5, 1e-8);
 }
@@ -246,7 +241,7 @@ TEST(DifferenceSolid, GradientOfAStepIsTheSlopeOfItsPotential) {
 TEST(DifferenceSolid, GradientOfASmallStepTendsToForceWithDamping) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
-    const Points x = shaken(solid, 0.1, 11), v = random_points(x.rows(), 1.0, 12);
+    const Points x = shaken_rest(solid, 0.1, 11), v = random_points(x.rows(), 1.0, 12);
     const Points force = force_of(term, x, v);
     double previous = kForever;
     for (const double h : {1e-2, 1e-3, 1e-4}) {
@@ -264,7 +259,8 @@ TEST(DifferenceSolid, GradientOfASmallStepTendsToForceWithDamping) {
 
 TEST(DifferenceSolid, SecondDerivativeIsExact) {
     const GridSolid solid = bent_solid();
-    const Points start = shaken(solid, 0.1, 13), x = start + random_points(start.rows(), 0.1, 14);
+    const Points start = shaken_rest(solid, 0.1, 13),
+                 x = start + random_points(start.rows(), 0.1, 14);
     const DifferenceSolid term(solid);
     for (const double step : {0.02, kForever})
         expect_hessian_of_potential(term, {.end_s = 0, .step_s = step, .start = start}, x, 1e-5,
@@ -275,7 +271,7 @@ TEST(DifferenceSolid, PositivePartIsPositiveWhereTheSecondDerivativeIsNot) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
     // Squeezed to a third: compressive stress everywhere
-    const Points x = 0.33 * shaken(solid, 0.1, 15);
+    const Points x = 0.33 * shaken_rest(solid, 0.1, 15);
     const ImplicitStep step{.end_s = 0, .step_s = kForever, .start = solid.rest};
     const auto least = [&](Curvature curvature) {
         const Eigen::VectorXd values =
@@ -325,7 +321,7 @@ TEST(DifferenceSolid, MetricBoundsTheSecondDerivativeAtRest) {
 TEST(DifferenceSolid, SecantMatrixGivesTheForceBack) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
-    const Points x = shaken(solid, 0.2, 16), v = random_points(x.rows(), 1.0, 17);
+    const Points x = shaken_rest(solid, 0.2, 16), v = random_points(x.rows(), 1.0, 17);
     const Points force = force_of(term, x, v);
     for (const bool lag_rate : {false, true}) {
         solve::MetricBuilder K(solid.grid.size()), damping(solid.grid.size());
@@ -341,7 +337,7 @@ TEST(DifferenceSolid, SecantMatrixGivesTheForceBack) {
 TEST(DifferenceSolid, SameInputGivesTheSameBits) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid one(solid), other(solid);
-    const Points x = shaken(solid, 0.2, 18), v = random_points(x.rows(), 1.0, 19);
+    const Points x = shaken_rest(solid, 0.2, 18), v = random_points(x.rows(), 1.0, 19);
     const Points first = force_of(one, x, v);
     one.energy(0, solid.rest);  // whatever happened in between
     EXPECT_EQ(first, force_of(one, x, v));

@@ -56,11 +56,11 @@ TEST_P(AnyGridCurve, MetricBoundsTheStiffnessAtRest) {
     expect_metric_bounds_rest(term, curve.rest, 0.02, 2.0);
 }
 
-std::string name_of_rest(const testing::TestParamInfo<GridCurve (*)()>& which) {
+std::string name_of_curve(const testing::TestParamInfo<GridCurve (*)()>& which) {
     return which.index == 0 ? "Straight" : "Bent";
 }
 INSTANTIATE_TEST_SUITE_P(Rest, AnyGridCurve, testing::Values(&varied_curve, &bent_curve),
-                         name_of_rest);
+                         name_of_curve);
 
 TEST(GridCurve, ABentCurvePulledStraightHasFiniteForces) {
     const GridCurve curve = bent_curve();

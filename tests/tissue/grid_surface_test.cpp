@@ -52,7 +52,7 @@ GridSurface curved_sheet() {
     return surface;
 }
 
-std::string name_of_rest(const testing::TestParamInfo<GridSurface (*)()>& which) {
+std::string name_of_surface(const testing::TestParamInfo<GridSurface (*)()>& which) {
     static const char* const kNames[] = {"Flat", "Tube", "Curved"};
     return kNames[which.index];
 }
@@ -84,7 +84,8 @@ TEST_P(AnyGridSurface, MetricBoundsTheStiffnessAtRest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rest, AnyGridSurface,
-                         testing::Values(&varied_sheet, &varied_tube, &curved_sheet), name_of_rest);
+                         testing::Values(&varied_sheet, &varied_tube, &curved_sheet),
+                         name_of_surface);
 
 GridSurface plain_sheet(SurfaceGrid grid, const Vec2& size_m, double elastic, double bending,
                         Parameters meant = Parameters::kResolutionIndependent) {

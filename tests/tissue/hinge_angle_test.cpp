@@ -9,7 +9,7 @@
 namespace risorius::tissue {
 namespace {
 
-HingeCorners folded(double angle) {
+HingeCorners folded_corners(double angle) {
     return {Vec3(0, 0, 0), Vec3(0, 2, 0), Vec3(-1.5, 0.4, 0),
             Vec3(1.2 * std::cos(angle), 1.1, 1.2 * std::sin(angle))};
 }
@@ -17,7 +17,7 @@ HingeCorners folded(double angle) {
 HingeCorners random_hinge(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-0.4, 0.4);
-    HingeCorners x = folded(0.8);
+    HingeCorners x = folded_corners(0.8);
     for (Vec3& p : x)
         for (int k = 0; k < 3; ++k) p[k] += uniform(random);
     return x;
@@ -26,7 +26,7 @@ HingeCorners random_hinge(unsigned seed) {
 TEST(HingeAngle, IsTheTurnFromFlat) {
     // n1 = e x (xa - x0) is up here; folding up is towards it.
     for (const double angle : {-2.5, -0.3, 0.0, 0.7, 3.0})
-        EXPECT_NEAR(hinge_angle(folded(angle)), -angle, 1e-14);
+        EXPECT_NEAR(hinge_angle(folded_corners(angle)), -angle, 1e-14);
     const HingeCorners x = random_hinge(1);
     EXPECT_NEAR(hinge_angle({x[1], x[0], x[3], x[2]}), hinge_angle(x), 1e-14);
     EXPECT_NEAR(hinge_angle({x[0], x[1], x[3], x[2]}), -hinge_angle(x), 1e-14);

@@ -11,24 +11,24 @@
 namespace risorius::tissue {
 namespace {
 
-const LayeredBlock kBlock(3, 3, 2);
+const LayeredBlock kHeldBlock(3, 3, 2);
 
 Tethers some_tethers() {
     std::vector<Tethers::Tether> list;
     for (int node = 0; node < 9; ++node)
-        list.push_back({node, kBlock.rest.row(node).transpose(),
+        list.push_back({node, kHeldBlock.rest.row(node).transpose(),
                         Vec3(0.1 * node, 0.5, 1.0).normalized(), 200.0, 3.0 * node});
     return Tethers(list);
 }
 
 TEST(Tethers, HoldNothingAtTheirTargets) {
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    EXPECT_EQ(some_tethers().add_energy(kBlock.rest, gradient), 0.0);
+    Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
+    EXPECT_EQ(some_tethers().add_energy(kHeldBlock.rest, gradient), 0.0);
     EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
 }
 
 TEST(Tethers, ForcesAreTheSlopeOfTheEnergy) {
-    expect_gradient_is_exact(some_tethers(), shaken(kBlock.rest, 1e-3, 1));
+    expect_gradient_is_exact(some_tethers(), shaken(kHeldBlock.rest, 1e-3, 1));
 }
 
 TEST(Tethers, PullFirmlyAlongTheNormalAndLooselyAcross) {
@@ -48,8 +48,8 @@ TEST(Tethers, CanBeMovedWithTheJaw) {
         tether.target = jaw * tether.target;
         tether.normal = jaw.linear() * tether.normal;
     }
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    EXPECT_LT(tethers.add_energy(moved(kBlock.rest, jaw), gradient), 1e-28);
+    Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
+    EXPECT_LT(tethers.add_energy(moved(kHeldBlock.rest, jaw), gradient), 1e-28);
 }
 
 TEST(Tethers, TheMetricBoundsBothDirections) {
@@ -76,13 +76,13 @@ Contacts some_contacts() {
     carried.stiffness_n_per_m = 30;
     Contacts::Contact fixed;
     fixed.node = 10;
-    fixed.point = kBlock.rest.row(10).transpose() + Vec3(0, 0, 4e-4);  // 0.4 mm inside at rest
+    fixed.point = kHeldBlock.rest.row(10).transpose() + Vec3(0, 0, 4e-4);  // 0.4 mm inside at rest
     fixed.normal = Vec3::UnitZ();
     fixed.stiffness_n_per_m = 50;
     Contacts contacts;
     std::vector<Contacts::Contact> list{carried, fixed};
     for (Contacts::Contact& contact : list)
-        contact.rest_gap_m = std::min(0.0, Contacts::gap(contact, kBlock.rest));
+        contact.rest_gap_m = std::min(0.0, Contacts::gap(contact, kHeldBlock.rest));
     contacts.set(list);
     return contacts;
 }
@@ -90,14 +90,14 @@ Contacts some_contacts() {
 TEST(Contacts, RestIsFreeOfForceEvenWhereItOverlaps) {
     const Contacts contacts = some_contacts();
     EXPECT_NEAR(contacts.list()[1].rest_gap_m, -4e-4, 1e-18);
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    EXPECT_EQ(contacts.add_energy(kBlock.rest, gradient), 0.0);
+    Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
+    EXPECT_EQ(contacts.add_energy(kHeldBlock.rest, gradient), 0.0);
     EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
-    EXPECT_EQ(contacts.max_penetration(kBlock.rest), 0.0);
+    EXPECT_EQ(contacts.max_penetration(kHeldBlock.rest), 0.0);
 }
 
 TEST(Contacts, ForcesAreTheSlopeOfTheEnergyWhilePressed) {
-    Points x = kBlock.rest;
+    Points x = kHeldBlock.rest;
     x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
     x.row(10) -= Eigen::RowVector3d(1e-3, 0, 2e-3);
     const Contacts contacts = some_contacts();
@@ -107,7 +107,7 @@ TEST(Contacts, ForcesAreTheSlopeOfTheEnergyWhilePressed) {
 }
 
 TEST(Contacts, BetweenTissueAndTissuePushBothAlike) {
-    Points x = kBlock.rest;
+    Points x = kHeldBlock.rest;
     x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
     const Points gradient = gradient_of(some_contacts(), x);
     EXPECT_GT(gradient.cwiseAbs().maxCoeff(), 1e-3);
@@ -115,10 +115,10 @@ TEST(Contacts, BetweenTissueAndTissuePushBothAlike) {
 }
 
 TEST(Contacts, DoNotPullWhenApart) {
-    Points x = kBlock.rest;
+    Points x = kHeldBlock.rest;
     x.row(17) += Eigen::RowVector3d(0, 0, 5e-3);
     x.row(10) += Eigen::RowVector3d(0, 0, 5e-3);
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
     EXPECT_EQ(some_contacts().add_energy(x, gradient), 0.0);
     EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
 }
@@ -126,8 +126,8 @@ TEST(Contacts, DoNotPullWhenApart) {
 TEST(DeadLoads, ForcesAreTheSlopeOfTheEnergy) {
     DeadLoads loads;
     loads.set({{2, Vec3(0.1, 0, -0.2)}, {5, Vec3(0, 0.05, 0)}});
-    expect_gradient_is_exact(loads, kBlock.rest);
-    const Points gradient = gradient_of(loads, kBlock.rest);
+    expect_gradient_is_exact(loads, kHeldBlock.rest);
+    const Points gradient = gradient_of(loads, kHeldBlock.rest);
     EXPECT_EQ(gradient(2, 2), 0.2);
 }
 

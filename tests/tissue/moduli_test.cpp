@@ -9,14 +9,14 @@ namespace risorius::tissue {
 namespace {
 
 const Vec3 kEdges(0.3, 0.5, 0.2);
-const GridShape kGrid{4, 3, 5};
+const GridShape kModuliGrid{4, 3, 5};
 constexpr double kStrain = 1e-6;  // what is of second order in it is below every tolerance here
 
 GridSolid block(const IsotropicModuli& moduli) {
-    GridSolid solid{kGrid, block_rest(kGrid, kEdges), {SolidMaterial{}}};
+    GridSolid solid{kModuliGrid, block_rest(kModuliGrid, kEdges), {SolidMaterial{}}};
     solid.material[0].elastic_n_per_m3 = block_tensor(moduli.shear_pa, kEdges);
     solid.material[0].incompressibility_n_per_m5 =
-        nodal_incompressibility(moduli.volume_pa, kEdges.prod(), kGrid);
+        nodal_incompressibility(moduli.volume_pa, kEdges.prod(), kModuliGrid);
     return solid;
 }
 
@@ -48,7 +48,7 @@ TEST(Moduli, SimpleShearMeetsTheShearModulusLessWhatTheBorderLacks) {
             Mat3 shear = Mat3::Identity();
             shear(i, j) = kStrain;
             EXPECT_NEAR(traction(solid, shear, j)[i] / kStrain,
-                        2e3 * nodal_shear_share(kGrid, i, j), 2e3 * 1e-5)
+                        2e3 * nodal_shear_share(kModuliGrid, i, j), 2e3 * 1e-5)
                 << i << j;
         }
     EXPECT_DOUBLE_EQ(nodal_shear_share({3, 3, 3}, 0, 1), 2.0 / 3);
@@ -87,8 +87,9 @@ TEST(Moduli, ConversionsLeadBack) {
     const Mat3 moduli = block_moduli(block_tensor(7.0, kEdges), kEdges);
     EXPECT_LT((moduli.array() - 7.0).abs().maxCoeff(), 1e-14);
     EXPECT_DOUBLE_EQ(volume_modulus(incompressibility(5e4, 0.03), 0.03), 5e4);
-    EXPECT_DOUBLE_EQ(nodal_volume_modulus(nodal_incompressibility(5e4, 0.03, kGrid), 0.03, kGrid),
-                     5e4);
+    EXPECT_DOUBLE_EQ(
+        nodal_volume_modulus(nodal_incompressibility(5e4, 0.03, kModuliGrid), 0.03, kModuliGrid),
+        5e4);
 }
 
 TEST(Moduli, TheThesisCubeIsAFewPascalsStiffAndHardensWithResolution) {

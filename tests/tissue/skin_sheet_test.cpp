@@ -9,7 +9,7 @@
 namespace risorius::tissue {
 namespace {
 
-SkinSheet sheet_of(const LayeredBlock& block, double membrane_n_per_m, double bending_n_m) {
+SkinSheet sheet_over(const LayeredBlock& block, double membrane_n_per_m, double bending_n_m) {
     const auto count = block.top.rows();
     return SkinSheet(block.top, block.rest, Eigen::VectorXd::Constant(count, membrane_n_per_m),
                      Eigen::VectorXd::Constant(count, bending_n_m));
@@ -30,26 +30,27 @@ SkinSheet one_hinge(const Points& rest, double bending_n_m) {
 }
 
 // 6 x 5 nodes: 40 triangles and 51 hinges, which do not fill the last lanes.
-const LayeredBlock kBlock(6, 5, 1);
+const LayeredBlock kThinBlock(6, 5, 1);
 
 TEST(SkinSheet, EveryInnerEdgeBends) {
-    const SkinSheet sheet = sheet_of(kBlock, 20, 2e-5);
+    const SkinSheet sheet = sheet_over(kThinBlock, 20, 2e-5);
     EXPECT_EQ(sheet.triangle_count(), 40);
     EXPECT_EQ(sheet.hinge_count(), 51);  // 20 diagonals, 15 + 16 inner sides
 }
 
 TEST(SkinSheet, RestIsFreeOfStress) {
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    EXPECT_LT(std::abs(sheet_of(kBlock, 20, 2e-5).add_energy(kBlock.rest, gradient)), 1e-30);
+    Points gradient = Points::Zero(kThinBlock.nodes(), 3);
+    EXPECT_LT(std::abs(sheet_over(kThinBlock, 20, 2e-5).add_energy(kThinBlock.rest, gradient)),
+              1e-30);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-15);
 }
 
 TEST(SkinSheet, MembraneForcesAreTheSlopeOfTheEnergy) {
-    expect_gradient_is_exact(sheet_of(kBlock, 20, 0), shaken(kBlock.rest, 1e-3, 1));
+    expect_gradient_is_exact(sheet_over(kThinBlock, 20, 0), shaken(kThinBlock.rest, 1e-3, 1));
 }
 
 TEST(SkinSheet, BendingForcesAreTheSlopeOfTheEnergy) {
-    expect_gradient_is_exact(sheet_of(kBlock, 0, 2e-5), shaken(kBlock.rest, 1e-3, 2));
+    expect_gradient_is_exact(sheet_over(kThinBlock, 0, 2e-5), shaken(kThinBlock.rest, 1e-3, 2));
 }
 
 TEST(SkinSheet, AFlatHingeAtRestIsSmooth) {
@@ -80,7 +81,7 @@ TEST(SkinSheet, RollingAStripCostsTheSumOfItsFolds) {
     LayeredBlock block(n, 5, 1, 1e-3);
     block.rest.col(2).setZero();
     const double kb = 2e-5, radius = 0.2;
-    const SkinSheet sheet = sheet_of(block, 0, kb);
+    const SkinSheet sheet = sheet_over(block, 0, kb);
     Points rolled = block.rest, gradient = Points::Zero(block.nodes(), 3);
     for (Eigen::Index i = 0; i < rolled.rows(); ++i) {
         const double angle = block.rest(i, 0) / radius;
@@ -93,25 +94,25 @@ TEST(SkinSheet, RollingAStripCostsTheSumOfItsFolds) {
 }
 
 TEST(SkinSheet, RigidMotionCostsNothing) {
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    const Points x = moved(kBlock.rest, some_motion());
-    EXPECT_LT(std::abs(sheet_of(kBlock, 20, 2e-5).add_energy(x, gradient)), 1e-28);
+    Points gradient = Points::Zero(kThinBlock.nodes(), 3);
+    const Points x = moved(kThinBlock.rest, some_motion());
+    EXPECT_LT(std::abs(sheet_over(kThinBlock, 20, 2e-5).add_energy(x, gradient)), 1e-28);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(SkinSheet, InternalForcesAddUpToNothing) {
-    const Points x = shaken(kBlock.rest, 1e-3, 5);
-    expect_no_net_force_or_torque(x, gradient_of(sheet_of(kBlock, 20, 2e-5), x));
+    const Points x = shaken(kThinBlock.rest, 1e-3, 5);
+    expect_no_net_force_or_torque(x, gradient_of(sheet_over(kThinBlock, 20, 2e-5), x));
 }
 
 TEST(SkinSheet, TheMetricBoundsTheStiffnessAtRest) {
-    const SkinSheet sheet = sheet_of(kBlock, 20, 2e-5);
-    solve::MetricBuilder builder(kBlock.nodes());
+    const SkinSheet sheet = sheet_over(kThinBlock, 20, 2e-5);
+    solve::MetricBuilder builder(kThinBlock.nodes());
     sheet.add_metric(builder);
     const Eigen::MatrixXd lower = builder.build({});
     const Eigen::MatrixXd metric = lower.selfadjointView<Eigen::Lower>();
-    const Points u = shaken(Points::Zero(kBlock.nodes(), 3), 1e-9, 6);
-    const Points gradient = gradient_of(sheet, kBlock.rest + u);
+    const Points u = shaken(Points::Zero(kThinBlock.nodes(), 3), 1e-9, 6);
+    const Points gradient = gradient_of(sheet, kThinBlock.rest + u);
     const double stored = 0.5 * (u.array() * gradient.array()).sum();
     const double bound = 0.5 * (u.array() * (metric * u).array()).sum();
     EXPECT_GT(stored, 0.05 * bound);
@@ -119,8 +120,8 @@ TEST(SkinSheet, TheMetricBoundsTheStiffnessAtRest) {
 }
 
 TEST(SkinSheet, TwoRunsGiveTheSameBits) {
-    const SkinSheet a = sheet_of(kBlock, 20, 2e-5), b = sheet_of(kBlock, 20, 2e-5);
-    const Points x = shaken(kBlock.rest, 1e-3, 7);
+    const SkinSheet a = sheet_over(kThinBlock, 20, 2e-5), b = sheet_over(kThinBlock, 20, 2e-5);
+    const Points x = shaken(kThinBlock.rest, 1e-3, 7);
     EXPECT_TRUE((gradient_of(a, x).array() == gradient_of(b, x).array()).all());
 }
 

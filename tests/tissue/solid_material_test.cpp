@@ -16,12 +16,6 @@ using namespace testing_of;
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
-    Points force = Points::Zero(x.rows(), 3);
-    term.add_force(0, x, v, force);
-    return force;
-}
-
 GridSolid cube() {
     GridSolid solid;
     solid.grid = {3, 2, 4};

@@ -9,27 +9,19 @@
 #include <limits>
 #include <vector>
 
+#include "force_term_checks.h"
 #include "solve/force_term.h"
 #include "tissue/layered_block.h"
 
 namespace risorius::tissue::laws {
 
+using testing_of::force_of;
+using testing_of::potential_gradient;
+
 inline solve::ImplicitStep no_motion(const Points& x) {
     return {0.0, std::numeric_limits<double>::infinity(), x};
 }
 
-inline Points potential_gradient(const solve::ForceTerm& term, const solve::ImplicitStep& step,
-                                 const Points& x) {
-    Points gradient = Points::Zero(x.rows(), 3);
-    term.add_potential(step, x, gradient);
-    return gradient;
-}
-
-inline Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
-    Points force = Points::Zero(x.rows(), 3);
-    term.add_force(0, x, v, force);
-    return force;
-}
 inline Points force_of(const solve::ForceTerm& term, const Points& x) {
     return force_of(term, x, Points::Zero(x.rows(), 3));
 }

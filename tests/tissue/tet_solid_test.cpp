@@ -10,7 +10,7 @@ namespace risorius::tissue {
 namespace {
 
 // 5 x 4 x 3 nodes: 144 tets; one more block of 3 x 2 x 2 has 12, and a lone tet leaves three lanes of a group empty.
-const LayeredBlock kBlock(5, 4, 3);
+const LayeredBlock kTetBlock(5, 4, 3);
 
 Eigen::VectorXd moduli(int count, double from, double to) {
     return Eigen::VectorXd::LinSpaced(count, from, to);
@@ -30,9 +30,9 @@ TetSolid lone_tet(Points* rest) {
 }
 
 TEST(TetSolid, RestIsFreeOfStress) {
-    const TetSolid solid = tissue_of(kBlock);
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
-    const double energy = solid.add_energy(kBlock.rest, gradient);
+    const TetSolid solid = tissue_of(kTetBlock);
+    Points gradient = Points::Zero(kTetBlock.nodes(), 3);
+    const double energy = solid.add_energy(kTetBlock.rest, gradient);
     // Strains of rounding size, squared: K V eps^2 is about 1e-33 J
     EXPECT_LT(std::abs(energy), 1e-30);
     // K V / edge is about 0.1 N, times 1e-16 of strain
@@ -40,7 +40,7 @@ TEST(TetSolid, RestIsFreeOfStress) {
 }
 
 TEST(TetSolid, ForcesAreTheSlopeOfTheEnergy) {
-    expect_gradient_is_exact(tissue_of(kBlock), shaken(kBlock.rest, 8e-4, 1));
+    expect_gradient_is_exact(tissue_of(kTetBlock), shaken(kTetBlock.rest, 8e-4, 1));
 }
 
 TEST(TetSolid, ALoneTetWorksThoughThreeLanesAreEmpty) {
@@ -69,29 +69,29 @@ TEST(TetSolid, EnergyIsThatOfTheFormulaWrittenOut) {
 }
 
 TEST(TetSolid, RigidMotionCostsNothing) {
-    const TetSolid solid = tissue_of(kBlock);
-    const Points x = moved(kBlock.rest, some_motion());
-    Points gradient = Points::Zero(kBlock.nodes(), 3);
+    const TetSolid solid = tissue_of(kTetBlock);
+    const Points x = moved(kTetBlock.rest, some_motion());
+    Points gradient = Points::Zero(kTetBlock.nodes(), 3);
     EXPECT_LT(std::abs(solid.add_energy(x, gradient)), 1e-28);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(TetSolid, InternalForcesAddUpToNothing) {
-    const Points x = shaken(kBlock.rest, 8e-4, 4);
-    expect_no_net_force_or_torque(x, gradient_of(tissue_of(kBlock), x));
+    const Points x = shaken(kTetBlock.rest, 8e-4, 4);
+    expect_no_net_force_or_torque(x, gradient_of(tissue_of(kTetBlock), x));
 }
 
 TEST(TetSolid, TheMetricIsTheStiffnessUnderSmallShearAndMore) {
-    const TetSolid solid = tissue_of(kBlock);
-    solve::MetricBuilder builder(kBlock.nodes());
+    const TetSolid solid = tissue_of(kTetBlock);
+    solve::MetricBuilder builder(kTetBlock.nodes());
     solid.add_metric(builder);
     const Eigen::MatrixXd lower = builder.build({});
     const Eigen::MatrixXd metric = lower.selfadjointView<Eigen::Lower>();
-    EXPECT_LT((metric * Eigen::VectorXd::Ones(kBlock.nodes())).cwiseAbs().maxCoeff(),
+    EXPECT_LT((metric * Eigen::VectorXd::Ones(kTetBlock.nodes())).cwiseAbs().maxCoeff(),
               1e-10 * metric.cwiseAbs().maxCoeff());
     // Energy of any small displacement, from the gradient: u . dE(rest + u) / 2 <= 1/2 u . A u
-    const Points u = shaken(Points::Zero(kBlock.nodes(), 3), 1e-9, 5);
-    const Points gradient = gradient_of(solid, kBlock.rest + u);
+    const Points u = shaken(Points::Zero(kTetBlock.nodes(), 3), 1e-9, 5);
+    const Points gradient = gradient_of(solid, kTetBlock.rest + u);
     const double stored = 0.5 * (u.array() * gradient.array()).sum();
     const double bound = 0.5 * (u.array() * (metric * u).array()).sum();
     EXPECT_GT(stored, 0.05 * bound);
@@ -125,17 +125,17 @@ TEST(TetSolid, SqueezingThroughItselfIsCountedAsInverted) {
 }
 
 TEST(TetSolid, MassIsDensityTimesVolume) {
-    const TetSolid solid = tissue_of(kBlock);
-    const double volume = solid.volume(kBlock.rest);
+    const TetSolid solid = tissue_of(kTetBlock);
+    const double volume = solid.volume(kTetBlock.rest);
     EXPECT_NEAR(volume, 16e-3 * 12e-3 * 8e-3, 0.05 * volume);
-    EXPECT_NEAR(solid.lumped_mass(1000.0, kBlock.nodes()).sum(), 1000.0 * volume, 1e-15);
+    EXPECT_NEAR(solid.lumped_mass(1000.0, kTetBlock.nodes()).sum(), 1000.0 * volume, 1e-15);
 }
 
 TEST(TetSolid, TwoRunsGiveTheSameBits) {
-    const TetSolid solid = tissue_of(kBlock), other = tissue_of(kBlock);
-    const Points x = shaken(kBlock.rest, 8e-4, 6);
-    Points a = Points::Zero(kBlock.nodes(), 3), b = a;
-    other.add_energy(kBlock.rest, b);  // scratch left over from another state must not matter
+    const TetSolid solid = tissue_of(kTetBlock), other = tissue_of(kTetBlock);
+    const Points x = shaken(kTetBlock.rest, 8e-4, 6);
+    Points a = Points::Zero(kTetBlock.nodes(), 3), b = a;
+    other.add_energy(kTetBlock.rest, b);  // scratch left over from another state must not matter
     b.setZero();
     EXPECT_EQ(solid.add_energy(x, a), other.add_energy(x, b));
     EXPECT_TRUE((a.array() == b.array()).all());

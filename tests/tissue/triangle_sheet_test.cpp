@@ -44,7 +44,7 @@ TriangleSurface tube() {
     const SurfaceGrid grid{4, 6, /*closed=*/true};
     return triangulated(grid_of(grid, tube_rest(grid, 0.3, 1.1), anisotropic()));
 }
-TriangleSurface curved_sheet() {
+TriangleSurface curved_triangles() {
     TriangleSurface surface = flat_sheet();
     for (Eigen::Index i = 0; i < surface.rest.rows(); ++i)
         surface.rest(i, 2) = 0.3 * std::sin(2 * surface.rest(i, 0)) + 0.2 * surface.rest(i, 1);
@@ -115,14 +115,14 @@ TEST_P(AnyTriangleSheet, InternalForcesAddUpToNothing) {
 TEST_P(AnyTriangleSheet, DampingTakesEnergyOut) { expect_damping_dissipates(term, shape); }
 TEST_P(AnyTriangleSheet, SecantIsTheForce) { expect_secant_is_the_force(term, shape); }
 
-std::string name_of_rest(const testing::TestParamInfo<TriangleSurface (*)()>& which) {
+std::string name_of_triangles(const testing::TestParamInfo<TriangleSurface (*)()>& which) {
     static const char* const kNames[] = {"Flat", "Tube", "Curved", "Irregular", "Ball"};
     return kNames[which.index];
 }
 INSTANTIATE_TEST_SUITE_P(Rest, AnyTriangleSheet,
-                         testing::Values(&flat_sheet, &tube, &curved_sheet, &irregular_sheet,
+                         testing::Values(&flat_sheet, &tube, &curved_triangles, &irregular_sheet,
                                          &ball),
-                         name_of_rest);
+                         name_of_triangles);
 
 TEST(TriangleSheet, MetricBoundsTheStiffnessOfAFlatSheet) {
     const TriangleSurface surface = flat_sheet();

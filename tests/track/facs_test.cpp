@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "paths.h"
@@ -11,8 +12,6 @@
 
 namespace risorius::track {
 namespace {
-
-const StandardTables& tables() { return StandardTables::get(); }
 
 Expansion unit(const std::string& name) {
     const UnitUse use =

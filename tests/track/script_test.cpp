@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -14,7 +15,6 @@
 namespace risorius::track {
 namespace {
 
-const StandardTables& tables() { return StandardTables::get(); }
 const std::filesystem::path kRoot = RISORIUS_SOURCE_DIR;
 
 ScriptDescription read(const Json& json) {

@@ -41,4 +41,6 @@ struct StandardTables {
     }
 };
 
+inline const StandardTables& tables() { return StandardTables::get(); }
+
 }  // namespace risorius::track

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "paths.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {
 namespace {
-
-const StandardTables& tables() { return StandardTables::get(); }
 
 ScriptDescription script_of(const std::string& channels, const std::string& events = "[]") {
     Json json = Json::parse(

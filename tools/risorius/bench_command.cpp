@@ -1,5 +1,6 @@
 // risorius bench [--rig RIG]... [--solids] [-o FILE]
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/bench_machine.h"
 #include "app/staged_file.h"
@@ -9,7 +10,7 @@ namespace risorius::cli {
 
 namespace {
 
-struct Arguments {
+struct BenchArguments {
     Common common;
     app::BenchOptions options;
     std::filesystem::path out;
@@ -58,7 +59,7 @@ void print(const Json& report) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchArguments& arguments) {
     Json report;
     app::BenchOptions options = arguments.options;
     options.faces = !arguments.only_solids;
@@ -78,7 +79,7 @@ void run(const Arguments& arguments) {
 
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "How fast this machine is");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<BenchArguments>();
     command->add_option("--rig", arguments->options.rigs, "A rig to measure; the adult when none");
     command
         ->add_flag("--solids", arguments->only_solids,

@@ -1,5 +1,6 @@
 // risorius check FILE...
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/check_files.h"
 #include "commands.h"
@@ -10,13 +11,13 @@ namespace risorius::cli {
 
 namespace {
 
-struct Arguments {
+struct CheckArguments {
     Common common;
     std::vector<std::filesystem::path> files;
 };
 
 // Every file is looked at, so that one call tells all; the messages are those a run would stop with.
-void run(const Arguments& arguments) {
+void run(const CheckArguments& arguments) {
     Json report = Json::array();
     int broken = 0;
     for (const std::filesystem::path& file : arguments.files) {
@@ -41,7 +42,7 @@ void run(const Arguments& arguments) {
 void add_check(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("check", "Validate scripts, rigs, landmarks, experiments and meshes");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<CheckArguments>();
     command->add_option("FILE", arguments->files, "What to check")->required();
     add_common(*command, arguments->common);
     command->footer(

@@ -1,5 +1,6 @@
 // risorius figure ID[,ID..]|all|EXPERIMENT.json -o DIR, risorius figure --list
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/figure_page.h"
 #include "app/run_figure.h"
@@ -10,7 +11,7 @@ namespace risorius::cli {
 
 namespace {
 
-struct Arguments {
+struct FigureArguments {
     Common common;
     app::FigureOptions options;
     bool list = false;
@@ -27,7 +28,7 @@ std::string about(double seconds) {
     return text;
 }
 
-void list(const Arguments& arguments) {
+void list(const FigureArguments& arguments) {
     const auto entries = app::list_figures(arguments.options.from);
     if (arguments.common.json) {
         Json report = Json::array();
@@ -59,7 +60,7 @@ std::string told(const app::FailedCheck& failed) {
            app::short_number(check.measured) + unit;
 }
 
-void run(const Arguments& arguments) {
+void run(const FigureArguments& arguments) {
     if (arguments.list) return list(arguments);
     const app::FigureOptions& options = arguments.options;
     if (options.figure.empty()) throw Error("figure", "an id, all, a file or --list", "none");
@@ -94,7 +95,7 @@ void run(const Arguments& arguments) {
 void add_figure(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "figure", "Run an experiment of samples/figures against what was published");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<FigureArguments>();
     command->add_option("FIGURE", arguments->options.figure,
                         "An id of --list, several (8a,8b), all, or the path of an experiment.json");
     command->add_option(

@@ -1,5 +1,6 @@
 // risorius fit MESH --landmarks FILE -o RIG
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/fit_rig.h"
 #include "commands.h"
@@ -10,7 +11,7 @@ namespace risorius::cli {
 
 namespace {
 
-struct Arguments {
+struct FitArguments {
     Common common;
     app::FitOptions options;
     std::vector<std::string> parts;
@@ -64,7 +65,7 @@ void print(const app::FitReport& report) {
     for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
 }
 
-void run(Arguments& arguments) {
+void run(FitArguments& arguments) {
     for (const std::string& part : arguments.parts) add_part(part, arguments.options.parts);
     if (arguments.tables != "inline" && arguments.tables != "reference")
         throw Error("--tables", "\"inline\" or \"reference\"", "\"" + arguments.tables + "\"");
@@ -85,7 +86,7 @@ void run(Arguments& arguments) {
 
 void add_fit(CLI::App& app) {
     CLI::App* command = app.add_subcommand("fit", "A face mesh with landmarks to a muscle rig");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<FitArguments>();
     app::FitOptions& options = arguments->options;
     command->add_option("MESH", options.mesh, "The face: OBJ, PLY, glTF, FBX, ...")->required();
     command->add_option("--landmarks", options.landmarks, "Where its landmarks are")->required();

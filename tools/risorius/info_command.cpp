@@ -1,5 +1,6 @@
 // risorius info RIG
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "app/rig_info.h"
 #include "commands.h"
@@ -8,12 +9,12 @@ namespace risorius::cli {
 
 namespace {
 
-struct Arguments {
+struct InfoArguments {
     Common common;
     std::filesystem::path rig;
 };
 
-void print(const Json& info) {
+void print_rig(const Json& info) {
     const auto text = [](const Json& value) { return value.get<std::string>(); };
     std::printf("%s: %s, %d vertices, %d faces, %g m per unit, %.3f of the average adult\n",
                 text(info["name"]).c_str(), text(info["mesh"]["file"]).c_str(),
@@ -48,19 +49,19 @@ void print(const Json& info) {
                     channel["min"].get<double>(), channel["max"].get<double>());
 }
 
-void run(const Arguments& arguments) {
+void run(const InfoArguments& arguments) {
     const Json info = app::rig_info(arguments.rig);
     if (arguments.common.json)
         std::printf("%s\n", info.dump(2).c_str());
     else if (!arguments.common.quiet)
-        print(info);
+        print_rig(info);
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Channels, muscles, parts and sizes of a rig");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<InfoArguments>();
     command->add_option("RIG", arguments->rig, "The rig")->required();
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius info rigs/adult/rig.json");

@@ -16,7 +16,7 @@ int say(ExitCode code, const std::string& message) {
     return code;
 }
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+using risorius::quoted;
 
 // Mistakes on the command line in the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {

@@ -1,5 +1,6 @@
 // risorius render SCRIPT -o OUT
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/animate.h"
@@ -18,13 +19,13 @@ app::PictureSize size_from(const std::string& text) {
     return size;
 }
 
-struct Arguments {
+struct RenderArguments {
     Common common;
     app::AnimateOptions options;
     std::string size;
 };
 
-void run(Arguments& arguments) {
+void run(RenderArguments& arguments) {
     const int threads = arguments.options.threads;
     if (threads < 1 || threads > 256)
         throw Error("--threads", "an integer in [1, 256]", std::to_string(threads));
@@ -53,7 +54,7 @@ void run(Arguments& arguments) {
 
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<RenderArguments>();
     app::AnimateOptions& options = arguments->options;
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command->add_option("SCRIPT", options.script, "The script")->required();
@@ -70,6 +71,9 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
+    command->add_option("--show", options.show,
+                        "Another sight of the face: skin, or muscles, which are coloured by their "
+                        "activation under translucent skin");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
     command
         ->add_option("--quality", options.quality,
@@ -77,6 +81,8 @@ void add_render(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
+    command->add_flag("--emg", options.emg,
+                      "Write into the table what surface electrodes would record of every muscle");
     command
         ->add_option(
             "--threads", options.threads,

@@ -1,20 +1,18 @@
-// Numbers of a description that have to lie in a half-open range.
+// Numbers of a description that have to lie in a half-open range, and how many nodes it may have.
 #pragma once
-
-#include <limits>
 
 #include "core/json_cursor.h"
 
 namespace risorius::body::detail {
+
+inline constexpr int kMostNodesPerAxis = 1000;
 
 inline double positive(const JsonCursor& json) {
     if (!json.is_number() || !(json.number() > 0)) json.fail("a number in (0, inf)");
     return json.number();
 }
 
-inline double not_negative(const JsonCursor& json) {
-    return json.number({0, std::numeric_limits<double>::infinity()});
-}
+inline double not_negative(const JsonCursor& json) { return json.number({0, kInfinity}); }
 
 inline double not_negative(const JsonCursor& json, std::string_view key, double otherwise) {
     const auto found = json.find(key);

@@ -9,10 +9,10 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material) {
+std::string fragment_shader(Material material, bool veiled) {
     switch (material) {
         case Material::kSkin:
-            return skin_shader();
+            return veiled ? veil_shader() : skin_shader();
         case Material::kEye:
             return eye_shader();
         case Material::kCornea:
@@ -57,16 +57,22 @@ Mat3 eye_axes(const Eye& eye) {
 
 }  // namespace
 
-Materials::Materials(const Scene& scene, const SceneBuffers& buffers)
+Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const MuscleLayer* muscles)
     : eyes_(scene.eyes), look_(scene.look) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
         if (programs_.contains(batch.material)) continue;
         const std::string name = "material " + std::to_string(static_cast<int>(batch.material));
-        auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(),
-                                                   fragment_shader(batch.material));
+        auto program = std::make_unique<GlProgram>(
+            name, surface_vertex_shader(), fragment_shader(batch.material, muscles != nullptr));
         program->use();
+        if (muscles && batch.material == Material::kSkin) {
+            muscles->tell(*program);
+            const Vec3 tone = linear_from_srgb(look_.skin_tone);
+            glUniform1f(program->location("tone"),
+                        static_cast<float>(tone.dot(Vec3(0.2126, 0.7152, 0.0722))));
+        }
         glUniform1i(program->location("inside_mouth"), inside_mouth(batch.material));
         if (batch.material == Material::kGums) set(program->location("albedo"), kGums);
         if (batch.material == Material::kTongue) set(program->location("albedo"), kTongue);

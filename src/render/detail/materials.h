@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "render/detail/gl_context.h"
+#include "render/detail/muscle_layer.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/scene_buffers.h"
 #include "render/scene.h"
@@ -14,7 +15,8 @@ namespace risorius::render {
 
 class Materials {
   public:
-    Materials(const Scene& scene, const SceneBuffers& buffers);
+    /// With `muscles` the skin is the veil over them.
+    Materials(const Scene& scene, const SceneBuffers& buffers, const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;

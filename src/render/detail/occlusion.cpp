@@ -9,7 +9,7 @@ namespace risorius::render {
 namespace {
 
 constexpr int kSide = 512;
-constexpr int kDirections = 48;
+constexpr int kSkyDirections = 48;
 constexpr double kLift_m = 0.0012;  ///< off the surface, against shadowing itself
 constexpr double kBias_m = 0.0010;
 
@@ -35,9 +35,9 @@ std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>
     program.use();
     std::vector<float> image(static_cast<std::size_t>(kSide) * kSide);
 
-    for (int i = 0; i < kDirections; ++i) {
+    for (int i = 0; i < kSkyDirections; ++i) {
         // Fibonacci sphere
-        const double y = 1 - 2 * (i + 0.5) / kDirections;
+        const double y = 1 - 2 * (i + 0.5) / kSkyDirections;
         const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
         const double level = std::sqrt(1 - y * y);
         const Vec3 towards(level * std::cos(turn), y, level * std::sin(turn));

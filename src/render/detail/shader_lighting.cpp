@@ -131,6 +131,7 @@ void main() { gl_Position = clip_from_world * vec4(in_position, 1.0); }
 
 }  // namespace
 
+std::string frame_chunk() { return kFrame; }
 std::string lighting_chunk() { return std::string(kFrame) + kLights; }
 std::string noise_chunk() { return kNoise; }
 std::string surface_vertex_shader() { return std::string(kFrame) + kSurfaceVertex; }

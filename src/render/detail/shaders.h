@@ -23,7 +23,14 @@ struct FrameUniforms {
 };
 
 /// Texture units and vertex attributes
-enum TextureUnit { kShadowUnit = 0, kPaintUnit = 1, kPoreUnit = 2 };
+enum TextureUnit {
+    kShadowUnit = 0,
+    kPaintUnit = 1,
+    kPoreUnit = 2,
+    kMuscleColourUnit = 3,
+    kMuscleDepthUnit = 4,
+    kFibreUnit = 5
+};
 enum VertexAttribute {
     kPosition = 0,
     kNormal = 1,
@@ -33,9 +40,15 @@ enum VertexAttribute {
         4  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
 };
 
+/// Share of the skin's own light where one looks straight down on a muscle.
+constexpr double kSkinOverMuscles = 0.16;
+
 std::string surface_vertex_shader();  ///< for every material
 std::string depth_vertex_shader();    ///< shadow map and occlusion
 std::string skin_shader();
+std::string veil_shader();  ///< of the skin over the muscles, which shine through
+std::string muscle_vertex_shader();
+std::string muscle_shader();
 std::string eye_shader();
 std::string cornea_shader();
 std::string teeth_shader();
@@ -44,7 +57,8 @@ std::string lash_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
 std::string object_shader();
 
-std::string lighting_chunk();  ///< version, frame block, lights
+std::string frame_chunk();     ///< version, frame block
+std::string lighting_chunk();  ///< these and lights
 std::string noise_chunk();
 
 }  // namespace risorius::render

@@ -1,0 +1,38 @@
+// Butterworth and notch filters as second-order sections, run forwards and backwards so that nothing is delayed.
+//
+//   K   tan(pi f / rate): the bilinear transform, with which a cut-off stays where it was asked for
+//   n   order of one pass; both passes together attenuate like 2 n
+//
+// A cut-off is where the passes together have fallen to 1/sqrt(2), -3 dB; designed for two passes, one alone is at
+// -1.5 dB there.
+// Sources: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing; D. A. Winter, Biomechanics and Motor Control of
+// Human Movement, for the correction of the cut-off; F. Gustafsson 1996, IEEE Trans. Signal Process. 44(4), 988-992, for
+// starting in the steady state.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace risorius::signal {
+
+/// y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y''
+struct Section {
+    double b0 = 1, b1 = 0, b2 = 0, a1 = 0, a2 = 0;
+};
+using Filter = std::vector<Section>;
+
+/// `order` even, 2 or more; 0 < cutoff_hz < rate_hz / 2. `passes` is how often it will be run.
+Filter low_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
+Filter high_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
+/// Takes out hz and, at -3 dB of one pass, half of `width_hz` to either side.
+Filter notch(double hz, double width_hz, double rate_hz);
+
+/// Amplitude of one pass at a frequency.
+double gain(const Filter& filter, double hz, double rate_hz);
+
+/// Forwards, then backwards. Both ends are continued by `padding` samples, turned about the end's value, and each pass
+/// begins in the steady state of its first sample. Needs more samples than `padding`.
+std::vector<double> filter_both_ways(const Filter& filter, const std::vector<double>& samples,
+                                     std::size_t padding);
+
+}  // namespace risorius::signal
