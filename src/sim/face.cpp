@@ -186,8 +186,8 @@ struct Face::Impl {
     }
 
     // Where it is, or where the drive wants it.
-    Rigid mandible(const State& state, const track::Drive& drive) const {
-        return jaw_dynamics ? jaw_joint.pose(state.jaw.q).motion : mandible(drive);
+    Rigid mandible(const JawVector& q, const track::Drive& drive) const {
+        return jaw_dynamics ? jaw_joint.pose(q).motion : mandible(drive);
     }
 
     // One step of the tissue, and of the jaw if muscles move it.
@@ -204,8 +204,8 @@ struct Face::Impl {
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
-        tissue.carry_with_bone(x, mandible(now, now.drive), mandible(now, drive));
-        tissue.prescribe({mandible(now, drive),
+        tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
+        tissue.prescribe({mandible(now.jaw.q, drive),
                           {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                           drive.at(track::Kinematic::kMouthPressure)});
     }
@@ -293,6 +293,10 @@ struct Face::Impl {
         return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
     }
 
+    JawVector jaw_between(double share) const {
+        return (1 - share) * before.jaw.q + share * now.jaw.q;
+    }
+
     void make_surfaces() {
         if (!straps) straps.emplace(head, rig, tissue.muscles(), surfaces);
     }
@@ -300,8 +304,12 @@ struct Face::Impl {
     Points muscle_vertices(double share) {
         make_surfaces();
         const track::Drive drive = drive_between(share);
+        const JawVector q = jaw_between(share);
         Points vertices = surfaces.rest;
-        straps->place((1 - share) * before.x + share * now.x, mandible(drive), vertices);
+        straps->place(
+            (1 - share) * before.x + share * now.x,
+            {mandible(q, drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+            vertices);
         follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
         return vertices;
     }
@@ -316,9 +324,7 @@ struct Face::Impl {
                 (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
         }
         FacePose out;
-        State between;
-        between.jaw.q = (1 - share) * before.jaw.q + share * now.jaw.q;
-        const Rigid moved = mandible(between, drive);
+        const Rigid moved = mandible(jaw_between(share), drive);
         out.jaw = jaw_joint.place(moved);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
                                     : drive.at(track::Kinematic::kJawOpen);
