@@ -76,17 +76,18 @@ void check_beside(const fs::path& out) {
     }
 }
 
-// The jaw follows its channels, whatever the muscles that would move it do.
+// A jaw that follows its channels does so whatever the muscles that would move it do.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
                                         const rig::MuscleTable& muscles) {
     std::vector<std::string> out;
+    if (script.header.jaw == track::JawDrive::kMuscles) return out;
     for (const track::ChannelTrack& channel : script.channels)
         for (const rig::Muscle& muscle : muscles.muscles)
             if (muscle.id == track::split_side(channel.name).id &&
                 (muscle.group == "jaw" || muscle.group == "hyoid"))
                 out.push_back("channel " + channel.name +
-                              ": has no effect in this version, in which jaw_open, jaw_forward and "
-                              "jaw_side move the jaw and its muscles do not");
+                              ": does not move the jaw, which follows jaw_open, jaw_forward and "
+                              "jaw_side unless the script says \"jaw\": \"muscles\"");
     return out;
 }
 
@@ -112,6 +113,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = options.quality;
+    record.jaw = script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
     record.nodes = face.node_count();
     record.tets = face.tet_count();
     record.dropped_tets = face.dropped_tets();
@@ -136,6 +138,7 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     // Build what runs
     watch.tell(0, "building the face");
     sim::Face face(files.rig, files.mesh, quality, files.place());
+    face.drive_jaw_by(script.header.jaw);
     const track::Timeline timeline(script, channels);
     render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
     const bool inside = shot.view.show == render::Show::kMuscles;
@@ -151,7 +154,8 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     FrameTableOptions columns{.landmarks = options.landmarks,
                               .project = [&](const Vec3& world) { return view.project(world); },
                               .emg = {}};
-    track::SimulatedEmg emg(channels, drive);
+    const auto driven = [&](double t_s) { return face.driven(timeline.at(t_s)); };
+    track::SimulatedEmg emg(channels, driven);
     if (options.emg) columns.emg = [&](double t_s) { return emg.at(t_s); };
     FrameTable table(channels, LandmarkPoints(face.head(), files.rig), std::move(columns));
     media::Sha256 hash;
@@ -166,7 +170,9 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
         }
         const sim::FacePose pose = face.pose_at(t_s, drive);
         const Eigen::VectorXd activation = face.activation_at(t_s);
-        table.add(frame, t_s, drive(t_s), activation, pose);
+        table.add(frame, t_s, driven(t_s), activation, pose);
+        record.widest_jaw_mm = std::max(record.widest_jaw_mm, 1e3 * pose.jaw.open_m);
+        record.greatest_bite_n = std::max(record.greatest_bite_n, pose.tooth_force_n);
         most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
         render::Pose seen = pose_for_view(pose);
         if (inside)

@@ -29,6 +29,7 @@ FrameTable::FrameTable(const track::ChannelTable& channels, const LandmarkPoints
         for (const std::string& column : channels.column_names()) text_ += "\temg:" + column;
     for (const track::KinematicChannel& channel : track::kinematic_channels())
         text_ += "\t" + std::string(channel.name);
+    text_ += "\tjaw_turn_deg\tincisor_opening_mm\tcondyle_slide_mm\tincisor_side_mm\ttooth_force_n";
     text_ += "\tlip_aperture_mm\tlip_width_mm\tlid_aperture_l_mm\tlid_aperture_r_mm";
     if (options_.landmarks)
         for (const std::string& id : points_.ids())
@@ -45,6 +46,10 @@ void FrameTable::add(int frame, double time_s, const track::Drive& drive,
     if (options_.emg)
         for (double value : options_.emg(time_s)) text_ += cell(value, 6);
     for (double value : drive.kinematic) text_ += cell(value, 6);
+    constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+    for (double value : {kDegrees * pose.jaw.open_rad, 1e3 * pose.jaw.open_m,
+                         1e3 * pose.jaw.forward_m, 1e3 * pose.jaw.side_m, pose.tooth_force_n})
+        text_ += cell(value, 4);
     for (const auto& [a, b] : {std::pair{"stos", "stoi"}, std::pair{"ch_l", "ch_r"},
                                std::pair{"ps_l", "pi_l"}, std::pair{"ps_r", "pi_r"}})
         text_ += cell(1e3 * points_.distance(a, b, pose.vertices), 4);

@@ -4,6 +4,9 @@
 //   excitation.<column>, activation.<column>    ratio, every column of the rig
 //   emg:<column>                                with emg: what electrodes would record, ratio of the greatest
 //   jaw_open ... tongue_out                     kinematic channels, in the units of their names
+//   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    where the jaw is, whatever moves it: turn about the
+//                     hinge, way of the lower incisors along the opening path, condyles forwards, incisors to the left
+//   tooth_force_n     what all teeth press with when muscles move the jaw, else 0
 //   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
 //   lip_width_mm      corner to corner, ch_l - ch_r
 //   lid_aperture_l_mm, lid_aperture_r_mm        ps - pi

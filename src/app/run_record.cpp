@@ -55,6 +55,9 @@ Json RunRecord::json() const {
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;
+    json["jaw"] = {{"moved_by", jaw},
+                   {"widest_opening_mm", widest_jaw_mm},
+                   {"greatest_tooth_force_n", greatest_bite_n}};
     json["step_s"] = sim::kStep_s;
     json["face"] = {
         {"nodes", nodes}, {"tets", tets}, {"dropped_tets", dropped_tets}, {"fibres", fibres}};

@@ -42,6 +42,9 @@ struct RunRecord {
     double first_frame_s = 0;  ///< 0 but for a still
     std::string camera, show, background;
     std::string quality;
+    std::string jaw;             ///< what moves it
+    double widest_jaw_mm = 0;    ///< at the incisors, of any frame
+    double greatest_bite_n = 0;  ///< of all teeth, when muscles move the jaw
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
     SolverFigures solver;
     std::string frames_sha256;  ///< over the RGBA bytes of all frames, before encoding

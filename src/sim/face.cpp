@@ -189,6 +189,9 @@ struct Face::Impl {
     Rigid mandible(const JawVector& q, const track::Drive& drive) const {
         return jaw_dynamics ? jaw_joint.pose(q).motion : mandible(drive);
     }
+    JawVector jaw_between(double share) const {
+        return (1 - share) * before.jaw.q + share * now.jaw.q;
+    }
 
     // One step of the tissue, and of the jaw if muscles move it.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
@@ -293,10 +296,6 @@ struct Face::Impl {
         return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
     }
 
-    JawVector jaw_between(double share) const {
-        return (1 - share) * before.jaw.q + share * now.jaw.q;
-    }
-
     void make_surfaces() {
         if (!straps) straps.emplace(head, rig, tissue.muscles(), surfaces);
     }
@@ -324,8 +323,10 @@ struct Face::Impl {
                 (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
         }
         FacePose out;
-        const Rigid moved = mandible(jaw_between(share), drive);
+        const JawVector q = jaw_between(share);
+        const Rigid moved = mandible(q, drive);
         out.jaw = jaw_joint.place(moved);
+        if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
                                     : drive.at(track::Kinematic::kJawOpen);
         const auto gaze_of = [&](track::Kinematic channel) {

@@ -44,7 +44,8 @@ struct FacePose {
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
     Rigid head = Rigid::Identity();
     double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
-    JawPlace jaw;         ///< where the jaw is
+    JawPlace jaw;
+    double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
 };
 
 class Face {

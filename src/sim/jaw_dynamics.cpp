@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace risorius::sim {
 
@@ -17,11 +18,14 @@ const Vec3 kHyoid_mm(0, -88, 38);
 constexpr double kHyoidMass_kg = 0.01;
 const Vec3 kHyoidAtFullOpening_mm(0, -10, -14);
 constexpr double kFullTurn_rad = 32 * 3.14159265358979323846 / 180.0;
-constexpr double kTone = 0.02;  // activity of closers in a resting jaw: 1 to 3 % of the greatest
+// Activity of closers in a resting jaw: 1 to 3 % of the greatest
+constexpr double kTone = 0.012;
+constexpr const char* kTonic[] = {"masseter_superficial", "masseter_deep", "temporalis_anterior",
+                                  "temporalis_middle", "pterygoid_medial"};
 constexpr double kSling_n_per_m = 40e3;
 // Of joint, capsule and saliva; the tissue around has its own
 const JawVector kDamping_n_s_per_m = (JawVector() << 4, 10, 10, 20, 5, 5, 5).finished();
-constexpr double kNewtonTolerance_m = 1e-8;
+constexpr double kNewtonTolerance_m = 1e-7;
 constexpr int kHalvings = 30;
 
 }  // namespace
@@ -61,7 +65,7 @@ void JawDynamics::balance_rest() {
     };
     // What the tone pulls beyond the weight presses the teeth together; slides are held by the capsules
     for (const JawMuscle& muscle : muscles_.list())
-        if (muscle.id == "temporalis_anterior" || muscle.id == "masseter_superficial")
+        if (std::find(std::begin(kTonic), std::end(kTonic), muscle.id) != std::end(kTonic))
             tonic_columns_.push_back(muscle.column);
     joint_.close_with(gradient_at_rest()[kOpen]);
     rest_load_ = -gradient_at_rest();
@@ -178,7 +182,7 @@ JawDynamics::Report JawDynamics::minimise(const Step& step, JawVector& q, const 
         }
         ++report.iterations;
         if (!accepted) {  // no lower energy within rounding
-            report.converged = report.last_step_m < 1e2 * kNewtonTolerance_m;
+            report.converged = report.last_step_m < 10 * kNewtonTolerance_m;
             break;
         }
     }

@@ -6,7 +6,7 @@
 //   a_i = p_i(q_n) + h v_i                                      (implicit Euler, as the tissue's: face_tissue.h)
 // by Newton with a positive second derivative and a line search. Tissue, if any, comes in through `JawLoad`.
 //
-// Rest: temporalis and masseter keep a tone (a constant activation of 0.02). It carries the weight and, with what is over,
+// Rest: the closers keep a tone (a constant activation of 0.012). It carries the weight and, with what is over,
 // presses the molars lightly together; what it pulls along the slides, and the passive tension at rest, is taken to be in
 // balance with the capsules. So rest is an exact equilibrium, and a jaw that is let go closes.
 // Hyoid: geniohyoid, mylohyoid and digastric need it held. The infrahyoid muscles, which the muscle table does not have, are a

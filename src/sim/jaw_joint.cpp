@@ -126,12 +126,15 @@ JawPlace JawJoint::place(const Rigid& motion) const {
 
 // A point of the mandible below a surface of the skull: c = up . (moved - rest) - guide(moved - rest).
 JawJoint::Limit JawJoint::tooth(const JawPose& pose, const Vec3& rest, const Vec3& up,
-                                const Vec3& guide_slope, double guide) const {
+                                const Guide& guide) {
     const Vec3 now = pose.motion * rest;
+    Eigen::Matrix<double, 3, kMandibleCoordinates> moves;
+    for (int k = 0; k < kMandibleCoordinates; ++k) moves.col(k) = pose.velocity(k, now);
     Limit limit;
-    limit.depth = up.dot(now - rest) - guide;
-    for (int k = 0; k < kMandibleCoordinates; ++k)
-        limit.slope[k] = (up - guide_slope).dot(pose.velocity(k, now));
+    limit.depth = up.dot(now - rest) - guide.height;
+    limit.slope.head<kMandibleCoordinates>() = moves.transpose() * (up - guide.slope);
+    limit.bend.topLeftCorner<kMandibleCoordinates, kMandibleCoordinates>() =
+        -moves.transpose() * guide.bend * moves;
     return limit;
 }
 
@@ -139,8 +142,10 @@ JawJoint::Limit JawJoint::incisors(const JawPose& pose) const {
     // Forward, the lower incisors ride down the backs of the upper ones
     const double overbite = 1e-3 * size_ * kOverbite_mm, overjet = 1e-3 * size_ * kOverjet_mm;
     const double t = (pose.motion * incisor_ - incisor_).z() / overjet;
-    return tooth(pose, incisor_, Vec3::UnitY(), Vec3(0, 0, -overbite / overjet * blend_slope(t)),
-                 -overbite * blend(t) - bite_block_m_);
+    Guide guide{-overbite * blend(t) - bite_block_m_,
+                Vec3(0, 0, -overbite / overjet * blend_slope(t))};
+    if (t > 0 && t < 0.5) guide.bend(2, 2) = -overbite * (6 - 12 * t) / (overjet * overjet);
+    return tooth(pose, incisor_, Vec3::UnitY(), guide);
 }
 
 JawJoint::Limit JawJoint::molars(const JawPose& pose, int side) const {
@@ -149,8 +154,15 @@ JawJoint::Limit JawJoint::molars(const JawPose& pose, int side) const {
     Vec3 aside = pose.motion * molar_[side] - molar_[side];
     aside.y() = 0;
     const double t = aside.norm() / way;
-    const Vec3 slope = t < 1 ? Vec3(-cusp * 6 * (1 - t) / (way * way) * aside) : Vec3::Zero();
-    return tooth(pose, molar_[side], kOcclusalNormal, slope, -cusp * blend(t));
+    Guide guide{-cusp * blend(t)};
+    if (t < 1) {
+        const double rise = cusp / (way * way);
+        guide.slope = -rise * 6 * (1 - t) * aside;
+        const Vec3 outward = t > 0 ? Vec3(aside.normalized()) : Vec3::Zero();
+        guide.bend = -rise * (6 * (1 - t) * Vec3(1, 0, 1).asDiagonal().toDenseMatrix() -
+                              std::min(6 * t, 6 * (1 - t)) * outward * outward.transpose());
+    }
+    return tooth(pose, molar_[side], kOcclusalNormal, guide);
 }
 
 double JawJoint::add_stops(const JawVector& q, const JawPose& pose, JawVector& gradient,
@@ -160,7 +172,7 @@ double JawJoint::add_stops(const JawVector& q, const JawPose& pose, JawVector& g
         if (limit.depth <= 0) return;
         energy += 0.5 * stiffness * limit.depth * limit.depth;
         gradient += stiffness * limit.depth * limit.slope;
-        hessian += stiffness * limit.slope * limit.slope.transpose();
+        hessian += stiffness * (limit.slope * limit.slope.transpose() + limit.depth * limit.bend);
     };
     const double mm = 1e-3 * size_;
     const double turn = q[kOpen] / lever_m_;

@@ -83,14 +83,20 @@ class JawJoint {
     const Vec3& incisor() const { return incisor_; }
 
   private:
-    struct Limit {  // c and its gradient
+    struct Limit {  // c, its gradient, and the positive part of its second derivative
         double depth = 0;
         JawVector slope = JawVector::Zero();
+        JawMatrix bend = JawMatrix::Zero();
+    };
+    /// A surface of the skull that a tooth rides on: height allowed, and how it changes as the tooth moves.
+    struct Guide {
+        double height = 0;
+        Vec3 slope = Vec3::Zero();
+        Mat3 bend = Mat3::Zero();  ///< second derivative
     };
     Limit incisors(const JawPose& pose) const;
     Limit molars(const JawPose& pose, int side) const;
-    Limit tooth(const JawPose& pose, const Vec3& rest, const Vec3& up, const Vec3& guide_slope,
-                double guide) const;
+    static Limit tooth(const JawPose& pose, const Vec3& rest, const Vec3& up, const Guide& guide);
 
     double size_;
     Vec3 hinge_, incisor_;

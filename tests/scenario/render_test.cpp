@@ -270,7 +270,7 @@ TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
     for (int frame = 1; frame < 9; ++frame) EXPECT_EQ(video.frame(frame).rgba, first.rgba) << frame;
 }
 
-TEST(Render, SaysThatMusclesOfTheJawDoNotMoveIt) {
+TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     const Folder folder;
     Json script = Json::parse(text_of(short_hello(folder, 0.1, 10)));
     script["channels"] = {{"masseter_deep.l", {{"keys", {{0, 0.5}}}}},
@@ -282,8 +282,17 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveIt) {
     const app::RunRecord record = app::animate(options);
     ASSERT_EQ(record.warnings.size(), 1u);
     EXPECT_EQ(record.warnings[0],
-              "channel masseter_deep.l: has no effect in this version, in which jaw_open, "
-              "jaw_forward and jaw_side move the jaw and its muscles do not");
+              "channel masseter_deep.l: does not move the jaw, which follows jaw_open, jaw_forward "
+              "and jaw_side unless the script says \"jaw\": \"muscles\"");
+    EXPECT_EQ(record.jaw, "channels");
+    EXPECT_EQ(record.greatest_bite_n, 0.0);
+
+    script["jaw"] = "muscles";
+    std::ofstream(folder / "jaw.json") << script.dump();
+    const app::RunRecord bitten = app::animate(options);
+    EXPECT_TRUE(bitten.warnings.empty());
+    EXPECT_EQ(bitten.jaw, "muscles");
+    EXPECT_GT(bitten.greatest_bite_n, 20);  // half of one deep masseter, 82 N in the table
 }
 
 TEST(Render, AnInterruptedRunLeavesNothing) {

@@ -44,6 +44,7 @@ TEST(Script, WithOnlyWhatIsNeededGetsTheDefaults) {
     const ScriptDescription script = read(minimal());
     EXPECT_EQ(script.header.fps, 60);
     EXPECT_EQ(script.header.seed, 1);
+    EXPECT_EQ(script.header.jaw, JawDrive::kChannels);
     EXPECT_EQ(script.header.frame_count(), 120);
     EXPECT_EQ(script.header.view.width_px, 1024);
     EXPECT_EQ(script.header.view.camera, "front");
@@ -62,7 +63,7 @@ TEST(Script, NumberOfFramesIsRounded) {
 TEST(Script, ExampleOfTheFormatIsRead) {
     const ScriptDescription script = read(Json::parse(R"({
       "format": "risorius-script", "version": 1, "rig": "../../rigs/adult/rig.json",
-      "fps": 60, "duration_s": 2.0, "seed": 7,
+      "fps": 60, "duration_s": 2.0, "seed": 7, "jaw": "muscles",
       "channels": {
         "zygomaticus_major": {"keys": [[0.0, 0], [0.4, 0.8], [1.2, 0.8], [1.7, 0]], "interpolation": "linear"},
         "frontalis_medial.l": {"keys": [[0.5, 0], [0.6, 1]], "activation": true},
@@ -79,6 +80,7 @@ TEST(Script, ExampleOfTheFormatIsRead) {
     })"));
     EXPECT_EQ(script.header.rig, "../../rigs/adult/rig.json");
     EXPECT_EQ(script.header.seed, 7);
+    EXPECT_EQ(script.header.jaw, JawDrive::kMuscles);
     ASSERT_EQ(script.channels.size(), 7u);
     EXPECT_EQ(script.channels[0].name, "zygomaticus_major");
     EXPECT_EQ(script.channels[0].keys.size(), 4u);
