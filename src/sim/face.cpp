@@ -311,9 +311,12 @@ struct Face::Impl {
     Points muscle_vertices(double share) {
         make_surfaces();
         const track::Drive drive = drive_between(share);
+        const JawVector q = jaw_between(share);
         Points vertices = surfaces.rest;
         const Points x = (1 - share) * before.x + share * now.x;
-        straps->place(x, mandible(jaw_between(share), drive), vertices);
+        straps->place(
+            x, {mandible(q, drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+            vertices);
         tissue.solids().place_surfaces(x, vertices);
         follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
         return vertices;
