@@ -267,6 +267,7 @@ struct Face::Impl {
 
         before = now;
         Points x = now.x;
+        tissue.fibres().begin_step(x, kStep_s);
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
         const Points aim = now.x + kStep_s * velocity;
@@ -277,6 +278,7 @@ struct Face::Impl {
                                                    .step_cap_m = kStepCap_m,
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
                                                   x);
+        tissue.fibres().end_step();
         velocity = (x - now.x) / kStep_s;
         now.x = x;
         now.activation = activation;
@@ -309,9 +311,12 @@ struct Face::Impl {
     Points muscle_vertices(double share) {
         make_surfaces();
         const track::Drive drive = drive_between(share);
+        const JawVector q = jaw_between(share);
         Points vertices = surfaces.rest;
         const Points x = (1 - share) * before.x + share * now.x;
-        straps->place(x, mandible(jaw_between(share), drive), vertices);
+        straps->place(
+            x, {mandible(q, drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+            vertices);
         tissue.solids().place_surfaces(x, vertices);
         follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
         return vertices;
@@ -389,6 +394,8 @@ void Face::start(const DriveAt& drive) {
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;
+        Points x = impl_->now.x;  // a face used before may have left its jaw elsewhere
+        impl_->prescribe(x, activation, first);
         impl_->before = impl_->now;
     } else {
         impl_->settle(activation, first, 400);

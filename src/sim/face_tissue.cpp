@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
+constexpr double kSettling_s = 0.1;  // steps this long seek rest, not motion
+
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -152,7 +154,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     tets_->add_laplacian(builder, rig_.tissue.damping_s / h);
     skin_->add_metric(builder);
     tethers_->add_metric(builder);
-    fibres_->add_metric(builder);
+    fibres_->add_metric(builder, h < kSettling_s ? h : 0);
     solids_->add_metric(builder);
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
         builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);

@@ -62,6 +62,9 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
         bundle.width_m = band.width_m / bands * head.size;
         bundle.origin_on_bone = band.origin_attach == "bone";
         bundle.insertion_on_bone = band.insertion_attach == "bone";
+        const auto muscle =
+            std::find_if(rig.muscles.muscles.begin(), rig.muscles.muscles.end(),
+                         [&](const rig::Muscle& candidate) { return candidate.id == band.muscle; });
         for (int strand = 0; strand < strands; ++strand) {
             const double across =
                 band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
@@ -122,6 +125,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.f0_n = force;
+            fibre.greatest_speed_hz = muscle->greatest_speed_hz;
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);
