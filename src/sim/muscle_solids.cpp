@@ -163,13 +163,16 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                 const Vec3 excess = (s - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
                 const double out = std::max(0.0, excess.maxCoeff());
                 if (out >= least_excess) continue;
+                const std::array<double, 8> w = tissue::trilinear_weights(s);
+                Vec3 found = Vec3::Zero();
+                for (int c = 0; c < 8; ++c) found += w[static_cast<std::size_t>(c)] * corner.col(c);
+                if ((found - p).norm() > kInside_m) continue;
                 least_excess = out;
                 best = {};
                 best.tissue_count = 1;
                 best.tissue[0] = tissue_node;
                 best.tissue_weight[0] = 1;
                 best.solid_count = 8;
-                const std::array<double, 8> w = tissue::trilinear_weights(s);
                 for (int c = 0; c < 8; ++c) {
                     best.solid[c] = part.place.node[static_cast<std::size_t>(
                         cell.vertex[static_cast<std::size_t>(c)])];
@@ -181,6 +184,16 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
         best.stiffness_n_per_m = std::max(attachment.normal_n_per_m, attachment.tangential_n_per_m);
         attachment.normal_n_per_m = attachment.tangential_n_per_m = 0;
         bindings_.push_back(best);
+    }
+
+    for (Binding& binding : bindings_) {
+        binding.apart_at_rest.setZero();
+        for (int k = 0; k < binding.tissue_count; ++k)
+            binding.apart_at_rest +=
+                binding.tissue_weight[k] * mesh.nodes.row(binding.tissue[k]).transpose();
+        for (int k = 0; k < binding.solid_count; ++k)
+            binding.apart_at_rest -=
+                binding.solid_weight[k] * rest_.row(binding.solid[k]).transpose();
     }
 
     std::vector<tissue::Tethers::Tether> supports;
@@ -377,7 +390,7 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
             solid_b_.row(part.place.node[i]) += part.gradient.row(static_cast<long>(i));
     }
     for (const Binding& binding : bindings_) {
-        Vec3 apart = Vec3::Zero();
+        Vec3 apart = -binding.apart_at_rest;
         for (int k = 0; k < binding.tissue_count; ++k)
             apart += binding.tissue_weight[k] * x.row(binding.tissue[k]).transpose();
         for (int k = 0; k < binding.solid_count; ++k) {
