@@ -106,6 +106,13 @@ double normalised_length(const body::MuscleDescription& muscle, double lengtheni
     return (belly_length_m(muscle) + lengthening_m) / muscle.musculotendon.optimal_length_m;
 }
 
+bool is_at_rest(const body::MuscleBody& muscle, const solve::MotionState& state) {
+    constexpr double kShare = 1e-9;
+    Points force;
+    muscle.body.system.force(state.t_s, state.x, Points::Zero(state.x.rows(), 3), force);
+    return force.rowwise().norm().maxCoeff() < kShare * muscle.musculotendon->parameters().f0_n;
+}
+
 Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
                    const std::string& name, const std::string& caption) {
     const tissue::GridShape& grid = muscle.body.grid;

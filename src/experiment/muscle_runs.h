@@ -39,6 +39,10 @@ inline constexpr Range kNormalisedLengths{0.1, 3};  ///< a file may ask for
 double lengthening_m(const body::MuscleDescription& muscle, double normalised_length);
 double normalised_length(const body::MuscleDescription& muscle, double lengthening_m);
 
+/// Whether nothing moves it: no node is out of balance by more than 1e-9 F0. A muscle between slack tendons floats, and no
+/// equation says where.
+bool is_at_rest(const body::MuscleBody& muscle, const solve::MotionState& state);
+
 /// What a muscle looks like: belly, tendons as lines, plates.
 Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
                    const std::string& name, const std::string& caption);

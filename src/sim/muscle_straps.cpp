@@ -92,6 +92,7 @@ MuscleStraps::MuscleStraps(const rig::Head& head, const rig::RigDescription& rig
 
     const track::ChannelTable channels = rig.channels();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
+        if (rig.solid(muscle.id) != nullptr) continue;
         bool has_fibres = false;
         for (const FibreBundle& bundle : placement.bundles) {
             if (bundle.muscle != muscle.id) continue;

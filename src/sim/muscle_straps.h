@@ -16,7 +16,7 @@ namespace risorius::sim {
 
 class MuscleStraps {
   public:
-    /// Adds a surface for every bundle of fibres, and for every muscle without any, to `surfaces`.
+    /// Adds a surface for every bundle of fibres, and for every muscle without any that is no solid, to `surfaces`.
     MuscleStraps(const rig::Head& head, const rig::RigDescription& rig,
                  const MusclePlacement& placement, MuscleSurfaces& surfaces);
 
