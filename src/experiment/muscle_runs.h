@@ -27,6 +27,10 @@ struct MuscleRun {
 std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                                         const std::vector<std::string_view>& more_keys = {});
 
+/// The same of muscles of any shape, held in any way.
+std::vector<MuscleRun> read_runs_of_any_muscle(const JsonCursor& experiment,
+                                               const std::vector<std::string_view>& more_keys = {});
+
 /// Tension is known of moving muscles with elastic tendons. Throws Error.
 void require_elastic_tendons(const MuscleRun& run);
 

@@ -109,6 +109,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     const Eigen::SelfAdjointEigenSolver<JawMatrix> parts(0.5 * (stiffness + stiffness.transpose()));
     stiffness = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() *
                 parts.eigenvectors().transpose();
+    std::erase_if(ride_stiffness_, [&](const auto& known) { return known.first == h; });
     ride_stiffness_.push_back({h, stiffness});
 }
 

@@ -25,7 +25,7 @@ constexpr const char* kTonic[] = {"masseter_superficial", "masseter_deep", "temp
 constexpr double kSling_n_per_m = 40e3;
 // Of joint, capsule and saliva; the tissue around has its own
 const JawVector kDamping_n_s_per_m = (JawVector() << 4, 10, 10, 20, 5, 5, 5).finished();
-constexpr double kNewtonTolerance_m = 1e-7;
+constexpr double kNewtonTolerance_m = 1e-9, kGoodEnough_m = 1e-7;
 constexpr int kHalvings = 30;
 
 }  // namespace
@@ -164,10 +164,7 @@ JawDynamics::Report JawDynamics::minimise(const Step& step, JawVector& q, const 
         const JawVector direction = -hessian.llt().solve(gradient);
         const double slope = gradient.dot(direction);
         report.last_step_m = direction.norm();
-        if (!(report.last_step_m > kNewtonTolerance_m)) {
-            report.converged = true;
-            break;
-        }
+        if (!(report.last_step_m > kNewtonTolerance_m)) break;
         double t = 1.0;
         bool accepted = false;
         for (int halving = 0; halving < kHalvings && !accepted; ++halving, t *= 0.5) {
@@ -181,11 +178,9 @@ JawDynamics::Report JawDynamics::minimise(const Step& step, JawVector& q, const 
             hessian = trial_hessian;
         }
         ++report.iterations;
-        if (!accepted) {  // no lower energy within rounding
-            report.converged = report.last_step_m < 10 * kNewtonTolerance_m;
-            break;
-        }
+        if (!accepted) break;  // no lower energy within rounding
     }
+    report.converged = report.last_step_m < kGoodEnough_m;
     return report;
 }
 
