@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -126,6 +127,43 @@ struct Bench {
                 {"mean_iterations", static_cast<double>(iterations) / steps}};
     }
 
+    // The same track with and without the standard volume muscles, step by step in turn, so that both meet the same machine.
+    Json compare_solids() const {
+        watch.tell(0.25, "volume muscles");
+        rig::RigDescription bundles = files.rig, solids = files.rig;
+        bundles.solids.clear();
+        solids.solids = rig::read_solid_muscles(
+            JsonCursor::read_file(fs::path(RISORIUS_STANDARD_FOLDER) / "muscle_solids.json"),
+            files.rig.muscles);
+        const rig::RigDescription* const rigs[2] = {&bundles, &solids};
+        std::vector<sim::Face> faces;
+        std::array<std::vector<double>, 2> step_ms;
+        std::array<int, 2> iterations{};
+        double volume_error = 0;
+        for (const rig::RigDescription* rig : rigs) {
+            faces.emplace_back(*rig, files.mesh, sim::quality_named("fine"), files.place());
+            faces.back().start(drive());
+        }
+        const int steps = static_cast<int>(kTrack_s / sim::kStep_s);
+        for (int step = 0; step < steps; ++step)
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Stopwatch stopwatch;
+                const sim::StepFigures figures = faces[k].step(drive());
+                step_ms[k].push_back(1e3 * stopwatch.seconds());
+                iterations[k] += figures.iterations;
+                volume_error = std::max(volume_error, figures.muscle_volume_error);
+            }
+        const double without = median(step_ms[0]), with = median(step_ms[1]);
+        return {{"volume_muscles", faces[1].solid_figures().size()},
+                {"nodes", faces[1].node_count()},
+                {"step_ms_without", without},
+                {"step_ms_with", with},
+                {"ratio", with / without},
+                {"mean_iterations_without", static_cast<double>(iterations[0]) / steps},
+                {"mean_iterations_with", static_cast<double>(iterations[1]) / steps},
+                {"largest_volume_error", volume_error}};
+    }
+
     Json draw(int side_px, const rig::Head& head, const std::vector<sim::FacePose>& poses,
               std::vector<Image>* pictures) const {
         const int threads = static_cast<int>(std::thread::hardware_concurrency());
@@ -202,6 +240,7 @@ Json bench_rig(const fs::path& rig_file, const Watch& watch) {
     out["preview"] = bench.simulate("preview", nullptr);
     out["video"] = bench.simulate("video", &poses);
     out["fine"] = bench.simulate("fine", nullptr);
+    out["fine_volume_muscles"] = bench.compare_solids();
     const rig::Head head = rig::place_head(bench.files.rig, bench.files.mesh, bench.files.place());
     out["draw_512"] = bench.draw(512, head, poses, nullptr);
     out["draw_1024"] = bench.draw(1024, head, poses, &pictures);

@@ -31,7 +31,9 @@ std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDe
     for (const rig::MuscleBand& band : rig.atlas.bands)
         if (out.empty() || out.back().muscle != band.muscle)
             out.push_back({.muscle = band.muscle,
-                           .strength = band.strength,
+                           .strength = rig.solid(band.muscle) != nullptr
+                                           ? rig.solid(band.muscle)->strength
+                                           : band.strength,
                            .target_stretch = target_stretch(band.muscle)});
 
     const track::ChannelTable channels = rig.channels();

@@ -27,7 +27,7 @@ struct MuscleStrength {
 
 double target_stretch(const std::string& muscle);
 
-/// Each muscle of the rig's bands alone, one after the other, by the secant method; `face` is left with the strengths
+/// Each muscle of the rig's bands alone, be it a bundle or a solid, one after the other, by the secant method; `face` is left with the strengths
 /// found. Throws Interrupted.
 std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDescription& rig,
                                                const Watch& watch);

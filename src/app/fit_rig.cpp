@@ -152,6 +152,9 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     const fs::path standard =
         options.standard.empty() ? fs::path(RISORIUS_STANDARD_FOLDER) : options.standard;
     rig::RigDescription rig = standard_rig(standard);
+    if (options.solids)
+        rig.solids = rig::read_solid_muscles(JsonCursor::read_file(standard / "muscle_solids.json"),
+                                             rig.muscles);
     rig.name = options.name.empty() ? options.mesh.stem().string() : options.name;
     rig.mesh_file = options.mesh;
     const geom::PolygonMesh mesh = io::read_mesh(options.mesh);
@@ -200,10 +203,14 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     // Make every muscle as strong as it has to be on this head
     if (options.calibrate) {
         report.strengths = calibrate_strength(face, rig, watch);
-        for (const MuscleStrength& found : report.strengths)
+        for (const MuscleStrength& found : report.strengths) {
+            const double strength = std::round(1e4 * found.strength) / 1e4;
+            for (rig::SolidMuscle& solid : rig.solids)
+                if (solid.muscle == found.muscle) solid.strength = strength;
+            if (rig.solid(found.muscle) != nullptr) continue;
             for (rig::MuscleBand& band : rig.atlas.bands)
-                if (band.muscle == found.muscle)
-                    band.strength = std::round(1e4 * found.strength) / 1e4;
+                if (band.muscle == found.muscle) band.strength = strength;
+        }
     }
 
     // Write it and say what came out

@@ -22,6 +22,7 @@ struct FitOptions {
         parts;                  ///< role -> groups; the rest is guessed from their names
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
+    bool solids = false;  ///< the volume muscles of the standard table, rather than bundles alone
 };
 
 struct FitReport {

@@ -18,6 +18,8 @@ SolverFigures solver_figures(const std::vector<sim::StepFigures>& history, int m
         converged += step.converged;
         out.largest_last_step_rms_mm =
             std::max(out.largest_last_step_rms_mm, 1e3 * step.last_step_rms_m);
+        out.largest_muscle_volume_error =
+            std::max(out.largest_muscle_volume_error, step.muscle_volume_error);
         out.deepest_contact_mm = std::max(out.deepest_contact_mm, 1e3 * step.contact_depth_m);
     }
     if (out.steps > 0) {
@@ -67,6 +69,7 @@ Json RunRecord::json() const {
                       {"converged_share", solver.converged_share},
                       {"largest_last_step_rms_mm", solver.largest_last_step_rms_mm},
                       {"deepest_contact_mm", solver.deepest_contact_mm},
+                      {"largest_muscle_volume_error", solver.largest_muscle_volume_error},
                       {"most_inverted_tets", solver.most_inverted_tets}};
     json["frames_sha256"] = frames_sha256;
     json["warnings"] = warnings;

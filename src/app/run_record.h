@@ -19,7 +19,8 @@ struct SolverFigures {
     double converged_share = 0;           ///< of the steps that reached their tolerance, ratio
     double largest_last_step_rms_mm = 0;  ///< movement of the nodes in the last iteration of a step
     double deepest_contact_mm = 0;        ///< penetration left
-    int most_inverted_tets = 0;           ///< in any frame
+    double largest_muscle_volume_error = 0;  ///< of the volume muscles, ratio
+    int most_inverted_tets = 0;              ///< in any frame
 };
 SolverFigures solver_figures(const std::vector<sim::StepFigures>& history, int most_inverted_tets);
 

@@ -10,6 +10,7 @@
 #include "tissue/gravity.h"
 #include "tissue/grid_shape.h"
 #include "tissue/moduli.h"
+#include "tissue/point_springs.h"
 
 namespace risorius::body {
 
@@ -111,8 +112,8 @@ double MuscleDescription::rest_volume_m3() const {
 
 MuscleDescription read_muscle(const JsonCursor& json) {
     json.allow_keys({"discretisation", "grid", "section", "length_m", "width_m", "thickness_m",
-                     "moduli", "musculotendon", "gravity_m_per_s2", "shape", "origin",
-                     "insertion"});
+                     "moduli", "musculotendon", "gravity_m_per_s2", "shape", "origin", "insertion",
+                     "bed_n_per_m"});
     MuscleDescription d;
     d.place = json.place();
     if (const auto v = json.find("discretisation"))
@@ -129,6 +130,7 @@ MuscleDescription read_muscle(const JsonCursor& json) {
     } else {
         read_sizes(json, d);
     }
+    if (const auto v = json.find("bed_n_per_m")) d.bed_n_per_m = not_negative(*v);
     if (const auto v = json.find("origin")) d.origin = read_end(*v, d);
     if (const auto v = json.find("insertion")) d.insertion = read_end(*v, d);
 
@@ -224,6 +226,14 @@ MuscleBody build_muscle(const MuscleDescription& description, MuscleTask task) {
     else
         system.add(std::move(difference_solid));
     system.add(musculotendon);
+    if (d.bed_n_per_m > 0) {
+        std::vector<tissue::PointSpring> springs;
+        for (int i = 0; i < d.grid.size(); ++i) {
+            springs.push_back({.at = solve::NodeBlend(i), .tied_to = rest.row(i).transpose()});
+            springs.back().stiffness_n_per_m = d.bed_n_per_m / d.grid.size();
+        }
+        system.add(std::make_shared<tissue::PointSprings>(std::move(springs)));
+    }
     if (!d.gravity_m_per_s2.isZero())
         system.add(std::make_shared<tissue::Gravity>(mass_kg, d.gravity_m_per_s2));
 

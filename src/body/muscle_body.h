@@ -11,7 +11,7 @@
 // a plate nothing or points of a bone:
 //
 //    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
-//    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free"
+//    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free", "bed_n_per_m": 500
 //
 // Field names are the keys.
 #pragma once
@@ -50,8 +50,10 @@ struct MuscleDescription {
     std::optional<muscle::MuscleShape> shape =
         {};                                 ///< takes the place of the four above; needs cells
     MuscleEnd origin = {}, insertion = {};  ///< a ring has none
-    tissue::CellModuli moduli;              ///< mu > 0; the others >= 0
-    double density_kg_per_m3 = 1060;        ///< (0, inf)
+    /// Tissue around the belly, what holds rings and free ends: springs from every node to where it rests, together.
+    double bed_n_per_m = 0;           ///< [0, inf)
+    tissue::CellModuli moduli;        ///< mu > 0; the others >= 0
+    double density_kg_per_m3 = 1060;  ///< (0, inf)
     muscle::MuscleParameters musculotendon;
     Vec3 gravity_m_per_s2 = Vec3::Zero();
 

@@ -1,5 +1,6 @@
 #include "experiment/line_muscle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

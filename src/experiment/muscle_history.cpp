@@ -38,6 +38,7 @@ struct Shown {
 
 struct HistoryRun {
     MuscleRun muscle;
+    plot::Mark mark = plot::Mark::kLine;
     Drive drive;
     std::function<double(double t_s)> length;
 };
@@ -63,12 +64,15 @@ HistoryPlan read_history(const JsonCursor& experiment) {
                           {"muscle", "runs", "phases", "drive", "length", "release_s", "shows"});
     HistoryPlan plan;
     plan.phases = read_phases(experiment.at("phases"));
-    for (MuscleRun& muscle : read_muscle_runs(experiment, {"drive", "length"})) {
+    for (MuscleRun& muscle : read_muscle_runs(experiment, {"drive", "length", "mark"})) {
         require_elastic_tendons(muscle);
         const JsonCursor& json = muscle.json;
         Drive drive = read_drive(own_or_common(json, experiment, "drive"), plan.end_s());
         auto length = read_course(own_or_common(json, experiment, "length"), kNormalisedLengths);
-        plan.runs.push_back({std::move(muscle), std::move(drive), std::move(length)});
+        const bool dashed =
+            json.has("mark") && json.at("mark").one_of({"line", "dashed"}) == "dashed";
+        plan.runs.push_back({std::move(muscle), dashed ? plot::Mark::kDashed : plot::Mark::kLine,
+                             std::move(drive), std::move(length)});
     }
     if (const auto v = experiment.find("release_s")) plan.release_s = v->number({0, plan.end_s()});
     for (const JsonCursor& json : experiment.at("shows").items()) {
@@ -180,7 +184,7 @@ plot::Chart chart_of(const Shown& shown, const HistoryPlan& plan,
                       .x = {.label = "time (s)", .range = {{shown.from_s, shown.to_s}}},
                       .y = {.label = shown.quantity->label}};
     for (std::size_t r = 0; r < motions.size(); ++r) {
-        plot::Series series{.label = plan.runs[r].muscle.label};
+        plot::Series series{.label = plan.runs[r].muscle.label, .mark = plan.runs[r].mark};
         for (const MuscleSample& sample : motions[r].samples) {
             if (sample.t_s < shown.from_s || sample.t_s > shown.to_s) continue;
             series.x.push_back(sample.t_s);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "experiment/muscle_runs.h"
 #include "solve/newton.h"
 
 namespace risorius::experiment {
@@ -54,7 +55,8 @@ MuscleMotion move_muscle(const body::MuscleDescription& description, const Motio
                                  .step_s = 1,
                                  .length_scale_m = muscle.body.length_scale_m};
     solve::MotionState state = muscle.body.start();
-    motion.converged = solve::equilibrium(muscle.body.system, state, how).converged;
+    motion.converged =
+        is_at_rest(muscle, state) || solve::equilibrium(muscle.body.system, state, how).converged;
     motion.samples.push_back(sample(state));
 
     how.method = solve::Method::kImplicitEuler;

@@ -58,8 +58,8 @@ double middle_area(const tissue::GridShape& grid, const Points& x) {
 
 }  // namespace
 
-std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
-                                        const std::vector<std::string_view>& more_keys) {
+std::vector<MuscleRun> read_runs_of_any_muscle(const JsonCursor& experiment,
+                                               const std::vector<std::string_view>& more_keys) {
     std::vector<std::string_view> keys{"name", "label", "change"};
     keys.insert(keys.end(), more_keys.begin(), more_keys.end());
     std::vector<MuscleRun> runs;
@@ -73,16 +73,23 @@ std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                       .label = json.at("label").string(),
                       .muscle = changed_muscle(experiment.at("muscle"), json.find("change"), name),
                       .json = json};
-        const auto is_held = [](const body::MuscleEnd& end) {
-            return end.hold == body::MuscleEnd::Hold::kPlate;
-        };
-        if (!(belly_length_m(run.muscle) > 0) || !is_held(run.muscle.origin) ||
-            !is_held(run.muscle.insertion))
-            throw Error(run.muscle.place, "a straight belly between two plates", "another");
         body::build_muscle(run.muscle, {[](double) { return 0.0; }});
         runs.push_back(std::move(run));
     }
     if (runs.empty()) experiment.at("runs").fail("at least one run");
+    return runs;
+}
+
+std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
+                                        const std::vector<std::string_view>& more_keys) {
+    std::vector<MuscleRun> runs = read_runs_of_any_muscle(experiment, more_keys);
+    const auto is_held = [](const body::MuscleEnd& end) {
+        return end.hold == body::MuscleEnd::Hold::kPlate;
+    };
+    for (const MuscleRun& run : runs)
+        if (!(belly_length_m(run.muscle) > 0) || !is_held(run.muscle.origin) ||
+            !is_held(run.muscle.insertion))
+            throw Error(run.muscle.place, "a straight belly between two plates", "another");
     return runs;
 }
 
@@ -106,6 +113,13 @@ double normalised_length(const body::MuscleDescription& muscle, double lengtheni
     return (belly_length_m(muscle) + lengthening_m) / muscle.musculotendon.optimal_length_m;
 }
 
+bool is_at_rest(const body::MuscleBody& muscle, const solve::MotionState& state) {
+    constexpr double kShare = 1e-9;
+    Points force;
+    muscle.body.system.force(state.t_s, state.x, Points::Zero(state.x.rows(), 3), force);
+    return force.rowwise().norm().maxCoeff() < kShare * muscle.musculotendon->parameters().f0_n;
+}
+
 Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
                    const std::string& name, const std::string& caption) {
     const tissue::GridShape& grid = muscle.body.grid;
@@ -117,6 +131,7 @@ Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
                 .wires = muscle.body.wires,
                 .fixed = {}};
     for (const muscle::End end : {muscle::End::kOrigin, muscle::End::kInsertion}) {
+        if (!muscle.musculotendon->anchored(end)) continue;
         const Points plate = muscle.musculotendon->anchor_points(end, t_s);
         const auto first = static_cast<int>(shape.positions.rows());
         shape.positions.conservativeResize(first + chains, 3);

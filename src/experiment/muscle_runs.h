@@ -27,6 +27,10 @@ struct MuscleRun {
 std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                                         const std::vector<std::string_view>& more_keys = {});
 
+/// The same of muscles of any shape, held in any way.
+std::vector<MuscleRun> read_runs_of_any_muscle(const JsonCursor& experiment,
+                                               const std::vector<std::string_view>& more_keys = {});
+
 /// Tension is known of moving muscles with elastic tendons. Throws Error.
 void require_elastic_tendons(const MuscleRun& run);
 
@@ -38,6 +42,10 @@ inline constexpr Range kNormalisedLengths{0.1, 3};  ///< a file may ask for
 /// How far the plates of a muscle at rest have to be moved apart for a normalised length, m; and back.
 double lengthening_m(const body::MuscleDescription& muscle, double normalised_length);
 double normalised_length(const body::MuscleDescription& muscle, double lengthening_m);
+
+/// Whether nothing moves it: no node is out of balance by more than 1e-9 F0. A muscle between slack tendons floats, and no
+/// equation says where.
+bool is_at_rest(const body::MuscleBody& muscle, const solve::MotionState& state);
 
 /// What a muscle looks like: belly, tendons as lines, plates.
 Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,

@@ -11,6 +11,7 @@
 #include "experiment/hanging_curve.h"
 #include "experiment/implicit_steps.h"
 #include "experiment/muscle_history.h"
+#include "experiment/muscle_shapes.h"
 #include "experiment/muscle_stability.h"
 #include "experiment/muscle_statics.h"
 #include "experiment/muscle_velocity.h"
@@ -37,6 +38,7 @@ const std::vector<NamedKind>& kind_table() {
         {"muscle-history", run_muscle_history},
         {"muscle-velocity", run_muscle_velocity},
         {"muscle-curves", run_muscle_curves},
+        {"muscle-shapes", run_muscle_shapes},
         {"implicit-steps", run_implicit_steps},
         {"contact", run_contact_scenes},
         {"hanging-curve", run_hanging_curve},
@@ -76,6 +78,8 @@ const std::vector<Figure>& figures() {
         {"isotonic", "Isotonic contraction: lifting weights", "muscle-velocity", 2,
          Origin::kBeyond},
         {"twitch", "Twitch, and twitches that fuse to a tetanus", "muscle-history", 3,
+         Origin::kBeyond},
+        {"muscles", "Muscles of every shape, at rest and contracted", "muscle-shapes", 3,
          Origin::kBeyond},
         {"pennation", "What the angle of the fibres does", "muscle-statics", 3, Origin::kBeyond},
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30,

@@ -31,13 +31,6 @@ StillMuscle::StillMuscle(const body::MuscleDescription& description, double acti
       state_(muscle_.body.start()),
       rest_volume_(muscle_.body.volume(muscle_.body.rest)) {}
 
-bool StillMuscle::is_at_rest() const {
-    constexpr double kShare = 1e-9;
-    Points force;
-    muscle_.body.system.force(0, state_.x, Points::Zero(state_.x.rows(), 3), force);
-    return force.rowwise().norm().maxCoeff() < kShare * description_.musculotendon.f0_n;
-}
-
 bool StillMuscle::settle() {
     const solve::IntegratorReport report =
         solve::equilibrium(muscle_.body.system, state_,
@@ -50,7 +43,7 @@ bool StillMuscle::settle() {
 Still StillMuscle::at(double length) {
     *plate_m_ = lengthening_m(description_, length);
     Still still;
-    still.converged = is_at_rest() || settle();
+    still.converged = is_at_rest(muscle_, state_) || settle();
     still.tension_f0 = muscle_.tension(0, state_.x);
     still.stretch = muscle_.musculotendon->stretch(state_.x).mean();
     still.spread = muscle_.musculotendon->segment_spread(state_.x);

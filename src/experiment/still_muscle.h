@@ -31,8 +31,6 @@ class StillMuscle {
     Shape shape(const std::string& name, const std::string& caption) const;
 
   private:
-    /// A muscle between slack tendons floats: no equation says where.
-    bool is_at_rest() const;
     bool settle();
 
     body::MuscleDescription description_;

@@ -1,17 +1,21 @@
-// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or
-// ride on a bone.
+// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
 //
-//   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0
-//   greatest force, N E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]        tension T = F0 [
-//   a fl(lam) + fp(lam) ]
+//   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   greatest force, N
+//   at rest     E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
+//   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
+//               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths a second
 //
-// fl and fp are the active and passive curves of muscle/hill_shape.h, Ifl and Ifp their integrals.
+// fl and fp are the active and passive curves of muscle/hill_shape.h, fv Hill's as in muscle/muscle_curves.h, Ifl, Ifp and
+// Ifv their integrals. A step's E is convex in l, and what comes to rest in steps (l = l_n, fv = 1) is at rest. fl is that
+// of each segment, not of the whole fibre: segments on the falling limb, which would run apart in series, are held by the
+// tissue they lie in.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "core/types.h"
+#include "muscle/curve.h"
 #include "muscle/hill_shape.h"
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
@@ -28,10 +32,11 @@ struct FibrePoint {
 
 struct Fibre {
     int first_point = 0;
-    int point_count = 0;      ///< consecutive points, 2 or more
-    int column = 0;           ///< of the activation vector
-    double f0_n = 0;          ///< F0                                       [0, inf)
-    double rest_stretch = 1;  ///< lam at rest: l0 = rest length / this     (0, inf)
+    int point_count = 0;            ///< consecutive points, 2 or more
+    int column = 0;                 ///< of the activation vector
+    double f0_n = 0;                ///< F0                                       [0, inf)
+    double rest_stretch = 1;        ///< lam at rest: l0 = rest length / this     (0, inf)
+    double greatest_speed_hz = 10;  ///< vmax                               (0, inf)
 };
 
 /// One object serves one thread at a time: it keeps scratch arrays.
@@ -50,6 +55,11 @@ class FibreSet {
     /// FibrePoint::body.
     void set_body_positions(std::span<const Rigid> bodies);
 
+    /// From here on E is that of a step of length h from x, bodies where they are now; until end_step().
+    void begin_step(const Points& x, double h);
+    /// From here on E is that at rest.
+    void end_step() { step_s_ = 0; }
+
     /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by
     /// Fibre::column.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
@@ -60,8 +70,9 @@ class FibreSet {
         return {force[0], force[1], force[2]};
     }
 
-    /// F0/(2 l0) per segment on the difference of its ends.
-    void add_metric(solve::MetricBuilder& builder) const;
+    /// F0/(2 l0) per segment on the difference of its ends; in a step of length h, a tenth of F0 fv'(0) / (l0 vmax h)
+    /// more.
+    void add_metric(solve::MetricBuilder& builder, double h = 0) const;
 
     /// lam of each fibre: its length over the sum of its optimal lengths.
     Eigen::VectorXd mean_stretch(const Points& x) const;
@@ -72,11 +83,17 @@ class FibreSet {
   private:
     void place_points(const Points& x) const;
     double length(int segment) const;
+    /// Per unit of activation and F0; the integral per unit of l0 too.
+    LengthCurves::Value active(const Fibre& fibre, int segment, double l) const;
 
     std::vector<FibrePoint> points_;
     std::vector<Fibre> fibres_;
     LengthCurves curves_;
+    Curve velocity_;
     std::vector<double> optimal_length_m_;          ///< l0 of the segment that begins at a point
+    double step_s_ = 0;                             ///< h, 0 at rest
+    std::vector<double> start_length_m_;            ///< l_n, likewise
+    std::vector<double> start_force_;               ///< fl(lam_n), likewise
     Points body_position_;                          ///< P x 3, of points that ride on bodies
     mutable solve::PaddedPoints x_, gradient_;      ///< nodes
     mutable solve::PaddedPoints position_, force_;  ///< points

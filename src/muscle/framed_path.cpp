@@ -84,9 +84,11 @@ FramedPath::FramedPath(const Points& through, const Points& outward, bool closed
 
     if (outward.rows() == 0) {
         const Vec3 t = frame_of_sample(0, 0).along;
-        Vec3 start = closed ? plane_normal(through) : Vec3::UnitZ();
-        if (!(perpendicular(start, t).norm() > 0.1 * start.norm())) start = Vec3::UnitX();
-        if (!(perpendicular(start, t).norm() > 0.1)) start = Vec3::UnitY();
+        const Vec3 plane = closed ? plane_normal(through) : Vec3::Zero();
+        Vec3 start = plane.norm() > 0 ? Vec3(plane.normalized()) : Vec3::UnitZ();
+        constexpr double kLeastSine = 0.1;
+        for (const Vec3& other : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+            if (perpendicular(start, t).norm() < kLeastSine) start = other;
         carry_outward(perpendicular(start, t).normalized());
         return;
     }

@@ -89,6 +89,10 @@ struct OffscreenView::Impl {
           context(options.threads) {
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
+        if (options.show == Show::kMuscles)
+            muscles = std::make_unique<MuscleLayer>(
+                scene, camera, options.height_px * options.supersampling,
+                picture.tile_width_samples(), picture.tile_height_samples());
         buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre);
 
         // Baked once: how much sky the skin sees, and its paint
@@ -102,10 +106,6 @@ struct OffscreenView::Impl {
                                buffers->paintable_triangles(inside));
         pore_map = make_pores(scene.look.seed);
 
-        if (options.show == Show::kMuscles)
-            muscles = std::make_unique<MuscleLayer>(
-                scene, camera, options.height_px * options.supersampling,
-                picture.tile_width_samples(), picture.tile_height_samples());
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
         lights = std::make_unique<Lights>(camera, centre);

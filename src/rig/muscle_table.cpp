@@ -67,6 +67,25 @@ MusclePath read_path(const JsonCursor& json) {
     return path;
 }
 
+// Bundles of mimetic muscles need none of this; what moves the jaw does.
+void read_line(const JsonCursor& item, Muscle& muscle) {
+    const bool moves_bone = muscle.group == "jaw" || muscle.group == "hyoid";
+    const auto take = [&](std::string_view key, double unit, Range range, double& value) {
+        if (moves_bone || item.has(key)) value = unit * item.at(key).number(range);
+    };
+    take("width_mm", 1e-3, {0.5, 200}, muscle.width_m);
+    take("thickness_mm", 1e-3, {0.1, 50}, muscle.thickness_m);
+    take("l0_mm", 1e-3, {0.5, 500}, muscle.optimal_length_m);
+    take("tendon_slack_mm", 1e-3, {0, 500}, muscle.tendon_slack_m);
+    take("pennation_deg", 1, {0, 89}, muscle.pennation_deg);
+    take("vmax_l0_per_s", 1, {0.1, 100}, muscle.greatest_speed_hz);
+    take("rest_norm_fibre_length", 1, {0.3, 2}, muscle.rest_stretch);
+    take("max_shortening_frac", 1, {0, 0.9}, muscle.greatest_shortening);
+    if (!moves_bone && !item.has("paths")) return;
+    for (const JsonCursor& path : item.at("paths").items()) muscle.paths.push_back(read_path(path));
+    if (moves_bone && muscle.paths.empty()) item.at("paths").fail("at least one path");
+}
+
 }  // namespace
 
 MusclePath mirrored(const MusclePath& path) {
@@ -122,16 +141,7 @@ MuscleTable read_muscle_table(JsonCursor json) {
         muscle.activation_s = 1e-3 * item.at("t_act_ms").number({1, 1000});
         muscle.deactivation_s = 1e-3 * item.at("t_deact_ms").number({1, 1000});
         muscle.force_n = item.at("F0_N").number({0, 1e4});
-        muscle.width_m = 1e-3 * item.at("width_mm").number({0.5, 200});
-        muscle.thickness_m = 1e-3 * item.at("thickness_mm").number({0.1, 50});
-        muscle.optimal_length_m = 1e-3 * item.at("l0_mm").number({0.5, 500});
-        muscle.tendon_slack_m = 1e-3 * item.at("tendon_slack_mm").number({0, 500});
-        muscle.pennation_deg = item.at("pennation_deg").number({0, 89});
-        muscle.greatest_speed_hz = item.at("vmax_l0_per_s").number({0.1, 100});
-        muscle.rest_stretch = item.at("rest_norm_fibre_length").number({0.3, 2});
-        muscle.greatest_shortening = item.at("max_shortening_frac").number({0, 0.9});
-        for (const JsonCursor& path : item.at("paths").items())
-            muscle.paths.push_back(read_path(path));
+        read_line(item, muscle);
         if (const auto tonic = item.find("tonic_rest_activation"))
             muscle.tonic = tonic->number({0, 1}) > 0;
         table.muscles.push_back(muscle);

@@ -39,6 +39,7 @@ struct Muscle {
     double force_n = 1.0;  ///< isometric, per side
     bool tonic = false;    ///< has resting drive that can be taken away: excitation down to -1
 
+    // Of muscles of jaw and hyoid, and of others where the table says; 0 or empty: not said
     double width_m = 0, thickness_m = 0;  ///< of the belly
     double optimal_length_m = 0;          ///< of its fibres
     double tendon_slack_m = 0;            ///< both tendons together

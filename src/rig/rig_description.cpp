@@ -131,6 +131,12 @@ constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json"
 
 }  // namespace
 
+const SolidMuscle* RigDescription::solid(const std::string& muscle) const {
+    for (const SolidMuscle& entry : solids)
+        if (entry.muscle == muscle) return &entry;
+    return nullptr;
+}
+
 const std::vector<std::string_view>& part_roles() {
     static const std::vector<std::string_view> kRoles{
         "skin",     "mouth",      "eye_socket", "eye_l",       "eye_r",
@@ -192,12 +198,14 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
-                        "strength", "jaw", "eyes", "activation"});
+                        "strength", "solids", "jaw", "eyes", "activation"});
     rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
     rig.atlas.bands = read_muscle_bands(table(anatomy.at("muscle_bands")));
     rig.muscles = read_muscle_table(table(anatomy.at("muscles")));
+    if (const auto solids = anatomy.find("solids"))
+        rig.solids = read_solid_muscles(table(*solids), rig.muscles);
     if (const auto strength = anatomy.find("strength"))
         for (const std::string& muscle : strength->keys()) {
             bool known = false;
@@ -270,6 +278,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     Json strength = Json::object();
     for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
     anatomy["strength"] = strength;
+    if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids);
     anatomy["jaw"] = fields_of(rig.jaw);
     anatomy["eyes"] = fields_of(rig.eyes);
     if (rig.activation.law != ActivationDescription().law)

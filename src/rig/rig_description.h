@@ -13,6 +13,7 @@
 #include "geom/polygon_mesh.h"
 #include "rig/atlas.h"
 #include "rig/muscle_table.h"
+#include "rig/solid_muscles.h"
 #include "track/channels.h"
 #include "track/facs.h"
 
@@ -97,6 +98,7 @@ struct RigDescription {
     std::map<std::string, Landmark> landmarks;
     Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
+    std::vector<SolidMuscle> solids;  ///< muscles that are not bundles of fibres
     JawDescription jaw;
     EyesDescription eyes;
     ActivationDescription activation;
@@ -107,6 +109,7 @@ struct RigDescription {
     LookDescription look;
     std::vector<std::filesystem::path> table_files;  ///< read because the rig file names them
 
+    const SolidMuscle* solid(const std::string& muscle) const;  ///< null for a bundle
     track::ChannelTable channels() const { return muscles.channels(); }
 };
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "muscle/activation.h"
 #include "sim/face_tissue.h"
@@ -119,11 +120,11 @@ struct Face::Impl {
                                               ? muscle::ActivationLaw::Form::kSmooth
                                               : muscle::ActivationLaw::Form::kThelen2003,
                                   .steepness = rig.activation.steepness});
-        now.x = mesh.nodes;
+        now.x = tissue.rest();
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
         before = now;
-        velocity = Points::Zero(mesh.nodes.rows(), 3);
+        velocity = Points::Zero(now.x.rows(), 3);
     }
 
     LidPose lid_pose(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const {
@@ -165,7 +166,9 @@ struct Face::Impl {
             jaw_dynamics.reset();
             jaw_synergies.reset();
         } else if (!jaw_dynamics) {
-            jaw_dynamics.emplace(head, rig);
+            std::set<std::string> solids;  // they pull for themselves
+            for (const rig::SolidMuscle& solid : rig.solids) solids.insert(solid.muscle);
+            jaw_dynamics.emplace(head, rig, solids);
             for (const double h : {kStep_s, kStaticStep_s}) tissue.prepare(h, *jaw_dynamics);
             const auto reach = [&](double open, double forward, double side) {
                 return jaw_joint.place(jaw.motion(open, forward, side));
@@ -231,6 +234,7 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
             figures.last_step_rms_m = moved;
@@ -263,6 +267,7 @@ struct Face::Impl {
 
         before = now;
         Points x = now.x;
+        tissue.fibres().begin_step(x, kStep_s);
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
         const Points aim = now.x + kStep_s * velocity;
@@ -273,6 +278,7 @@ struct Face::Impl {
                                                    .step_cap_m = kStepCap_m,
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
                                                   x);
+        tissue.fibres().end_step();
         velocity = (x - now.x) / kStep_s;
         now.x = x;
         now.activation = activation;
@@ -297,15 +303,21 @@ struct Face::Impl {
     }
 
     void make_surfaces() {
-        if (!straps) straps.emplace(head, rig, tissue.muscles(), surfaces);
+        if (straps) return;
+        straps.emplace(head, rig, tissue.muscles(), surfaces);
+        tissue.solids().add_surfaces(surfaces);
     }
 
     Points muscle_vertices(double share) {
         make_surfaces();
         const track::Drive drive = drive_between(share);
+        const JawVector q = jaw_between(share);
         Points vertices = surfaces.rest;
-        straps->place((1 - share) * before.x + share * now.x, mandible(jaw_between(share), drive),
-                      vertices);
+        const Points x = (1 - share) * before.x + share * now.x;
+        straps->place(
+            x, {mandible(q, drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+            vertices);
+        tissue.solids().place_surfaces(x, vertices);
         follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
         return vertices;
     }
@@ -375,13 +387,15 @@ void Face::start(const DriveAt& drive) {
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
                          first.at(track::Kinematic::kMouthPressure) == 0.0;
-    impl_->now.x = impl_->mesh.nodes;
+    impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};
     impl_->velocity.setZero();
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;
+        Points x = impl_->now.x;  // a face used before may have left its jaw elsewhere
+        impl_->prescribe(x, activation, first);
         impl_->before = impl_->now;
     } else {
         impl_->settle(activation, first, 400);
@@ -427,6 +441,7 @@ const rig::Head& Face::head() const { return impl_->head; }
 const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
+    impl_->tissue.solids().scale_strength(muscle, factor);
     for (Side side : {Side::kLeft, Side::kRight}) {
         const int column = impl_->channels.column(muscle, side);
         if (side == Side::kRight && column == impl_->channels.column(muscle, Side::kLeft)) continue;
@@ -437,7 +452,13 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
     }
 }
 
+std::vector<SolidFigures> Face::solid_figures() const {
+    return impl_->tissue.solids().figures(impl_->now.x, impl_->now.activation);
+}
+
 double Face::mean_stretch(const std::string& muscle) const {
+    if (impl_->tissue.solids().is_solid(muscle))
+        return impl_->tissue.solids().mean_stretch(muscle, impl_->now.x, impl_->now.activation);
     const Eigen::VectorXd stretch = impl_->tissue.fibres().mean_stretch(impl_->now.x);
     double sum = 0;
     int count = 0;
@@ -475,7 +496,7 @@ double Face::tissue_volume_m3() const {
 }
 double Face::kinetic_energy_j() const {
     double sum = 0;
-    for (int i = 0; i < impl_->tissue.nodes(); ++i)
+    for (long i = 0; i < impl_->velocity.rows(); ++i)
         sum += 0.5 * impl_->tissue.mass()[i] * impl_->velocity.row(i).squaredNorm();
     return sum;
 }

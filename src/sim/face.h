@@ -98,6 +98,9 @@ class Face {
     /// Mean length of a muscle's fibres over their rest length, now.
     double mean_stretch(const std::string& muscle) const;
 
+    /// The volume muscles after the last step.
+    std::vector<SolidFigures> solid_figures() const;
+
     /// Skin nodes, for tests and evaluation: current N x 3 and rest.
     Points skin_nodes() const;
     Points rest_skin_nodes() const;

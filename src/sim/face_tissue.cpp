@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
+constexpr double kSettling_s = 0.1;  // steps this long seek rest, not motion
+
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -26,7 +28,12 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
       lips_(lip_line(head)),
       attachments_(place_attachments(head, rig, jaw, shell, mesh)),
       search_(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m) {
-    fixed_.assign(static_cast<std::size_t>(nodes()), 0);
+    solids_.emplace(head, rig, jaw, shell, mesh, attachments_);
+    rest_.resize(nodes() + solids_->nodes(), 3);
+    rest_ << mesh_.nodes, solids_->rest();
+    fixed_.assign(static_cast<std::size_t>(rest_.rows()), 0);
+    for (int i = 0; i < solids_->nodes(); ++i)
+        fixed_[static_cast<std::size_t>(nodes() + i)] = solids_->on_bone(i) ? 1 : 0;
     for (std::size_t v = 0; v < shell_.vertex.size(); ++v)
         if (shell_.fixed[v])
             for (Layer layer : {kDeep, kMiddle, kSkin})
@@ -40,8 +47,9 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
     find_cheeks();
-    mass_ = tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes());
-    solve::MetricBuilder laplacian(nodes());
+    mass_.resize(rest_.rows());
+    mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
+    solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
     tets_->add_laplacian(laplacian, 1.0);
     damping_ = laplacian.build({}).selfadjointView<Eigen::Lower>();
 }
@@ -146,11 +154,13 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     tets_->add_laplacian(builder, rig_.tissue.damping_s / h);
     skin_->add_metric(builder);
     tethers_->add_metric(builder);
-    fibres_->add_metric(builder);
+    fibres_->add_metric(builder, h < kSettling_s ? h : 0);
+    solids_->add_metric(builder);
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
         builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
-    metrics_.push_back({h, solve::SparseCholesky(builder.build(fixed_))});
+    metrics_.push_back(
+        {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}))});
     return metrics_.back().factor;
 }
 
@@ -174,6 +184,7 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
+    solids_->set_bodies(bodies);
     const double pressure = prescribed.mouth_pressure_pa;
     std::vector<tissue::DeadLoads::Load> loads;
     if (pressure != 0)
@@ -182,6 +193,7 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
 }
 
 void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
+    solids_->carry(x, from, to);
     if (from.isApprox(to, 0.0)) return;
     for (const Attachment& at : attachments_)
         for (Layer layer : {kDeep, kMiddle, kSkin}) {
@@ -205,6 +217,8 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     energy += skin_->add_energy(x, gradient);
     energy += tethers_->add_energy(x, gradient);
     energy += fibres_->add_energy(x, activation, gradient);
+    solids_pull_ = {};
+    energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
     energy += contacts_.add_energy(x, gradient);
     energy += air_.add_energy(x, gradient);
     return energy;
@@ -219,12 +233,12 @@ double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
     gradient = viscous * damped_;
     double value = 0.5 * viscous * work_.cwiseProduct(damped_).sum();
     work_ = at - aim;
-    for (int i = 0; i < nodes(); ++i) {
+    for (long i = 0; i < at.rows(); ++i) {
         value += 0.5 * inertia * mass_[i] * work_.row(i).squaredNorm();
         gradient.row(i) += inertia * mass_[i] * work_.row(i);
     }
     value += potential(at, activation, gradient);
-    for (int i = 0; i < nodes(); ++i)
+    for (long i = 0; i < at.rows(); ++i)
         if (fixed_[i]) gradient.row(i).setZero();
     return value;
 }
@@ -235,7 +249,10 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     const auto energy = [&](const Points& at, Points& gradient) {
         return step_energy(h, start, aim, activation, at, gradient);
     };
-    return figures(newton_.minimise(energy, metric(h), x, options), x);
+    solids_->begin_step(h, start, activation);
+    const solve::SparseCholesky& factor = metric(h);
+    const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
+    return figures(newton_.minimise(energy, solve, x, options), x);
 }
 
 StepFigures FaceTissue::figures(const solve::StepReport& report, const Points& x) const {
@@ -245,6 +262,7 @@ StepFigures FaceTissue::figures(const solve::StepReport& report, const Points& x
     figures.last_step_rms_m = report.last_step_rms_m;
     figures.converged = report.converged;
     figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    figures.muscle_volume_error = solids_->greatest_volume_error(x);
     return figures;
 }
 

@@ -21,6 +21,7 @@
 #include "sim/jaw_dynamics.h"
 #include "sim/lids.h"
 #include "sim/muscle_placement.h"
+#include "sim/muscle_solids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
 #include "sim/wrench.h"
@@ -38,7 +39,8 @@ struct StepFigures {
     int iterations = 0;
     int evaluations = 0;
     double last_step_rms_m = 0;
-    double contact_depth_m = 0;  ///< deepest penetration left
+    double contact_depth_m = 0;      ///< deepest penetration left
+    double muscle_volume_error = 0;  ///< greatest of the volume muscles, ratio
     bool converged = false;
 };
 
@@ -78,6 +80,11 @@ class FaceTissue {
                               const Eigen::VectorXd& activation,
                               const solve::QuasiNewtonOptions& options, Points& x);
 
+    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
+    /// Of everything at rest: tissue, then the volume muscles. States have these rows.
+    const Points& rest() const { return rest_; }
+    const MuscleSolids& solids() const { return *solids_; }
+    MuscleSolids& solids() { return *solids_; }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
@@ -89,7 +96,6 @@ class FaceTissue {
     void prepare(double h, const JawDynamics& jaw);
     const JawMatrix& ride_stiffness(double h) const;  ///< N/m, after that
 
-    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
@@ -130,7 +136,10 @@ class FaceTissue {
     const TissueMesh& mesh_;
     std::vector<Vec3> lips_;
     std::vector<Attachment> attachments_;
-    std::vector<char> fixed_;
+    std::optional<MuscleSolids> solids_;
+    mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation
+    Points rest_;
+    std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids

@@ -41,6 +41,7 @@ void FaceTissue::move_mandible(const Rigid& moved) {
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
+    solids_->move_bodies(bodies);
     for (std::size_t c = 0; c < contacts_.list().size(); ++c)
         if (contacts_.list()[c].body == kMandibleBody)
             contacts_.list()[c].point = moved * contact_on_mandible_[c];
@@ -74,6 +75,9 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
         const double depth = tissue::Contacts::gap(contact, x) - contact.rest_gap_m;
         if (depth < 0) sum.add(-contact.stiffness_n_per_m * depth * contact.normal, contact.point);
     }
+    solids_->add_riding(mandible_, gradient, sum);
+    sum.force_n -= solids_pull_[kMandibleBody].force_n;
+    sum.torque_nm -= solids_pull_[kMandibleBody].torque_nm;
     return sum;
 }
 
@@ -85,10 +89,11 @@ const JawMatrix& FaceTissue::ride_stiffness(double h) const {
 
 void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     metric(h);
-    const Points& rest = mesh_.nodes;
+    const Points& rest = rest_;
     const Eigen::VectorXd relaxed = Eigen::VectorXd::Zero(rig_.channels().column_count());
     prescribe({});
     find_contacts(rest);
+    solids_->begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
     for (int k = 0; k < kMandibleCoordinates; ++k) {
         // Opening and forwards only: the other way, teeth and eminence are in the way
@@ -132,6 +137,8 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
         return sum;
     };
 
+    solids_->begin_step(h, start, activation);
+
     // The jaw alone first, the tissue being linear to it
     Points unknowns(rows + kJawRows, 3), gradient(rows + kJawRows, 3);
     unknowns.topRows(rows) = x;
@@ -154,7 +161,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
         [&](const Points& b, Points& y) {
             y.resize(b.rows(), 3);
             tissue_part = b.topRows(rows);
-            tissue_metric.solve(tissue_part, tissue_move);
+            solids_->precondition(tissue_metric, tissue_part, tissue_move);
             y.topRows(rows) = tissue_move;
             put_jaw(jaw_metric.solve(jaw_of(b)), y);
         },

@@ -1,105 +1,14 @@
 #include "sim/muscle_placement.h"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "geom/closest_point.h"
 #include "sim/polyline.h"
+#include "sim/tissue_locator.h"
 
 namespace risorius::sim {
 
 namespace {
-
-// Finds where points lie in the tissue.
-class TissueLocator {
-  public:
-    TissueLocator(const Shell& shell, const TissueMesh& mesh) : shell_(shell), mesh_(mesh) {
-        Points skin(static_cast<long>(shell.vertex.size()), 3);
-        for (long v = 0; v < skin.rows(); ++v)
-            skin.row(v) = mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
-        skin_ = geom::SurfaceTree(skin, shell.triangles);
-        centres_.resize(mesh.tets.rows(), 3);
-        for (long t = 0; t < mesh.tets.rows(); ++t) {
-            centres_.row(t).setZero();
-            for (int k = 0; k < 4; ++k) centres_.row(t) += 0.25 * mesh.nodes.row(mesh.tets(t, k));
-        }
-    }
-
-    // Skin, thickness and inward direction below a point on or over the skin.
-    struct Column {
-        Vec3 skin, outward;
-        double thickness;
-    };
-    Column column_at(const Vec3& p) const {
-        const geom::SurfacePoint foot = *skin_.closest(p);
-        Column out{foot.point, Vec3::Zero(), 0};
-        for (int k = 0; k < 3; ++k) {
-            const int v = shell_.triangles(foot.triangle, k);
-            out.outward += foot.barycentric[k] * mesh_.direction[v];
-            out.thickness += foot.barycentric[k] * mesh_.thickness_m[v];
-        }
-        out.outward.normalize();
-        return out;
-    }
-
-    // Weights on the tet that holds p, or on the nearest one when p lies outside the tissue.
-    muscle::FibrePoint embed(const Vec3& p) const {
-        double best_outside = 1e300;
-        long best_tet = 0;
-        Eigen::Vector4d best_weights;
-        for (long t = 0; t < mesh_.tets.rows(); ++t) {
-            const double far = (centres_.row(t).transpose() - p).squaredNorm();
-            if (far > 4e-4) continue;
-            const Eigen::Vector4d w = weights(t, p);
-            // How far outside, in metres: least weight times the tet's size.
-            const double outside =
-                -std::min(0.0, w.minCoeff()) * std::sqrt(far) + (w.minCoeff() < 0 ? far : 0.0);
-            if (outside < best_outside) {
-                best_outside = outside;
-                best_tet = t;
-                best_weights = w;
-            }
-            if (w.minCoeff() >= 0) break;
-        }
-        if (best_outside > 1e299) {
-            double least = 1e300;
-            for (long t = 0; t < mesh_.tets.rows(); ++t) {
-                const double far = (centres_.row(t).transpose() - p).squaredNorm();
-                if (far < least) {
-                    least = far;
-                    best_tet = t;
-                }
-            }
-            best_weights = weights(best_tet, p);
-        }
-        best_weights = best_weights.cwiseMax(0.0);
-        best_weights /= best_weights.sum();
-        muscle::FibrePoint point;
-        point.count = 4;
-        for (int k = 0; k < 4; ++k) {
-            point.nodes[k] = mesh_.tets(best_tet, k);
-            point.weights[k] = best_weights[k];
-        }
-        return point;
-    }
-
-  private:
-    Eigen::Vector4d weights(long t, const Vec3& p) const {
-        const Vec3 a = mesh_.nodes.row(mesh_.tets(t, 0));
-        Mat3 edges;
-        for (int k = 0; k < 3; ++k)
-            edges.col(k) = mesh_.nodes.row(mesh_.tets(t, k + 1)).transpose() - a;
-        const Vec3 b = edges.inverse() * (p - a);
-        return Eigen::Vector4d(1 - b.sum(), b[0], b[1], b[2]);
-    }
-
-    const Shell& shell_;
-    const TissueMesh& mesh_;
-    geom::SurfaceTree skin_;
-    Points centres_;
-};
 
 rig::MuscleBand mirrored(const rig::MuscleBand& band) {
     rig::MuscleBand out = band;
@@ -146,12 +55,16 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                              head.size / (strands * bands);
         FibreBundle bundle;
         bundle.muscle = band.muscle;
-        if (!band.crosses_midline()) bundle.side = side;
+        if (channels.column(band.muscle, Side::kLeft) != channels.column(band.muscle, Side::kRight))
+            bundle.side = side;
         bundle.column = column;
         bundle.first_fibre = static_cast<int>(out.fibres.size());
         bundle.width_m = band.width_m / bands * head.size;
         bundle.origin_on_bone = band.origin_attach == "bone";
         bundle.insertion_on_bone = band.insertion_attach == "bone";
+        const auto muscle =
+            std::find_if(rig.muscles.muscles.begin(), rig.muscles.muscles.end(),
+                         [&](const rig::Muscle& candidate) { return candidate.id == band.muscle; });
         for (int strand = 0; strand < strands; ++strand) {
             const double across =
                 band.width_m / bands * head.size * ((strand + 0.5) / strands - 0.5);
@@ -212,6 +125,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.f0_n = force;
+            fibre.greatest_speed_hz = muscle->greatest_speed_hz;
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);
@@ -221,6 +135,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
     };
     for (const rig::MuscleBand& band : rig.atlas.bands) {
         if (channels.column(band.muscle, Side::kLeft) < 0) continue;
+        if (rig.solid(band.muscle) != nullptr) continue;
         place_band(band, Side::kLeft);
         if (!band.crosses_midline()) place_band(mirrored(band), Side::kRight);
     }

@@ -164,11 +164,14 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
         centre_.push_back(curve[i] + (at - std::floor(at)) * (next - curve[i]));
         const double knot = size_.along(row) * (count - 1);
         const int before = std::min(static_cast<int>(knot), count - 2);
-        const auto on_jaw = [&](int k) {
-            return path[static_cast<std::size_t>(k)].body == rig::PathPoint::Body::kMandible ? 1.0
-                                                                                             : 0.0;
+        const auto share = [&](rig::PathPoint::Body body) {
+            const auto rides = [&](int k) {
+                return path[static_cast<std::size_t>(k)].body == body ? 1.0 : 0.0;
+            };
+            return rides(before) + (knot - before) * (rides(before + 1) - rides(before));
         };
-        share_.push_back(on_jaw(before) + (knot - before) * (on_jaw(before + 1) - on_jaw(before)));
+        share_.push_back(share(rig::PathPoint::Body::kMandible));
+        hyoid_share_.push_back(share(rig::PathPoint::Body::kHyoid));
         outward.push_back((skin.closest(centre_.back())->point - centre_.back()).normalized());
     }
     for (int pass = 0; pass < 2 * size_.rows; ++pass) {  // a muscle twists little
@@ -222,20 +225,23 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
         }
 }
 
-void BoneSheet::place(const Rigid& mandible, Points& grid) const {
+void BoneSheet::place(const BoneMotion& bones, Points& grid) const {
     std::vector<Vec3> centre(centre_.size());
     for (std::size_t i = 0; i < centre_.size(); ++i)
-        centre[i] = centre_[i] + share_[i] * (mandible * centre_[i] - centre_[i]);
-    // Of constant volume: as much wider and thicker as it is shorter.
-    const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre)));
+        centre[i] = centre_[i] + share_[i] * (bones.mandible * centre_[i] - centre_[i]) +
+                    hyoid_share_[i] * bones.hyoid_m;
+    // As much wider (and thicker) as keeps its volume when it is shorter, but for its ends on the bone
+    const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre))) - 1;
     grid.resize(size_.points(), 3);
     for (int row = 0; row < size_.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
-        const Mat3 turn = Mat3::Identity() + share_[i] * (mandible.linear() - Mat3::Identity());
+        const double bulge = 1 + wider * std::sin(std::numbers::pi * size_.along(row));
+        const Mat3 turn =
+            Mat3::Identity() + share_[i] * (bones.mandible.linear() - Mat3::Identity());
         for (int column = 0; column < size_.columns; ++column) {
             const int p = row * size_.columns + column;
             grid.row(p) =
-                (centre[i] + wider * (turn * offset_[static_cast<std::size_t>(p)])).transpose();
+                (centre[i] + bulge * (turn * offset_[static_cast<std::size_t>(p)])).transpose();
         }
     }
 }

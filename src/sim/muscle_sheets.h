@@ -14,6 +14,12 @@
 
 namespace risorius::sim {
 
+/// Where the bones are that muscles ride on; the skull stays.
+struct BoneMotion {
+    Rigid mandible = Rigid::Identity();
+    Vec3 hyoid_m = Vec3::Zero();  ///< displacement
+};
+
 struct SheetSize {
     int rows = 0, columns = 0;
     double length_m = 0, width_m = 0;  ///< at rest, the width that of the belly
@@ -55,13 +61,14 @@ class BoneSheet {
               const geom::SurfaceTree& skin);
 
     const SheetSize& size() const { return size_; }
-    void place(const Rigid& mandible, Points& grid) const;
+    void place(const BoneMotion& bones, Points& grid) const;
 
   private:
     SheetSize size_;
     std::vector<Vec3> centre_;   ///< rows
     std::vector<Vec3> offset_;   ///< rows x columns
     std::vector<double> share_;  ///< rows, of the mandible's motion
+    std::vector<double> hyoid_share_;
 };
 
 }  // namespace risorius::sim

@@ -92,6 +92,7 @@ MuscleStraps::MuscleStraps(const rig::Head& head, const rig::RigDescription& rig
 
     const track::ChannelTable channels = rig.channels();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
+        if (rig.solid(muscle.id) != nullptr) continue;
         bool has_fibres = false;
         for (const FibreBundle& bundle : placement.bundles) {
             if (bundle.muscle != muscle.id) continue;
@@ -114,12 +115,12 @@ MuscleStraps::MuscleStraps(const rig::Head& head, const rig::RigDescription& rig
     }
 }
 
-void MuscleStraps::place_grid(const Strap& strap, const Points& fibre_points, const Rigid& mandible,
-                              Points& grid) const {
+void MuscleStraps::place_grid(const Strap& strap, const Points& fibre_points,
+                              const BoneMotion& bones, Points& grid) const {
     if (const auto* fibres = std::get_if<FibreSheet>(&strap.sheet))
         fibres->place(fibre_points, grid);
     else
-        std::get<BoneSheet>(strap.sheet).place(mandible, grid);
+        std::get<BoneSheet>(strap.sheet).place(bones, grid);
 }
 
 void MuscleStraps::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Head& head,
@@ -130,7 +131,7 @@ void MuscleStraps::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Hea
     strap.size = std::visit([](const auto& s) { return s.size(); }, strap.sheet);
     const SheetSize& size = strap.size;
     Points grid;
-    place_grid(strap, rest_points_, Rigid::Identity(), grid);
+    place_grid(strap, rest_points_, {}, grid);
 
     // Which side is the skin's, and how much room there is below it
     const std::vector<Vec3> areas = areas_of(size, grid);
@@ -178,16 +179,16 @@ void MuscleStraps::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Hea
     Points vertices = Points::Zero(size.rows * ring_size(size), 3);
     surfaces.add(surface, vertices, fibre, tendon, triangles);
     straps_.push_back(std::move(strap));
-    place_strap(straps_.back(), rest_points_, Rigid::Identity(), surfaces.rest);
+    place_strap(straps_.back(), rest_points_, {}, surfaces.rest);
 }
 
-Points MuscleStraps::place_fibre_points(const Points& nodes, const Rigid& mandible) const {
+Points MuscleStraps::place_fibre_points(const Points& nodes, const BoneMotion& bones) const {
     Points out(static_cast<Eigen::Index>(points_.size()), 3);
     for (std::size_t p = 0; p < points_.size(); ++p) {
         const muscle::FibrePoint& point = points_[p];
         auto row = out.row(static_cast<Eigen::Index>(p));
         if (point.count == 0) {
-            const Rigid motion = point.body == kMandibleBody ? mandible : Rigid::Identity();
+            const Rigid motion = point.body == kMandibleBody ? bones.mandible : Rigid::Identity();
             row = (motion * point.body_rest).transpose();
             continue;
         }
@@ -198,10 +199,10 @@ Points MuscleStraps::place_fibre_points(const Points& nodes, const Rigid& mandib
 }
 
 void MuscleStraps::place_strap(const Strap& strap, const Points& fibre_points,
-                               const Rigid& mandible, Points& vertices) const {
+                               const BoneMotion& bones, Points& vertices) const {
     const SheetSize& size = strap.size;
     Points grid;
-    place_grid(strap, fibre_points, mandible, grid);
+    place_grid(strap, fibre_points, bones, grid);
     const std::vector<Vec3> areas = areas_of(size, grid);
     const int ring = ring_size(size);
     for (int i = 0; i < size.rows; ++i)
@@ -220,9 +221,9 @@ void MuscleStraps::place_strap(const Strap& strap, const Points& fibre_points,
         }
 }
 
-void MuscleStraps::place(const Points& nodes, const Rigid& mandible, Points& vertices) const {
-    const Points fibre_points = place_fibre_points(nodes, mandible);
-    for (const Strap& strap : straps_) place_strap(strap, fibre_points, mandible, vertices);
+void MuscleStraps::place(const Points& nodes, const BoneMotion& bones, Points& vertices) const {
+    const Points fibre_points = place_fibre_points(nodes, bones);
+    for (const Strap& strap : straps_) place_strap(strap, fibre_points, bones, vertices);
 }
 
 }  // namespace risorius::sim

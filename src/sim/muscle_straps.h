@@ -16,12 +16,12 @@ namespace risorius::sim {
 
 class MuscleStraps {
   public:
-    /// Adds a surface for every bundle of fibres, and for every muscle without any, to `surfaces`.
+    /// Adds a surface for every bundle of fibres, and for every muscle without any that is no solid, to `surfaces`.
     MuscleStraps(const rig::Head& head, const rig::RigDescription& rig,
                  const MusclePlacement& placement, MuscleSurfaces& surfaces);
 
     /// Writes its own rows of `vertices`. `nodes` are the nodes of the tissue now.
-    void place(const Points& nodes, const Rigid& mandible, Points& vertices) const;
+    void place(const Points& nodes, const BoneMotion& bones, Points& vertices) const;
 
   private:
     struct Strap {
@@ -35,10 +35,10 @@ class MuscleStraps {
     void add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Head& head,
              const rig::Muscle& muscle, const Vec2& bone_ends, const geom::SurfaceTree& skin,
              MuscleSurface& surface, MuscleSurfaces& surfaces);
-    Points place_fibre_points(const Points& nodes, const Rigid& mandible) const;
-    void place_strap(const Strap& strap, const Points& fibre_points, const Rigid& mandible,
+    Points place_fibre_points(const Points& nodes, const BoneMotion& bones) const;
+    void place_strap(const Strap& strap, const Points& fibre_points, const BoneMotion& bones,
                      Points& vertices) const;
-    void place_grid(const Strap& strap, const Points& fibre_points, const Rigid& mandible,
+    void place_grid(const Strap& strap, const Points& fibre_points, const BoneMotion& bones,
                     Points& grid) const;
 
     std::vector<muscle::FibrePoint> points_;

@@ -169,6 +169,82 @@ TEST(FibreSet, TheMetricIsHalfF0OverOptimalLengthAcrossEachSegment) {
     EXPECT_NEAR(v.dot(metric * v), expected, 1e-12 * expected);
 }
 
+Eigen::VectorXd pair(double first, double second) {
+    Eigen::VectorXd a(2);
+    a << first, second;
+    return a;
+}
+
+TEST(FibreSet, InAStepTheGradientIsTheSlopeOfTheEnergy) {
+    FibreSet set = two_fibres();
+    const Eigen::VectorXd a = pair(0.4, 0.9);
+    set.begin_step(cloud(), 1.0 / 60);
+    const Points x = shaken(cloud(), 3);
+    Points gradient = Points::Zero(10, 3), ignored = gradient;
+    set.add_energy(x, a, gradient);
+    const double h = 1e-8;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        Points up = x, down = x;
+        up.data()[i] += h;
+        down.data()[i] -= h;
+        const double slope =
+            (set.add_energy(up, a, ignored) - set.add_energy(down, a, ignored)) / (2 * h);
+        EXPECT_NEAR(gradient.data()[i], slope, 1e-6) << i;
+    }
+}
+
+TEST(FibreSet, WhatRestsInAStepRestsAtRest) {
+    FibreSet set = two_fibres();
+    const Eigen::VectorXd a = pair(0.4, 0.9);
+    const Points x = shaken(cloud(), 3);
+    Points at_rest = Points::Zero(10, 3), in_step = at_rest, again = at_rest;
+    set.add_energy(x, a, at_rest);
+    set.begin_step(x, 1.0 / 60);
+    set.add_energy(x, a, in_step);
+    EXPECT_TRUE(in_step.isApprox(at_rest, 1e-14));
+    set.end_step();
+    set.add_energy(x, a, again);
+    EXPECT_EQ(again, at_rest);
+}
+
+// One active fibre of optimal length 10 mm between two nodes, drawn out or in along itself within a step.
+TEST(FibreSet, AMovingFibrePullsAsHillsLawSays) {
+    Points x(2, 3);
+    x << 0, 0, 0, 0.01, 0, 0;
+    FibreSet set({in_tissue({0}, {1}), in_tissue({1}, {1})},
+                 {{.point_count = 2, .f0_n = 2, .greatest_speed_hz = 8}}, x);
+    const double h = 0.01;
+    set.begin_step(x, h);
+    const Eigen::VectorXd a = Eigen::VectorXd::Constant(1, 0.5);
+    double before = 0;
+    for (const double v : {-1.5, -0.5, -0.25, 0.0, 0.1}) {
+        Points moved = x, gradient = Points::Zero(2, 3);
+        moved(1, 0) += v * 8 * 0.01 * h;  // speed / greatest speed of 8 optimal lengths a second
+        const double energy = set.add_energy(moved, a, gradient);
+        const double passive = LengthCurves(HillShape{}).passive(moved(1, 0) / 0.01).force;
+        const double hill = v <= -1.1 ? 0
+                            : v <= 0  ? (1 + v) / (1 - 4 * v)
+                                      : 1.4 - 0.4 / (1 + 12.5 * v);
+        EXPECT_NEAR(gradient(1, 0), 2 * (0.5 * hill + passive), 1e-12) << "v = " << v;
+        EXPECT_GE(gradient(1, 0), before) << "v = " << v;  // convex
+        before = gradient(1, 0);
+        if (v < 0) {
+            EXPECT_LT(energy, 0);
+        }
+    }
+}
+
+TEST(FibreSet, TheMetricOfAStepCountsOnATenthOfTheResistanceToSpeed) {
+    Points x(2, 3);
+    x << 0, 0, 0, 0.01, 0, 0;
+    const FibreSet set({in_tissue({0}, {1}), in_tissue({1}, {1})},
+                       {{.point_count = 2, .f0_n = 2, .greatest_speed_hz = 10}}, x);
+    solve::MetricBuilder builder(2);
+    set.add_metric(builder, 1.0 / 60);
+    const Eigen::MatrixXd lower = builder.build({});
+    EXPECT_NEAR(lower(0, 0), 2 / 0.01 * (0.5 + 0.1 * 5 * 6), 1e-9);
+}
+
 TEST(FibreSet, AFibreOfOnePointIsRefused) {
     try {
         FibreSet({in_tissue({0}, {1})}, {{.first_point = 0, .point_count = 1}}, cloud());

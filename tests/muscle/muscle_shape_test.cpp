@@ -96,7 +96,15 @@ TEST(MuscleShape, ARingClosesOnItself) {
     double sum = 0;
     for (const tissue::CellMesh::Cell& cell : mesh.cells()) sum += tissue::cell_volume(cell, all);
     EXPECT_NEAR(sum / belly.volume_m3, 1, 1e-12);
-    // The border is closed: every edge twice
+    // Width lies in the plane, its far side within the ring; thickness goes out of the plane.
+    for (int m = 0; m < 16; ++m) {
+        const Vec3 inner = belly.rest.row(belly.grid.index(m, 2, 1)),
+                   outer = belly.rest.row(belly.grid.index(m, 0, 1)),
+                   front = belly.rest.row(belly.grid.index(m, 1, 2));
+        EXPECT_NEAR(outer.norm() - inner.norm(), 0.008, 5e-4);
+        EXPECT_NEAR(front.z(), 0.0025, 1e-12);
+    }
+    // Four faces, each a band
     EXPECT_EQ(tissue::surface_triangles(belly.grid).rows(), 2 * 16 * 8);
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/json_cursor.h"
+#include "force_term_checks.h"
 #include "tissue/grid_shape.h"
 
 namespace risorius::muscle {
@@ -198,6 +199,126 @@ TEST(Musculotendon, ForceLengthIsThatOfTheWholeChain) {
     EXPECT_NEAR(force.bottomRows(9).col(0).sum(), -94.2, 1e-10);
 }
 
+/// A ring of six slabs with nothing but its fibres, disordered.
+struct Ring {
+    tissue::GridShape grid{6, 2, 2, true};
+    Points rest = Points(grid.size(), 3), x;
+    Ring() {
+        for (int m = 0; m < 6; ++m)
+            for (int n = 0; n < 2; ++n)
+                for (int o = 0; o < 2; ++o) {
+                    const double angle = std::numbers::pi / 3 * m, radius = 0.03 - 0.006 * n;
+                    rest.row(grid.index(m, n, o)) << radius * std::cos(angle),
+                        radius * std::sin(angle), 0.005 * o;
+                }
+        x = shaken(1.15 * rest, 1e-3, 6);
+    }
+    Musculotendon muscle(double activation) const {
+        return Musculotendon({.f0_n = 9, .optimal_length_m = 0.16, .pennation_deg = 10},
+                             zajac_curves(), grid, rest, {}, always(activation));
+    }
+};
+
+TEST(Musculotendon, ARingPullsAllRoundAndItsPotentialHasItsGradientAndHessian) {
+    const Ring ring;
+    const Musculotendon m = ring.muscle(0.8);
+    EXPECT_FALSE(m.anchored(End::kOrigin));
+    EXPECT_EQ(m.anchor_pull(End::kOrigin, 0, ring.x), Vec3::Zero());
+    const Points start = shaken(ring.x, 2e-4, 7);
+    for (const double h : {1e-3, kInfinite}) {
+        const solve::ImplicitStep step{0.1, h, start};
+        testing_of::expect_gradient_of_potential(m, step, ring.x, 1e-8, 1e-5);
+        testing_of::expect_hessian_of_potential(m, step, ring.x, 1e-8, 1e-5);
+        testing_of::expect_projection(m, step, ring.x);
+    }
+    Points force = Points::Zero(ring.grid.size(), 3);
+    m.add_force(0, ring.x, shaken(force, 0.1, 8), force);
+    EXPECT_LT(force.colwise().sum().norm(), 1e-13);
+    // Without the segment from the last nodes to the first those would be pulled to one side alone: in the round ring all
+    // nodes of a chain are pulled to the centre alike.
+    force.setZero();
+    ring.muscle(1).add_force(0, ring.rest, Points::Zero(ring.grid.size(), 3), force);
+    for (int i = 0; i < 6; ++i) {
+        const Vec3 inward = -Vec3(ring.rest(4 * i, 0), ring.rest(4 * i, 1), 0).normalized();
+        EXPECT_NEAR(force.row(4 * i).dot(inward), force.row(0).norm(), 1e-12) << i;
+    }
+    EXPECT_GT(force.row(0).norm(), 1);
+}
+
+TEST(Musculotendon, ChainsShareTheOptimalLengthAsTheyShareTheLengthAtRest) {
+    const Ring ring;
+    const Eigen::VectorXd stretch = ring.muscle(1).stretch(ring.rest);
+    EXPECT_NEAR(stretch.maxCoeff(), stretch.minCoeff(), 1e-12);
+}
+
+TEST(Musculotendon, RigidTendonsTieTheEndsToTheirAnchors) {
+    MuscleParameters parameters = pennate(20);
+    parameters.tendon = TendonModel::kRigid;
+    const Points rest = belly();
+    Anchors anchors = planar_anchors(kGrid, rest, 0.02);
+    anchors.insertion.motion = [](double t_s) {
+        return Rigid(Eigen::Translation3d(0, 0, 2 * t_s * t_s) *
+                     Eigen::AngleAxisd(0.1 * t_s, Vec3::UnitX()));
+    };
+    const Musculotendon m(parameters, zajac_curves(), kGrid, rest, anchors, always(0.7));
+    const std::vector<int> tied = m.tied_nodes();
+    ASSERT_EQ(tied.size(), 18U);
+    EXPECT_EQ(tied[0], 0);
+    EXPECT_EQ(tied[9], 27);
+    Points x = stretched(), v = zeros();
+    m.place_tied(0.3, x, v);
+    EXPECT_EQ(x.topRows(9), rest.topRows(9));
+    // As far from its point of the plate as at rest, and moving with it
+    const Points plate = m.anchor_points(End::kInsertion, 0.3);
+    for (int c = 0; c < 9; ++c) EXPECT_NEAR((plate.row(c) - x.row(27 + c)).norm(), 0.01, 1e-15);
+    EXPECT_NEAR(v(27 + 4, 2), 1.2, 1e-7);
+    const solve::ImplicitStep step{0.1, kInfinite, x};
+    testing_of::expect_gradient_of_potential(m, step, x, 1e-8, 1e-5);
+    testing_of::expect_hessian_of_potential(m, step, x, 1e-8, 1e-5);
+    // What the anchors feel is what the fibres do to the tied nodes.
+    Points force = zeros();
+    m.add_force(0, x, zeros(), force);
+    EXPECT_LT((m.anchor_forces(End::kOrigin, 0, x) - force.topRows(9)).cwiseAbs().maxCoeff(),
+              1e-12);
+    EXPECT_LT((m.anchor_forces(End::kInsertion, 0, x) - force.bottomRows(9)).cwiseAbs().maxCoeff(),
+              1e-12);
+}
+
+TEST(Musculotendon, OneAnchoredEndHasTheWholeTendon) {
+    const Points rest = belly();
+    const Anchors anchors{planar_anchor(End::kOrigin, kGrid, rest, 0.02), {}};
+    const Musculotendon m(kPrototype, zajac_curves(), kGrid, rest, anchors, always(0));
+    Points x = rest;
+    EXPECT_LT(m.anchor_pull(End::kOrigin, 0, x).norm(), 1e-9);
+    x.col(0).array() += 0.02 * 0.033;
+    EXPECT_NEAR(m.anchor_pull(End::kOrigin, 0, x).x(), 94.2, 1e-9);
+    EXPECT_EQ(m.anchor_points(End::kInsertion, 0).rows(), 0);
+}
+
+TEST(Musculotendon, BonesHoldTendonsByOnePointALineOrOneEach) {
+    const Points rest = belly();
+    Points bone(1, 3);
+    bone << -0.02, 0.001, 0;
+    const Anchor one = bone_anchor(End::kOrigin, kGrid, rest, bone);
+    for (int c = 0; c < 9; ++c) {
+        EXPECT_EQ(one.rest.row(c), bone.row(0));
+        EXPECT_NEAR(one.slack_m[c], (rest.row(c) - bone.row(0)).norm(), 1e-15);
+    }
+    bone.resize(2, 3);
+    bone << -0.02, -0.01, 0, -0.02, 0.01, 0;
+    const Anchor line = bone_anchor(End::kOrigin, kGrid, rest, bone);
+    for (int n = 0; n < 3; ++n)
+        for (int o = 0; o < 3; ++o) EXPECT_NEAR(line.rest(3 * n + o, 1), 0.01 * (n - 1), 1e-15);
+    // Slack at rest, whatever way each tendon goes
+    const Musculotendon m(
+        kPrototype, zajac_curves(), kGrid, rest,
+        {line, bone_anchor(End::kInsertion, kGrid, rest, rest.bottomRows(9).array() + 0.01)},
+        always(0));
+    EXPECT_LT(m.anchor_forces(End::kOrigin, 0, rest).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT(m.anchor_forces(End::kInsertion, 0, rest).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_THROW(bone_anchor(End::kOrigin, kGrid, rest, Points(0, 3)), std::invalid_argument);
+}
+
 std::string message_of(const MuscleParameters& parameters) {
     try {
         check(parameters, "muscle.json:/muscle");
@@ -218,6 +339,15 @@ TEST(Musculotendon, ParametersOutsideTheirRangesAreRefusedByName) {
     p = kPrototype;
     p.tendon_slack_m = kInfinite;
     EXPECT_EQ(message_of(p), "muscle.json:/muscle/tendon_slack_m: expected [0, inf), found inf");
+    p.tendon_slack_m = 0;
+    EXPECT_EQ(message_of(p), "");
+    try {
+        muscle(p, 0);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "muscle/tendon_slack_m: expected (0, inf) of elastic tendons, found 0");
+    }
     p = kPrototype;
     p.greatest_speed_hz = std::nan("");
     EXPECT_EQ(message_of(p), "muscle.json:/muscle/greatest_speed_hz: expected (0, inf), found nan");
@@ -260,6 +390,9 @@ TEST(Musculotendon, ArraysOfWrongSizeAreRefused) {
     Anchors anchors = planar_anchors(kGrid, rest, 0.02);
     EXPECT_THROW(Musculotendon(kPrototype, zajac_curves(), {5, 3, 3}, rest, anchors, always(0)),
                  std::invalid_argument);
+    EXPECT_THROW(
+        Musculotendon(kPrototype, zajac_curves(), {4, 3, 3, true}, rest, anchors, always(0)),
+        std::invalid_argument);
     anchors.origin.rest.conservativeResize(4, 3);
     EXPECT_THROW(Musculotendon(kPrototype, zajac_curves(), kGrid, rest, anchors, always(0)),
                  std::invalid_argument);

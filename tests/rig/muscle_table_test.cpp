@@ -97,6 +97,18 @@ TEST(MusclePath, OnAHeadWithoutItsLandmarkIsRefused) {
     }
 }
 
+TEST(MuscleTable, ABundleNeedsNeitherPathNorLengthsButAJawMuscleDoes) {
+    EXPECT_EQ(message_of([](Json& m) {
+                  m["group"] = "mimetic";
+                  for (const char* key : {"l0_mm", "width_mm", "paths"}) m.erase(key);
+              }),
+              "");
+    EXPECT_EQ(message_of([](Json& m) { m.erase("l0_mm"); }),
+              "muscles.json:/muscles/0: expected the key \"l0_mm\", found none");
+    EXPECT_EQ(message_of([](Json& m) { m["paths"] = Json::array(); }),
+              "muscles.json:/muscles/0/paths: expected at least one path, found []");
+}
+
 TEST(MuscleTable, WrongPathsAreRefusedAtTheirPlace) {
     EXPECT_EQ(message_of([](Json&) {}), "");
     EXPECT_EQ(message_of([](Json& m) { m["paths"][0].erase(1); }),

@@ -88,7 +88,7 @@ TEST_F(EmgSource, RawSignalsBecomeTheExcitationThatMadeThem) {
         if (t < 0.3) most_at_rest = std::max(most_at_rest, u);
     }
     EXPECT_LT(std::sqrt(squares),
-              0.08);                // what 6 Hz leave of the noise: some 0.15 of the amplitude
+              0.08);                // the flutter that 6 Hz leave of noise
     EXPECT_LT(most_at_rest, 0.01);  // the offset of 0.01 is gone
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kRight, 0.9), 0);
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 3.1), 0);

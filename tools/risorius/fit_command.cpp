@@ -102,6 +102,8 @@ void add_fit(CLI::App& app) {
                      "Standard anatomy \"inline\", or by \"reference\" to its files")
         ->capture_default_str();
     command->add_option("--standard", options.standard, "Folder of the standard anatomy");
+    command->add_flag("--solids", arguments->options.solids,
+                      "Make the muscles of standard/muscle_solids.json volume-preserving solids");
     command->add_flag("--no-calibrate", arguments->no_calibrate,
                       "Keep the standard strengths of the muscles (faster)");
     add_common(*command, arguments->common);

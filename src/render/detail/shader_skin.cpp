@@ -11,6 +11,7 @@ constexpr const char* kSkin = R"(
 in vec3 position;
 in vec3 normal;
 in vec2 paint;
+in float sky_seen;
 in float behind_seen;
 out vec4 colour;
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
@@ -56,29 +57,27 @@ void main() {
     gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     gloss += ambient(reflect(-v, n)) * seen * (0.02 + 0.10 * edge * edge * edge * edge * sky_seen);
-    gloss *= kGloss * 3.1416 * (0.20 + 1.10 * oil);
-    colour = vec4(film(seen_through(albedo * diffuse, diffuse, albedo, oil, edge) + gloss), 1.0);
+    vec3 seen_skin = seen_through(albedo * diffuse, diffuse, albedo, oil, edge, sky_seen);
+    colour = vec4(film(seen_skin + gloss * kGloss * (0.20 + 1.10 * oil)), 1.0);
 }
 )";
 
 constexpr const char* kOpaque = R"(
-const float kGloss = 1.0;
-in float sky_seen;
-vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge) { return skin; }
+const float kGloss = 3.1416;
+vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, float open) { return skin; }
 )";
 
 // The nearest skin alone is a veil over the muscles, wherever these are: what would lie in front of it is seen through it
 // all the same, and what lies deep fades into the tissue between. The veil is thick at a slant, so that the face keeps its
 // shape, and on lips, brows and in folds, so that it keeps its features.
 constexpr const char* kTranslucent = R"(
-const float kGloss = 0.6;
+const float kGloss = 1.9;
 layout(binding = 3) uniform sampler2D muscle_colour;
 layout(binding = 4) uniform sampler2D muscle_depth;
 uniform vec2 distance_of_depth;
 uniform float samples_per_slope;
 uniform vec3 right;
 uniform float tone;    // luminance of the cheek
-in float sky_seen;
 
 const vec3 kTissue = vec3(0.40, 0.30, 0.25);
 
@@ -97,7 +96,7 @@ float muscle_shadow(float d) {
     return smoothstep(0.0, 0.002, higher - 0.3 * reach) * (1.0 - smoothstep(0.010, 0.025, higher));
 }
 
-vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge) {
+vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, float open) {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 muscle = texelFetch(muscle_colour, at, 0);
     float outside = 1.0 / gl_FragCoord.w, distance = muscle_distance(at);
@@ -107,7 +106,7 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge) {
     float dark = 1.0 - smoothstep(0.25, 0.75, dot(albedo, vec3(0.2126, 0.7152, 0.0722)) / tone);
     float veil = kVeil + (1.0 - kVeil) * edge * edge * edge;
     veil = max(veil, 0.72 * smoothstep(0.60, 0.80, oil));
-    veil = max(veil, 0.60 * (1.0 - smoothstep(0.2, 0.7, sky_seen)));
+    veil = max(veil, 0.60 * (1.0 - smoothstep(0.2, 0.7, open)));
     veil = max(veil, dark);
     return mix(below, skin, veil);
 }

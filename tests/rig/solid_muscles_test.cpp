@@ -1,0 +1,65 @@
+// Which muscles are solids, as a rig file says it.
+#include "rig/solid_muscles.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "paths.h"
+
+namespace risorius::rig {
+namespace {
+
+MuscleTable table() {
+    static const MuscleTable kTable = read_muscle_table(JsonCursor::read_file(
+        std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/standard/muscles.json"));
+    return kTable;
+}
+
+std::vector<SolidMuscle> read(const char* json) {
+    return read_solid_muscles(JsonCursor::from_json(Json::parse(json), "rig.json"), table());
+}
+
+std::string message_of(const char* json) {
+    try {
+        read(json);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(SolidMuscles, AnEmptyEntryTakesItsSizeFromTheTableOfMuscles) {
+    const std::vector<SolidMuscle> solids = read(R"({"masseter_superficial": {}})");
+    ASSERT_EQ(solids.size(), 1u);
+    EXPECT_DOUBLE_EQ(solids[0].width_m, 0.028);
+    EXPECT_DOUBLE_EQ(solids[0].thickness_m, 0.011);
+    EXPECT_EQ(solids[0].strength, 1.0);
+}
+
+TEST(SolidMuscles, WhatIsWrittenIsReadAgain) {
+    const std::vector<SolidMuscle> solids = read(
+        R"({"mentalis": {"strength": 0.2, "width_mm": 8, "ends": [0.5, 0.9], "cells": [4, 2, 1], "shear_pa": 900}})");
+    const Json again = solid_muscles_json(solids);
+    EXPECT_EQ(solid_muscles_json(read_solid_muscles(JsonCursor::from_json(again, "a"), table())),
+              again);
+}
+
+TEST(SolidMuscles, MistakesAreNamedWithWhatWasExpected) {
+    EXPECT_EQ(
+        message_of(R"({"maseter_superficial": {}})"),
+        "rig.json:/maseter_superficial: expected a muscle of the table of muscles (did you mean "
+        "\"masseter_superficial\"?), found \"maseter_superficial\"");
+    EXPECT_EQ(
+        message_of(R"({"mentalis": {"strenght": 1}})"),
+        "rig.json:/mentalis/strenght: expected a known key (did you mean \"strength\"?), found "
+        "\"strenght\"");
+    EXPECT_EQ(
+        message_of(R"({"mentalis": {"ends": [1]}})"),
+        "rig.json:/mentalis/ends: expected two ratios, of the origin and the insertion, found [1]");
+    EXPECT_EQ(message_of(R"({"mentalis": {"volume_pa": 0}})"),
+              "rig.json:/mentalis/volume_pa: expected [1, 1e+10], found 0");
+}
+
+}  // namespace
+}  // namespace risorius::rig
