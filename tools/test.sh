@@ -32,6 +32,13 @@ failed=no
 # What ctest says at its end, to be repeated after everything else.
 closing_line() { grep -E '^[0-9]+% tests passed|^No tests were found' "$1" || printf 'the tests did not run\n'; }
 
+# How many tests were skipped and why: ctest tells of suites only.
+skipped_tests() {
+    [[ -f $1 ]] || return 0
+    awk '/: Skipped$/ { getline; count[$0]++ }
+         END { for (why in count) printf "skipped: %d test%s: %s\n", count[why], count[why] == 1 ? "" : "s", why }' "$1" | sort
+}
+
 cmake --preset release --log-level=WARNING
 cmake --build --preset release
 ctest --preset release --parallel "$jobs" --no-tests=error 2>&1 | tee "$logs/release" || failed=yes
@@ -52,10 +59,12 @@ if [[ $sanitizers != none ]]; then
         ctest --preset check --parallel "$jobs" --no-tests=error "${select[@]}" 2>&1 |
             tee "$logs/sanitizers" || failed=yes
         printf '\nwith sanitizers: %s\n' "$(closing_line "$logs/sanitizers")"
+        skipped_tests build-check/Testing/Temporary/LastTest.log
     else
         failed=yes
         printf '\nwith sanitizers: the build failed\n'
     fi
 fi
 printf '\n%s\n' "$(closing_line "$logs/release")"
+skipped_tests build/Testing/Temporary/LastTest.log
 [[ $failed == no ]]

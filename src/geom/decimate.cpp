@@ -113,7 +113,7 @@ double collapse_quality(const Surface& s, int gone, int stays, const std::vector
 
 struct Candidate {
     double order;
-    int a, b, version;
+    int a, b;
     bool operator>(const Candidate& o) const {
         if (order != o.order) return order > o.order;
         return a != o.a ? a > o.a : b > o.b;
@@ -178,15 +178,20 @@ Decimated decimate(const Triangles& triangles, const Points& points,
                    const DecimateOptions& options) {
     Surface s(triangles, points);
     const std::size_t count = static_cast<std::size_t>(points.rows());
-    std::vector<int> parent(count, -1), version(count, 0);
+    std::vector<int> parent(count, -1);
     for (long f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) parent[triangles(f, k)] = triangles(f, k);
 
+    // No vertex moves, so an edge keeps its place in the queue as long as it waits there.
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
+    std::vector<std::vector<int>> waiting(count);  // of an edge a < b, b at a
     const auto push = [&](int a, int b) {
         if (a > b) std::swap(a, b);
+        if (std::find(waiting[a].begin(), waiting[a].end(), b) != waiting[a].end()) return;
         const double ratio = (s.at(a) - s.at(b)).norm() / (0.5 * (length[a] + length[b]));
-        if (ratio < 1.0) queue.push({ratio, a, b, version[a] + version[b]});
+        if (ratio >= 1.0) return;
+        queue.push({ratio, a, b});
+        waiting[a].push_back(b);
     };
     for (std::size_t v = 0; v < count; ++v)
         for (int w : s.neighbours(static_cast<int>(v)))
@@ -196,9 +201,10 @@ Decimated decimate(const Triangles& triangles, const Points& points,
     while (!queue.empty()) {
         const Candidate top = queue.top();
         queue.pop();
+        std::vector<int>& waited = waiting[top.a];
+        waited.erase(std::find(waited.begin(), waited.end(), top.b));
         if (parent[top.a] != top.a || parent[top.b] != top.b) continue;
-        if (version[top.a] + version[top.b] != top.version || s.faces_on_edge(top.a, top.b) == 0)
-            continue;
+        if (s.faces_on_edge(top.a, top.b) == 0) continue;
         constexpr double kWorstQuality = 0.35;
         const double ab =
             kept_always(top.a) ? -1 : collapse_quality(s, top.a, top.b, length, options);
@@ -223,12 +229,9 @@ Decimated decimate(const Triangles& triangles, const Points& points,
         }
         s.faces_of_[gone].clear();
         parent[gone] = stays;
-        // Distances around the changed vertex are new; give its edges another chance.
-        ++version[stays];
-        for (int w : s.neighbours(stays)) {
-            ++version[w];
+        // Around the changed vertex, give the edges that were refused another chance.
+        for (int w : s.neighbours(stays))
             for (int x : s.neighbours(w)) push(w, x);
-        }
     }
     flip_edges(s, options);
 

@@ -40,8 +40,9 @@ std::map<std::string, std::vector<bool>> usable(double step_s,
             for (std::size_t m = 0; m < table.rows.size(); ++m)
                 for (const double step : table.rows[m])
                     found[table.row_names[m]].push_back(step == step_s);
-        if (table.name == "rest")
+        if (table.name == "rest") {
             for (const auto& row : table.rows) EXPECT_LT(row[0], 1e-9) << "hangs still";
+        }
     }
     return found;
 }

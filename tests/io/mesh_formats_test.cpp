@@ -96,7 +96,8 @@ TEST(MeshFormats, ColladaAppliesItsUnit) {
 }
 
 TEST(MeshFormats, TheGlbOfAHeadHasTheGroupsAndPositionsOfItsObj) {
-    if (!fs::exists(kMakeHuman)) GTEST_SKIP();
+    if (!fs::exists(kMakeHuman))
+        GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj");
     const geom::PolygonMesh glb = read_mesh(kMakeHuman / "mh_head.glb");
     EXPECT_EQ(glb.group_names, obj.group_names);
@@ -111,7 +112,8 @@ TEST(MeshFormats, TheGlbOfAHeadHasTheGroupsAndPositionsOfItsObj) {
 }
 
 TEST(MeshFormats, AHeadComesThroughColladaWithGroupsAndQuads) {
-    if (!fs::exists(kMakeHuman)) GTEST_SKIP();
+    if (!fs::exists(kMakeHuman))
+        GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj");
     const geom::PolygonMesh dae = read_mesh(exported("collada", "head.dae"));
     EXPECT_EQ(dae.group_names, obj.group_names);
@@ -122,7 +124,8 @@ TEST(MeshFormats, AHeadComesThroughColladaWithGroupsAndQuads) {
 }
 
 TEST(MeshFormats, AHeadComesThroughFbxInMetres) {
-    if (!fs::exists(kMakeHuman)) GTEST_SKIP();
+    if (!fs::exists(kMakeHuman))
+        GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     // The exporter states UnitScaleFactor 1, that is centimetres, which is what this head is in.
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj", {.metres_per_unit = 0.01});
     const geom::PolygonMesh fbx = read_mesh(exported("fbxa", "head.fbx"));
@@ -134,7 +137,8 @@ TEST(MeshFormats, AHeadComesThroughFbxInMetres) {
 }
 
 TEST(MeshFormats, AHeadComesThroughBinaryPlyAndStl) {
-    if (!fs::exists(kMakeHuman)) GTEST_SKIP();
+    if (!fs::exists(kMakeHuman))
+        GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj");
     const geom::PolygonMesh ply = read_mesh(exported("plyb", "head.ply"));
     EXPECT_EQ(ply.face_begin, obj.face_begin);

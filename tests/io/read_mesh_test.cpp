@@ -58,19 +58,19 @@ void expect_file_order(const fs::path& file, int vertices, int faces) {
 
 TEST(ReadMesh, KeepsTheVertexOrderOfTheIctObj) {
     const fs::path file = kHeads / "ict" / "ict_neutral.obj";
-    if (!fs::exists(file)) GTEST_SKIP();
+    if (!fs::exists(file)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     expect_file_order(file, 26719, 26384);
 }
 
 TEST(ReadMesh, KeepsTheVertexOrderOfTheMakeHumanObj) {
     const fs::path file = kHeads / "makehuman" / "mh_head.obj";
-    if (!fs::exists(file)) GTEST_SKIP();
+    if (!fs::exists(file)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     expect_file_order(file, 6082, 5906);
 }
 
 TEST(ReadMesh, KeepsTheSeventeenRegionsOfTheIctHead) {
     const fs::path file = kHeads / "ict" / "ict_neutral.obj";
-    if (!fs::exists(file)) GTEST_SKIP();
+    if (!fs::exists(file)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const geom::PolygonMesh mesh = read_mesh(file, {.metres_per_unit = 0.01});
     ASSERT_EQ(mesh.group_names.size(), 17u);
 
@@ -102,7 +102,7 @@ TEST(ReadMesh, KeepsTheSeventeenRegionsOfTheIctHead) {
 
 TEST(ReadMesh, ReadsTheIctHeadWellUnderASecond) {
     const fs::path file = kHeads / "ict" / "ict_neutral.obj";
-    if (!fs::exists(file)) GTEST_SKIP();
+    if (!fs::exists(file)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const auto start = std::chrono::steady_clock::now();
     const geom::PolygonMesh mesh = read_mesh(file);
     const double seconds =
@@ -113,7 +113,7 @@ TEST(ReadMesh, ReadsTheIctHeadWellUnderASecond) {
 }
 
 TEST(ReadMesh, TheSkinOfEachHeadPassesTheChecks) {
-    if (!fs::exists(kHeads)) GTEST_SKIP();
+    if (!fs::exists(kHeads)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const auto check = [](const fs::path& file, const std::vector<std::string>& groups) {
         const geom::PolygonMesh mesh = read_mesh(file, {.metres_per_unit = 0.01});
         geom::MeshCheckOptions options{.metres_per_unit = 0.01};

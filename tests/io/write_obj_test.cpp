@@ -63,7 +63,7 @@ TEST(WriteObj, WritesTheUnitAskedFor) {
 TEST(WriteObj, KeepsARealHeadThroughARoundTrip) {
     const fs::path head =
         fs::path(RISORIUS_SHARED_DIR) / "data" / "heads" / "makehuman" / "mh_head.obj";
-    if (!fs::exists(head)) GTEST_SKIP();
+    if (!fs::exists(head)) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const geom::PolygonMesh mesh = read_mesh(head);
     write_obj(mesh, scratch("head.obj"));
     expect_same(read_mesh(scratch("head.obj")), mesh);

@@ -122,7 +122,7 @@ class MeasuredHeadTest : public ::testing::Test {
   protected:
     void SetUp() override {
         if (!std::filesystem::exists(kFolder / "ict_neutral.obj"))
-            GTEST_SKIP() << "no scanned head beside the project";
+            GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
         head_ = read_head();
         pose_.positions = head_.scene.rest;
     }

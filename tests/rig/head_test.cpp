@@ -207,7 +207,7 @@ TEST(MissingLandmarks, TheRequiredTwentyAreEnough) {
 
 TEST(MeasuredHeads, TheScannedMeanHeadIsPlaced) {
     const auto test = ict_head();
-    if (!test) GTEST_SKIP() << "the ICT head is not in the shared folder";
+    if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const Head head = place_head(test->rig, test->mesh, "ict");
     EXPECT_NEAR(head.size, 1.0, 0.03);  // the atlas was measured on this head
     EXPECT_LT(head.frame.residual_m, 5e-3);
@@ -237,7 +237,7 @@ TEST(MeasuredHeads, TheScannedMeanHeadIsPlaced) {
 
 TEST(MeasuredHeads, TeethOfOneGroupPartAtTheBite) {
     const auto test = ict_head();
-    if (!test) GTEST_SKIP() << "the ICT head is not in the shared folder";
+    if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const Head head = place_head(test->rig, test->mesh, "ict");
     double up = 0, down = 0;
     int upper = 0, lower = 0;
@@ -253,7 +253,7 @@ TEST(MeasuredHeads, TeethOfOneGroupPartAtTheBite) {
 
 TEST(MeasuredHeads, TheModelledHeadIsPlaced) {
     const auto test = makehuman_head();
-    if (!test) GTEST_SKIP() << "the MakeHuman head is not in the shared folder";
+    if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     const Head head = place_head(test->rig, test->mesh, "makehuman");
     EXPECT_NEAR(head.size, 1.0, 0.15);
     EXPECT_LT(head.frame.residual_m, 8e-3);

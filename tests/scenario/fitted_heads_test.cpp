@@ -76,7 +76,7 @@ class FittedHead : public testing::TestWithParam<HeadFiles> {
     }
     void SetUp() override {
         if (!fs::exists(fs::path(RISORIUS_SHARED_DIR) / GetParam().mesh))
-            GTEST_SKIP() << "needs " << GetParam().mesh;
+            GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
         auto& head = heads()[GetParam().name];
         if (!head) head = std::make_unique<Fitted>(GetParam());
         fitted = head.get();

@@ -247,7 +247,7 @@ TEST(SkinBinding, CarriesTheLiningOfTheMouthBetweenSkullAndJaw) {
 
 TEST(MeasuredHeads, MakeSoundTissueToo) {
     const auto ict = rig::ict_head(), makehuman = rig::makehuman_head();
-    if (!ict && !makehuman) GTEST_SKIP() << "the measured heads are not in the shared folder";
+    if (!ict && !makehuman) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     for (const auto& test : {ict, makehuman}) {
         if (!test) continue;
         const Tissue tissue(*test, 800);
