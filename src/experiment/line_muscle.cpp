@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiment/muscle_runs.h"
 #include "muscle/equilibrium.h"
 
 namespace risorius::experiment {
@@ -28,6 +29,32 @@ double cos_pennation(const body::MuscleDescription& muscle, double fibre_length)
 
 double line_tension(const body::MuscleDescription& muscle, double length, double activation) {
     return equilibrium_at(muscle, length, activation).force_n / muscle.musculotendon.f0_n;
+}
+
+double line_tension_in_matrix(const body::MuscleDescription& muscle, double volume_m3,
+                              double length, double activation) {
+    const muscle::MuscleParameters& p = muscle.musculotendon;
+    const muscle::MuscleCurves curves = muscle::make_curves(p.curves);
+    const double belly = normalised_length(muscle, 0);
+    const double thickness = std::sin(p.pennation_deg * std::numbers::pi / 180);
+    const double stiffness =
+        muscle.moduli.mu_pa * volume_m3 / (belly * p.optimal_length_m * p.f0_n);
+    // At a span of the belly over l0
+    const auto pull = [&](double span) {
+        const double l = std::hypot(span, thickness), s = span / belly;
+        return (activation * curves.active.value(l) + curves.passive.value(l)) * span / l +
+               stiffness * (s * (s * s - 1) - (1 / s - 1) / (s * s));
+    };
+    const auto tendon = [&](double span) {
+        return curves.tendon.value((length - span) * p.optimal_length_m / p.tendon_slack_m);
+    };
+    if (!(pull(length) > 0)) return 0;  // tendons do not push
+    double low = 0, high = length;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double span = (low + high) / 2;
+        (pull(span) > tendon(span) ? high : low) = span;
+    }
+    return tendon(high);
 }
 
 double line_fibre_length(const body::MuscleDescription& muscle, double length, double activation) {

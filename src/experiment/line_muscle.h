@@ -9,6 +9,11 @@ namespace risorius::experiment {
 /// Isometric tension over F0 at a normalised length (muscle_runs.h).
 double line_tension(const body::MuscleDescription& muscle, double length, double activation);
 
+/// The same with a matrix of cells of that volume beside the fibre: stretched by s along, by 1 / sqrt(s) across,
+/// mu/4 |C - 1|^2 pulls with mu [s (s^2 - 1) - (1/s - 1) / s^2] of the section at rest.
+double line_tension_in_matrix(const body::MuscleDescription& muscle, double volume_m3,
+                              double length, double activation);
+
 /// Fibre length over l0 in that equilibrium.
 double line_fibre_length(const body::MuscleDescription& muscle, double length, double activation);
 

@@ -154,6 +154,20 @@ TensionCurves line_curves(const StaticsPlan& plan, const MuscleRun& run) {
     return line;
 }
 
+/// Greatest distance of total and passive tension from fibre and matrix side by side and their tendon.
+double matrix_error(const StaticsPlan& plan, const MuscleRun& run, const TensionCurves& solid) {
+    const double volume_m3 = StillMuscle(run.muscle, 0).rest_volume_m3();
+    double worst = 0;
+    for (std::size_t i = 0; i < plan.lengths.size(); ++i) {
+        const auto off = [&](double tension, double activation) {
+            return std::abs(tension - line_tension_in_matrix(run.muscle, volume_m3, plan.lengths[i],
+                                                             activation));
+        };
+        worst = std::max({worst, off(solid.total[i], plan.activation), off(solid.passive[i], 0)});
+    }
+    return worst;
+}
+
 /// Measures a run and tabulates it.
 TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const StaticsResult& result,
                       Outcome& outcome) {
@@ -186,6 +200,9 @@ TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const Stati
     outcome.figure.tables.push_back(std::move(table));
     const TensionPeak peak = peak_of(plan.lengths, solid.active, plan.range_above_peak);
     measured.add("line_error_f0/" + run.name, "F0", worst);
+    if (run.muscle.discretisation == body::Discretisation::kCells &&
+        run.muscle.musculotendon.tendon == muscle::TendonModel::kElastic)
+        measured.add("matrix_error_f0/" + run.name, "F0", matrix_error(plan, run, solid));
     measured.add("peak_f0/" + run.name, "F0", peak.force_f0);
     measured.add("peak_length/" + run.name, "", peak.length);
     measured.add("range/" + run.name, "l0", peak.range);

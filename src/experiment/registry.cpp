@@ -61,7 +61,7 @@ const std::vector<Figure>& figures() {
         {"9a", "Change of the sum of volume elements", "volume-history", 18},
         {"9b", "Change of volume", "volume-history", 18},
         {"10", "Muscle at rest, and shortened and activated", "muscle-statics", 1},
-        {"11a", "Zajac's tension-length experiment", "muscle-statics", 5},
+        {"11a", "Zajac's tension-length experiment", "muscle-statics", 10},
         {"11b", "Quick release after Gasser and Hill", "muscle-history", 6},
         {"12a", "Longest stable step of explicit methods over damping", "stable-step", 12},
         {"12b", "Longest stable step of explicit methods over the nodes of a muscle",

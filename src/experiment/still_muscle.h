@@ -27,6 +27,7 @@ class StillMuscle {
 
     /// Brought to rest at a normalised length (muscle_runs.h), from where it was.
     Still at(double length);
+    double rest_volume_m3() const { return rest_volume_; }
     /// As it lies now.
     Shape shape(const std::string& name, const std::string& caption) const;
 

@@ -90,7 +90,7 @@ Musculotendon::Musculotendon(const MuscleParameters& parameters, MuscleCurves cu
             throw Error(place + "/tendon_slack_m", "(0, inf) of elastic tendons",
                         format_number(slack_m_[side(end)].minCoeff()));
     for (const End end : kEnds) {
-        if (!anchor(end).is_plane()) continue;
+        if (!anchored(end) || !anchor(end).is_plane()) continue;
         if (!elastic(end))
             throw Error(place + "/tendon", "\"elastic\" between planes", "\"rigid\"");
         guide_[side(end)] = PlaneGuide(anchor(end).rest, anchor(end).normal,

@@ -14,9 +14,9 @@
 // Ends: an end without anchor points is free: what the muscle runs into, such as skin, holds its nodes. A closed grid, a
 // sphincter, has M N O fibres and no ends; l0 and s are then once round. Of one anchored end lTs is that end's alone.
 //
-// At a plane lT is the distance of the tendon's node from it, and the tendon pulls along its normal alone: a belly may narrow and
-// swell up to its ends. What drift and turn along the plane that leaves free, F0 / l0 holds weakly (detail/plane_guide.h).
-// At points of a plate tendons incline as the belly swells, and press its ends together.
+// At a plane lT is the distance of the tendon's node from it, and the tendon pulls along its normal alone: a belly may
+// narrow and swell up to its ends. Drift and turn along the plane, which that leaves free, F0 / l0 holds weakly
+// (detail/plane_guide.h). At points of a plate tendons incline as the belly swells, and press its ends together.
 //
 // Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then
 // points of the anchor, no unknowns: the system has to hold those nodes (tied_nodes) and move them (place_tied), the
@@ -92,9 +92,9 @@ class Musculotendon final : public solve::ForceTerm {
     Points anchor_points(End end, double t_s) const;  ///< N O x 3, m; no rows of a free end
     /// Where the tendons meet the anchor: its points, or the feet of the nodes on its plane. N O x 3, m.
     Points tendon_feet(End end, double t_s, const Points& x) const;
-    /// What each tendon pulls its anchor with, N O x 3, N; and their sum. Of a plane with what holds the end beside it, so that
-    /// torques are those of forces in the nodes. Of rigid tendons: the outermost fibres at rest; the belly's own stress in tied
-    /// nodes comes on top.
+    /// What each tendon pulls its anchor with, N O x 3, N; and their sum. Of a plane with what holds the end before it:
+    /// torques are those of forces in the nodes. Of rigid tendons: the outermost fibres at rest; the belly's own stress in
+    /// tied nodes comes on top.
     Points anchor_forces(End end, double t_s, const Points& x) const;
     Vec3 anchor_pull(End end, double t_s, const Points& x) const;
 

@@ -27,9 +27,10 @@ TEST(MuscleFiles, WhatIsWrongWithLengthsAndRunsIsNamed) {
               "mine.json (differences):/muscle/moduli/bulk_pa: expected [0, inf), found -1");
     EXPECT_EQ(message_of_change("11a", "/muscle/grid", "null"),
               "mine.json (cells):/muscle/grid: expected an array, found null");
-    EXPECT_EQ(message_of_change("11a", "/muscle/insertion", R"("free")"),
-              "mine.json (cells):/muscle: expected a straight belly between two plates, found "
-              "another");
+    EXPECT_EQ(
+        message_of_change("11a", "/muscle/insertion", R"("free")"),
+        "mine.json (differences):/muscle: expected a straight belly between two plates, found "
+        "another");
     EXPECT_EQ(message_of_change("10", "/pictures/0/run", R"("cell")"),
               "mine.json:/pictures/0/run: expected one of \"cells\", found \"cell\"");
     EXPECT_EQ(message_of_change("pennation", "/runs/1/at", R"("5")"),

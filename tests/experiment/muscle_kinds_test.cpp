@@ -39,6 +39,14 @@ TEST(MuscleStatics, ASlenderMuscleHasTheTensionOfOneFibreAndItsTendon) {
     EXPECT_EQ(table_of(figure, "tension_slender").rows.size(), 5u);
 }
 
+TEST(MuscleStatics, BetweenPlanesAMuscleIsFibreAndMatrixSideBySideAndItsTendon) {
+    Json json = coarse("11a", {"cells"});
+    json["lengths"] = {0.5, 0.7, 1, 1.2, 1.5};
+    const FigureResult figure = run(json);
+    EXPECT_LT(measured(figure, "matrix_error_f0/cells"), 5e-4);
+    EXPECT_GT(measured(figure, "line_error_f0/cells"), 0.02) << "without the matrix";
+}
+
 TEST(MuscleStatics, AShortenedMuscleIsDrawnBetweenItsPlates) {
     const FigureResult figure = run(coarse("10", {"cells"}));
     ASSERT_EQ(figure.shapes.size(), 2u);
