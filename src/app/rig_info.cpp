@@ -36,6 +36,8 @@ Json muscles_of(const rig::RigDescription& rig) {
                    {"group", muscle.group},   {"paired", muscle.paired},
                    {"action", muscle.action}, {"min", muscle.tonic ? -1.0 : 0.0},
                    {"bands", bands}};
+        if (muscle.group == "jaw" || muscle.group == "hyoid")
+            entry["moves_jaw"] = true;  // when a script says "jaw": "muscles"
         if (bands > 0) {
             entry["force_n"] = force_n;
             entry["strength"] = strength;

@@ -42,10 +42,14 @@ bool is_ring(const MuscleDescription& d) {
 
 MuscleEnd read_end(const JsonCursor& json, const MuscleDescription& d) {
     if (is_ring(d)) json.fail("no end of a ring");
-    if (json.is_string())
-        return {.hold = json.one_of({"plate", "free"}) == "free" ? MuscleEnd::Hold::kFree
-                                                                 : MuscleEnd::Hold::kPlate};
-    if (!json.is_object()) json.fail("\"plate\", \"free\" or {\"points_m\": [[..], ..]}");
+    if (json.is_string()) {
+        const std::string hold = json.one_of({"plate", "plane", "free"});
+        return {.hold = hold == "free"    ? MuscleEnd::Hold::kFree
+                        : hold == "plane" ? MuscleEnd::Hold::kPlane
+                                          : MuscleEnd::Hold::kPlate};
+    }
+    if (!json.is_object())
+        json.fail("\"plate\", \"plane\", \"free\" or {\"points_m\": [[..], ..]}");
     json.allow_keys({"points_m"});
     const std::vector<JsonCursor> rows = json.at("points_m").items();
     if (rows.empty()) json.at("points_m").fail("at least one point", "none");
@@ -64,7 +68,8 @@ muscle::Anchor anchor_of(const MuscleDescription& d, muscle::End end, const Poin
         return muscle::bone_anchor(end, d.grid, rest, here.points_m);
     const double away_m =
         d.musculotendon.tendon_slack_m / (there.hold == MuscleEnd::Hold::kFree ? 1 : 2);
-    return muscle::planar_anchor(end, d.grid, rest, away_m);
+    return here.hold == MuscleEnd::Hold::kPlane ? muscle::plane_anchor(end, d.grid, rest, away_m)
+                                                : muscle::planar_anchor(end, d.grid, rest, away_m);
 }
 
 /// Masses of the belly's cells on their corners.

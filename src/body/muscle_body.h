@@ -13,6 +13,9 @@
 //    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
 //    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free", "bed_n_per_m": 500
 //
+// Tendons end in points of a "plate", which keep the distances they have at rest; on a "plane", as far away, they stand square
+// wherever the belly's end goes as it swells.
+//
 // Field names are the keys.
 #pragma once
 
@@ -31,7 +34,7 @@ namespace risorius::body {
 
 /// How an end of a muscle is held.
 struct MuscleEnd {
-    enum class Hold { kPlate, kBone, kFree };  ///< "plate", {"points_m"}, "free"
+    enum class Hold { kPlate, kPlane, kBone, kFree };  ///< "plate", "plane", {"points_m"}, "free"
     Hold hold = Hold::kPlate;
     Points points_m = {};  ///< of the bone, muscle::bone_anchor
 };

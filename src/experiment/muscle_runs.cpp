@@ -84,7 +84,8 @@ std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                                         const std::vector<std::string_view>& more_keys) {
     std::vector<MuscleRun> runs = read_runs_of_any_muscle(experiment, more_keys);
     const auto is_held = [](const body::MuscleEnd& end) {
-        return end.hold == body::MuscleEnd::Hold::kPlate;
+        return end.hold == body::MuscleEnd::Hold::kPlate ||
+               end.hold == body::MuscleEnd::Hold::kPlane;
     };
     for (const MuscleRun& run : runs)
         if (!(belly_length_m(run.muscle) > 0) || !is_held(run.muscle.origin) ||
@@ -132,7 +133,7 @@ Shape muscle_shape(const body::MuscleBody& muscle, double t_s, const Points& x,
                 .fixed = {}};
     for (const muscle::End end : {muscle::End::kOrigin, muscle::End::kInsertion}) {
         if (!muscle.musculotendon->anchored(end)) continue;
-        const Points plate = muscle.musculotendon->anchor_points(end, t_s);
+        const Points plate = muscle.musculotendon->tendon_feet(end, t_s, x);
         const auto first = static_cast<int>(shape.positions.rows());
         shape.positions.conservativeResize(first + chains, 3);
         shape.positions.bottomRows(chains) = plate;

@@ -25,6 +25,12 @@ Anchor planar_anchor(End end, const tissue::GridShape& grid, const Points& rest,
     return {.rest = points};
 }
 
+Anchor plane_anchor(End end, const tissue::GridShape& grid, const Points& rest, double away_m) {
+    Anchor anchor = planar_anchor(end, grid, rest, away_m);
+    anchor.normal = outward_at(end, grid, rest);
+    return anchor;
+}
+
 Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m) {
     return {planar_anchor(End::kOrigin, grid, rest, tendon_slack_m / 2),
             planar_anchor(End::kInsertion, grid, rest, tendon_slack_m / 2)};

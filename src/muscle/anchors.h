@@ -1,4 +1,4 @@
-// What the ends of a muscle are tied to: plates across them, points of bones, or nothing.
+// What the ends of a muscle are tied to: points of plates across them, planes, points of bones, or nothing.
 #pragma once
 
 #include <functional>
@@ -16,6 +16,12 @@ struct Anchor {
     std::function<Rigid(double t_s)> motion =
         {};                        ///< of the plate from rest; empty: it stands still
     Eigen::VectorXd slack_m = {};  ///< of each tendon; empty: lTs shared by the anchored ends
+    /// Zero: tendons end in the points. Otherwise of length 1, out of the belly: tendons stand square on planes through
+    /// the points, wherever their nodes are beside them.
+    Vec3 normal = Vec3::Zero();
+
+    bool is_plane() const { return !normal.isZero(); }
+    Rigid at(double t_s) const { return motion ? motion(t_s) : Rigid::Identity(); }
 };
 
 struct Anchors {
@@ -26,7 +32,9 @@ struct Anchors {
 Vec3 outward_at(End end, const tissue::GridShape& grid, const Points& rest);
 /// A plate across an end of a belly at rest, so far away along outward_at.
 Anchor planar_anchor(End end, const tissue::GridShape& grid, const Points& rest, double away_m);
-/// Both, half the slack length away.
+/// The same plate as a plane.
+Anchor plane_anchor(End end, const tissue::GridShape& grid, const Points& rest, double away_m);
+/// Both of points, half the slack length away.
 Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m);
 /// Tendons, slack at rest, to points of a bone: one for all, one per chain (N O), or a line that is shared out evenly over
 /// the width a2. Throws std::invalid_argument without points.

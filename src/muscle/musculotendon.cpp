@@ -86,9 +86,16 @@ Musculotendon::Musculotendon(const MuscleParameters& parameters, MuscleCurves cu
         throw std::invalid_argument("Musculotendon: the rest shape is not that of the grid");
     set_slack();
     for (const End end : kEnds)
-        if (elastic(end) && !(slack_m_[end == End::kOrigin ? 0 : 1].minCoeff() > 0))
+        if (elastic(end) && !(slack_m_[side(end)].minCoeff() > 0))
             throw Error(place + "/tendon_slack_m", "(0, inf) of elastic tendons",
-                        format_number(slack_m_[end == End::kOrigin ? 0 : 1].minCoeff()));
+                        format_number(slack_m_[side(end)].minCoeff()));
+    for (const End end : kEnds) {
+        if (!anchor(end).is_plane()) continue;
+        if (!elastic(end))
+            throw Error(place + "/tendon", "\"elastic\" between planes", "\"rigid\"");
+        guide_[side(end)] = PlaneGuide(anchor(end).rest, anchor(end).normal,
+                                       parameters.f0_n / parameters.optimal_length_m);
+    }
     for (int c = 0; c < chains(); ++c)
         for (const int m : {0, grid.m - 1})
             tied_rest_[m == 0 ? 0 : 1].push_back(rest.row(node(m, c)).transpose());
@@ -115,7 +122,7 @@ void Musculotendon::set_slack() {
         const Anchor& a = anchor(end);
         if (a.rest.rows() != chains() || (a.slack_m.size() > 0 && a.slack_m.size() != chains()))
             throw std::invalid_argument("Musculotendon: an anchor needs one point per chain");
-        slack_m_[end == End::kOrigin ? 0 : 1] =
+        slack_m_[side(end)] =
             a.slack_m.size() > 0
                 ? a.slack_m
                 : Eigen::VectorXd::Constant(chains(), parameters_.tendon_slack_m / ends);
@@ -138,7 +145,7 @@ void Musculotendon::place_tied(double t_s, Points& x, Points& v) const {
         if (!anchored(end)) continue;
         const auto& motion = anchor(end).motion;
         for (int c = 0; c < chains(); ++c) {
-            const Vec3& rest = tied_rest_[end == End::kOrigin ? 0 : 1][static_cast<std::size_t>(c)];
+            const Vec3& rest = tied_rest_[side(end)][static_cast<std::size_t>(c)];
             const int i = tendon_node(end, c);
             x.row(i) = (motion ? Vec3(motion(t_s) * rest) : rest).transpose();
             v.row(i).setZero();
@@ -170,16 +177,32 @@ Musculotendon::Line Musculotendon::fibre(const Points& x, int m, int chain) cons
     return line(x.row(node(m, chain)), x.row(next_node(m, chain)), segment(m, chain).thickness_m);
 }
 
-Musculotendon::Line Musculotendon::tendon(const Points& x, const Points& plate, End end,
+Musculotendon::Line Musculotendon::tendon(const Points& x, const Plate& plate, End end,
                                           int chain) const {
-    return line(x.row(tendon_node(end, chain)), plate.row(chain), 0);
+    const Vec3 from = x.row(tendon_node(end, chain)), to = plate.points.row(chain);
+    if (!anchor(end).is_plane()) return line(from, to, 0);
+    const double distance = plate.normal.dot(to - from);
+    return {.direction = plate.normal, .span = distance, .length = distance, .slope = 1};
 }
 
-Points Musculotendon::anchor_points(End end, double t_s) const {
+Musculotendon::Plate Musculotendon::plate(End end, double t_s) const {
     const Anchor& a = anchor(end);
-    if (!a.motion || !anchored(end)) return a.rest;
-    const Rigid motion = a.motion(t_s);
-    return (a.rest * motion.linear().transpose()).rowwise() + motion.translation().transpose();
+    if (!a.motion || !anchored(end)) return {a.rest, a.normal};
+    const Rigid now = a.motion(t_s);
+    return {(a.rest * now.linear().transpose()).rowwise() + now.translation().transpose(),
+            now.linear() * a.normal};
+}
+
+Points Musculotendon::anchor_points(End end, double t_s) const { return plate(end, t_s).points; }
+
+Points Musculotendon::tendon_feet(End end, double t_s, const Points& x) const {
+    Plate now = plate(end, t_s);
+    if (!anchored(end) || !anchor(end).is_plane()) return now.points;
+    for (int c = 0; c < chains(); ++c) {
+        const Line t = tendon(x, now, end, c);
+        now.points.row(c) = x.row(tendon_node(end, c)) + t.span * t.direction.transpose();
+    }
+    return now.points;
 }
 
 double Musculotendon::mean_stretch(const Points& x, int chain) const {
@@ -222,11 +245,13 @@ double Musculotendon::tendon_energy(double t_s, const Points& x) const {
     double energy = 0;
     for (const End end : kEnds) {
         if (!elastic(end)) continue;
-        const Points points = anchor_points(end, t_s);
+        const Plate now = plate(end, t_s);
+        if (anchor(end).is_plane())
+            energy += guide_[side(end)].energy(anchor(end).at(t_s), x, tendon_node(end, 0));
         for (int c = 0; c < chains(); ++c) {
             const double slack = slack_m(end, c);
             energy += chain_force_n_ * slack *
-                      curves_.tendon.at(tendon(x, points, end, c).span / slack - 1).integral;
+                      curves_.tendon.at(tendon(x, now, end, c).span / slack - 1).integral;
         }
     }
     return energy;
@@ -318,16 +343,19 @@ void Musculotendon::add_hessian(const ImplicitStep& step, const Points& x, Curva
     }
     for (const End end : kEnds) {
         if (!elastic(end)) continue;
-        const Points points = anchor_points(end, step.end_s);
+        const Plate now = plate(end, step.end_s);
+        const bool plane = anchor(end).is_plane();
+        if (plane)
+            guide_[side(end)].add_hessian(anchor(end).at(step.end_s), tendon_node(end, 0), hessian);
         for (int c = 0; c < chains(); ++c) {
-            const Line t = tendon(x, points, end, c);
+            const Line t = tendon(x, now, end, c);
             const double slack = slack_m(end, c);
             const Curve::Value tension = curves_.tendon.at(t.span / slack - 1);
             if (tension.value == 0) continue;
             const int i = tendon_node(end, c);
             hessian.add(i, i,
                         line_block(t.direction, chain_force_n_ * tension.slope / slack,
-                                   chain_force_n_ * tension.value / t.span, curvature));
+                                   plane ? 0 : chain_force_n_ * tension.value / t.span, curvature));
         }
     }
 }
@@ -361,8 +389,9 @@ void Musculotendon::add_metric(double step_s, solve::MetricBuilder& metric) cons
         const double stiffest = curves_.tendon.at(1).slope;  // far beyond its toe
         for (const End end : kEnds)
             if (elastic(end))
-                metric.add_diagonal(tendon_node(end, chain),
-                                    chain_force_n_ / slack_m(end, chain) * stiffest);
+                metric.add_diagonal(
+                    tendon_node(end, chain),
+                    chain_force_n_ / slack_m(end, chain) * stiffest + guide_[side(end)].stiffest());
     }
 }
 
@@ -385,12 +414,14 @@ Points Musculotendon::anchor_forces(End end, double t_s, const Points& x) const 
         }
         return forces;
     }
-    const Points points = anchor_points(end, t_s);
+    const Plate now = plate(end, t_s);
     for (int c = 0; c < chains(); ++c) {
-        const Line t = tendon(x, points, end, c);
+        const Line t = tendon(x, now, end, c);
         const double tension = chain_force_n_ * curves_.tendon.value(t.span / slack_m(end, c) - 1);
         forces.row(c) = -tension * t.direction.transpose();
     }
+    if (anchor(end).is_plane())
+        forces -= guide_[side(end)].forces(anchor(end).at(t_s), x, tendon_node(end, 0));
     return forces;
 }
 

@@ -14,6 +14,10 @@
 // Ends: an end without anchor points is free: what the muscle runs into, such as skin, holds its nodes. A closed grid, a
 // sphincter, has M N O fibres and no ends; l0 and s are then once round. Of one anchored end lTs is that end's alone.
 //
+// At a plane lT is the distance of the tendon's node from it, and the tendon pulls along its normal alone: a belly may narrow and
+// swell up to its ends. What drift and turn along the plane that leaves free, F0 / l0 holds weakly (detail/plane_guide.h).
+// At points of a plate tendons incline as the belly swells, and press its ends together.
+//
 // Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then
 // points of the anchor, no unknowns: the system has to hold those nodes (tied_nodes) and move them (place_tied), the
 // fibre length is that of the path from anchor to anchor less lTs, and the outermost fibres pull on the anchor itself.
@@ -29,6 +33,7 @@
 #include "core/json_cursor.h"
 #include "muscle/anchors.h"
 #include "muscle/curve_sets.h"
+#include "muscle/detail/plane_guide.h"
 #include "muscle/muscle_curves.h"
 #include "solve/force_term.h"
 #include "tissue/solid_material.h"
@@ -59,7 +64,7 @@ using ActivationAt = std::function<double(double t_s)>;
 class Musculotendon final : public solve::ForceTerm {
   public:
     /// Nodes are those of the grid; `rest` tells how segments share l0, by their lengths. Throws Error for parameters
-    /// outside their ranges (named below `place`), an elastic tendon without length among them, and std::invalid_argument
+    /// outside their ranges (named below `place`), an elastic tendon without length and a rigid one on a plane among them, and std::invalid_argument
     /// for arrays of wrong size, a segment without length or a ring with anchors.
     Musculotendon(const MuscleParameters& parameters, MuscleCurves curves,
                   const tissue::GridShape& grid, const Points& rest, Anchors anchors,
@@ -85,8 +90,11 @@ class Musculotendon final : public solve::ForceTerm {
 
     bool anchored(End end) const { return anchor(end).rest.rows() > 0; }
     Points anchor_points(End end, double t_s) const;  ///< N O x 3, m; no rows of a free end
-    /// What each tendon pulls its point of the anchor with, N O x 3, N; and their sum. Of rigid tendons: the outermost
-    /// fibres at rest; the belly's own stress in tied nodes comes on top.
+    /// Where the tendons meet the anchor: its points, or the feet of the nodes on its plane. N O x 3, m.
+    Points tendon_feet(End end, double t_s, const Points& x) const;
+    /// What each tendon pulls its anchor with, N O x 3, N; and their sum. Of a plane with what holds the end beside it, so that
+    /// torques are those of forces in the nodes. Of rigid tendons: the outermost fibres at rest; the belly's own stress in tied
+    /// nodes comes on top.
     Points anchor_forces(End end, double t_s, const Points& x) const;
     Vec3 anchor_pull(End end, double t_s, const Points& x) const;
 
@@ -124,9 +132,8 @@ class Musculotendon final : public solve::ForceTerm {
     bool elastic(End end) const {
         return parameters_.tendon == TendonModel::kElastic && anchored(end);
     }
-    double slack_m(End end, int chain) const {
-        return slack_m_[end == End::kOrigin ? 0 : 1][chain];
-    }
+    static std::size_t side(End end) { return end == End::kOrigin ? 0 : 1; }
+    double slack_m(End end, int chain) const { return slack_m_[side(end)][chain]; }
     int segments_along() const { return grid_.cells(0); }
     int node(int m, int chain) const { return m * chains() + chain; }
     int next_node(int m, int chain) const { return node(grid_.next(m), chain); }
@@ -138,8 +145,15 @@ class Musculotendon final : public solve::ForceTerm {
         return segments_[static_cast<std::size_t>(node(m, chain))];
     }
     static Line line(const Vec3& from, const Vec3& to, double thickness_m);
-    /// From its node of the belly to its point of the anchor.
-    Line tendon(const Points& x, const Points& plate, End end, int chain) const;
+    /// Of an end as its anchor lies.
+    struct Plate {
+        Points points;
+        Vec3 normal;  ///< zero of points
+    };
+    Plate plate(End end, double t_s) const;
+    /// From its node of the belly to its point of the anchor or its foot on the plane, whose distance is its span, negative
+    /// beyond the plane.
+    Line tendon(const Points& x, const Plate& plate, End end, int chain) const;
     Line fibre(const Points& x, int m, int chain) const;
     double mean_stretch(const Points& x, int chain) const;
     Active active(const solve::ImplicitStep& step, const Points& x, int chain) const;
@@ -160,6 +174,7 @@ class Musculotendon final : public solve::ForceTerm {
     double chain_force_n_;            ///< F0 / (N O)
     Eigen::VectorXd slack_m_[2];      ///< of the tendons at either end, per chain
     Eigen::VectorXd optimal_m_;       ///< l0 of each chain
+    PlaneGuide guide_[2];             ///< of the ends at planes
     std::vector<Vec3> tied_rest_[2];  ///< nodes of the belly at either end
     std::vector<Segment> segments_;
 };

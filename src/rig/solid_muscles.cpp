@@ -1,5 +1,6 @@
 #include "rig/solid_muscles.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace risorius::rig {
@@ -55,11 +56,12 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
 }
 
 Json solid_muscles_json(const std::vector<SolidMuscle>& solids) {
+    const auto mm = [](double metres) { return std::round(1e9 * metres) / 1e6; };
     Json out = Json::object();
     for (const SolidMuscle& solid : solids)
         out[solid.muscle] = {{"strength", solid.strength},
-                             {"width_mm", 1e3 * solid.width_m},
-                             {"thickness_mm", 1e3 * solid.thickness_m},
+                             {"width_mm", mm(solid.width_m)},
+                             {"thickness_mm", mm(solid.thickness_m)},
                              {"ends", solid.ends},
                              {"cells", solid.cells},
                              {"shear_pa", solid.shear_pa},

@@ -168,8 +168,9 @@ void MuscleStraps::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Hea
             const double piece = 0.0371 * static_cast<double>(straps_.size());
             fibre.row(i * ring_size(size) + k) << along,
                 piece + 0.5 * size.across(j) * size.width_m;
+            // Origins are fleshier than insertions.
             const double from =
-                bone_ends[0] * (1 - smoothstep(0.5 * tendon_m, 1.5 * tendon_m, along));
+                bone_ends[0] * (1 - smoothstep(0.2 * tendon_m, 0.8 * tendon_m, along));
             const double to = bone_ends[1] * (1 - smoothstep(0.5 * tendon_m, 1.5 * tendon_m,
                                                              size.length_m - along));
             tendon.push_back(std::max(from, to));

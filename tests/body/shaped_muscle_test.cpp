@@ -220,7 +220,8 @@ TEST(ShapedMuscle, ShapesAndEndsAreReadFromJson) {
     json = described();
     json["insertion"] = "loose";
     EXPECT_EQ(message(json),
-              "head.json:/muscle/insertion: expected one of \"plate\" \"free\", found \"loose\"");
+              "head.json:/muscle/insertion: expected one of \"plate\" \"plane\" \"free\", found "
+              "\"loose\"");
     json = described();
     json.erase("insertion");
     json["musculotendon"].erase("tendon_slack_m");

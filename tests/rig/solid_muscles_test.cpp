@@ -50,10 +50,10 @@ TEST(SolidMuscles, MistakesAreNamedWithWhatWasExpected) {
         message_of(R"({"maseter_superficial": {}})"),
         "rig.json:/maseter_superficial: expected a muscle of the table of muscles (did you mean "
         "\"masseter_superficial\"?), found \"maseter_superficial\"");
-    EXPECT_EQ(
-        message_of(R"({"mentalis": {"strenght": 1}})"),
-        "rig.json:/mentalis/strenght: expected a known key (did you mean \"strength\"?), found "
-        "\"strenght\"");
+    EXPECT_EQ(message_of(R"({"mentalis": {"strenght": 1}})"),
+              "rig.json:/mentalis/strenght: expected a known key (did you mean \"strength\"?), "
+              "found unknown key "
+              "\"strenght\"");
     EXPECT_EQ(
         message_of(R"({"mentalis": {"ends": [1]}})"),
         "rig.json:/mentalis/ends: expected two ratios, of the origin and the insertion, found [1]");

@@ -273,7 +273,8 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     const app::RunRecord bitten = app::animate(options);
     EXPECT_TRUE(bitten.warnings.empty());
     EXPECT_EQ(bitten.jaw, "muscles");
-    EXPECT_GT(bitten.greatest_bite_n, 20);  // half of one deep masseter, 82 N in the table
+    // Half of one deep masseter, 82 N in the table, near the hinge; at rest teeth touch with 5 N.
+    EXPECT_GT(bitten.greatest_bite_n, 12);
 }
 
 TEST(Render, AnInterruptedRunLeavesNothing) {

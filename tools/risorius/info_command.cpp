@@ -32,6 +32,8 @@ void print_rig(const Json& info) {
         const char* sides = muscle["paired"].get<bool>() ? ".l .r" : "";
         std::printf("  %-40s %-5s  %-7s", text(muscle["id"]).c_str(), sides,
                     text(muscle["group"]).c_str());
+        if (muscle.contains("moves_jaw"))
+            std::printf("  moves the jaw in scripts with \"jaw\": \"muscles\"");
         if (muscle.contains("force_n"))
             std::printf("  %5.1f N x %.2f", muscle["force_n"].get<double>(),
                         muscle["strength"].get<double>());
