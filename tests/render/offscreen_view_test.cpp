@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -113,41 +114,44 @@ TEST(OffscreenView, TwoViewsShareAThread) {
 }
 
 TEST(OffscreenView, AProjectedPointIsWhereItIsDrawn) {
-    // One small triangle well in front of a head of the same size in every camera
-    for (const std::string& camera : camera_names())
-        for (const Vec3& centre : {Vec3(0.06, 0.11, 0.05), Vec3(-0.05, -0.12, 0.03)}) {
-            RoundHead head;
-            Surface& mark = head.scene.surfaces.back();
-            mark.material = Material::kTeeth;
-            mark.triangles.resize(8, 3);
+    // Two small octahedra well in front of a head of the same size in every camera
+    const std::array<Vec3, 2> centres = {Vec3(0.06, 0.11, 0.05), Vec3(-0.05, -0.12, 0.03)};
+    for (const std::string& camera : camera_names()) {
+        RoundHead head;
+        Surface& mark = head.scene.surfaces.back();
+        mark.material = Material::kTeeth;
+        mark.triangles.resize(16, 3);
+        int face = 0;
+        for (const Vec3& centre : centres) {
             const auto first = static_cast<int>(head.scene.rest.rows());
             head.scene.rest.conservativeResize(first + 6, 3);
             const double r = 0.004;
             head.scene.rest.bottomRows(6) << r, 0, 0, -r, 0, 0, 0, r, 0, 0, -r, 0, 0, 0, r, 0, 0,
                 -r;
             head.scene.rest.bottomRows(6).rowwise() += centre.transpose();
-            int face = 0;
             for (const int x : {0, 1})
                 for (const int y : {2, 3})
-                    for (const int z : {4, 5})
-                        mark.triangles.row(face++) << first + x, first + y, first + z;
-            for (int f = 0; f < 8; ++f) {  // counter-clockwise from outside
-                const Vec3 a = head.scene.rest.row(mark.triangles(f, 0)),
-                           b = head.scene.rest.row(mark.triangles(f, 1)),
-                           c = head.scene.rest.row(mark.triangles(f, 2));
-                if ((a - centre).dot((b - centre).cross(c - centre)) < 0)
-                    std::swap(mark.triangles(f, 1), mark.triangles(f, 2));
-            }
-            head.scene.surfaces.front().triangles.conservativeResize(
-                1, 3);  // next to no head in the way
-            head.scene.surfaces[1].triangles.resize(0, 3);
-            head.scene.surfaces[2].triangles.resize(0, 3);
-            head.pose.positions = head.scene.rest;
-            ViewOptions options = small(camera);
-            options.background.transparent = true;
-            options.height_px = 256;
-            OffscreenView view(head.scene, options);
-            const Image image = view.draw(head.pose);
+                    for (const int z : {4, 5}) {  // counter-clockwise from outside
+                        mark.triangles.row(face) << first + x, first + y, first + z;
+                        const Vec3 a = head.scene.rest.row(first + x),
+                                   b = head.scene.rest.row(first + y),
+                                   c = head.scene.rest.row(first + z);
+                        if ((a - centre).dot((b - centre).cross(c - centre)) < 0)
+                            std::swap(mark.triangles(face, 1), mark.triangles(face, 2));
+                        ++face;
+                    }
+        }
+        head.scene.surfaces.front().triangles.conservativeResize(1,
+                                                                 3);  // next to no head in the way
+        head.scene.surfaces[1].triangles.resize(0, 3);
+        head.scene.surfaces[2].triangles.resize(0, 3);
+        head.pose.positions = head.scene.rest;
+        ViewOptions options = small(camera);
+        options.background.transparent = true;
+        options.height_px = 256;
+        OffscreenView view(head.scene, options);
+        const Image image = view.draw(head.pose);
+        for (const Vec3& centre : centres) {
             Vec2 sum = Vec2::Zero();
             double weight = 0;
             const Vec2 expected = view.project(centre);
@@ -162,10 +166,12 @@ TEST(OffscreenView, AProjectedPointIsWhereItIsDrawn) {
             // An octahedron is symmetric about its centre; perspective moves the mean by far less than this.
             EXPECT_NEAR((sum / weight - expected).norm(), 0, 0.25) << camera;
         }
+    }
 }
 
-TEST(OffscreenView, EveryCameraStandsAMetreAwayAtLeastAndSeesTheWholeHead) {
+TEST(OffscreenView, EveryCameraStandsAMetreAwaySeesTheWholeHeadAndMirrorsItsCounterpart) {
     RoundHead head;
+    std::map<std::string, Vec2> shown;  // a place in the cameras of the right its mirror image
     for (const std::string& camera : camera_names()) {
         OffscreenView view(head.scene, small(camera));
         for (const Vec3& p : {Vec3(0, 0.1, 0), Vec3(0, -0.1, 0), Vec3(0.1, 0, 0), Vec3(0, 0, 0.1),
@@ -180,16 +186,13 @@ TEST(OffscreenView, EveryCameraStandsAMetreAwayAtLeastAndSeesTheWholeHead) {
         const double far =
             (view.project(Vec3(0, 0.01, -0.07)) - view.project(Vec3(0, 0, -0.07))).norm();
         EXPECT_LT(near / far, 1.07 / 0.93) << camera;
+        shown[camera] = view.project(Vec3(camera.ends_with("_right") ? -0.03 : 0.03, 0.02, 0.09));
     }
-}
-
-TEST(OffscreenView, MirroredCamerasShowMirroredPlaces) {
-    RoundHead head;
-    OffscreenView left(head.scene, small("three_quarter")),
-        right(head.scene, small("three_quarter_right"));
-    const Vec2 a = left.project(Vec3(0.03, 0.02, 0.09)), b = right.project(Vec3(-0.03, 0.02, 0.09));
-    EXPECT_NEAR(a.x(), 192 - b.x(), 1e-9);
-    EXPECT_NEAR(a.y(), b.y(), 1e-9);
+    for (const char* left : {"three_quarter", "profile"}) {
+        const Vec2 a = shown.at(left), b = shown.at(left + std::string("_right"));
+        EXPECT_NEAR(a.x(), 192 - b.x(), 1e-9) << left;
+        EXPECT_NEAR(a.y(), b.y(), 1e-9) << left;
+    }
 }
 
 TEST(OffscreenView, TheBackgroundKeepsItsColourExactly) {
