@@ -12,11 +12,6 @@ namespace {
 using Body = rig::PathPoint::Body;
 
 constexpr double kDamping = 0.05;  // b
-// Against the force of the table, which takes 40 N/cm2 throughout: with that much incisors would bite with 540 N, and with this
-// they do with 350; 150 to 400 are measured.
-constexpr double kForceShare = 0.65;
-// Relaxed jaw muscles hardly resist: 1.5 % of F0 at half as long again (Peck et al. 2000), else no jaw could open wide.
-constexpr double kPassiveStrain = 2.0;
 
 Vec3 place_of(const JawMuscle::Point& point, const JawPose& pose, const Vec3& hyoid) {
     if (point.body == Body::kMandible) return pose.motion * point.rest;
@@ -44,7 +39,7 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
     out.id = muscle.id;
     out.side = side;
     out.column = column;
-    out.f0_n = kForceShare * muscle.force_n * head.size * head.size;
+    out.f0_n = kJawForceShare * muscle.force_n * head.size * head.size;
     const rig::MusclePath path =
         side == Side::kLeft ? muscle.paths.front() : rig::mirrored(muscle.paths.front());
     for (const rig::PathPoint& point : path) {
@@ -70,7 +65,7 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
 
 JawMuscles::JawMuscles(const rig::Head& head, const rig::RigDescription& rig,
                        const std::set<std::string>& without)
-    : curves_(muscle::zajac_curves({.passive_strain = kPassiveStrain})) {
+    : curves_(muscle::zajac_curves({.passive_strain = kJawPassiveStrain})) {
     const track::ChannelTable channels = rig.channels();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
         if ((muscle.group != "jaw" && muscle.group != "hyoid") || muscle.paths.empty() ||

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/jaw_muscles.h"
+
 namespace risorius::sim {
 
 namespace {
@@ -84,7 +86,8 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
         const rig::Muscle& muscle = *place.muscle;
         const double fibre_m = muscle.rest_stretch * muscle.optimal_length_m;
         muscle::ZajacShape curves;
-        if (muscle.group == "mimetic") curves.passive_strain = rig.tissue.fibre_passive_strain;
+        curves.passive_strain =
+            muscle.group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
         const double count = static_cast<double>(chains.size());
         part.chains = std::make_unique<muscle::ChainSet>(
             std::move(chains), part.rest,

@@ -112,7 +112,7 @@ class MuscleSolids {
         double solid_weight[8];
         int solid_count;
         double stiffness_n_per_m;
-        Vec3 apart_at_rest;  ///< small, of nodes a little outside the tissue
+        Vec3 apart_at_rest = Vec3::Zero();  ///< small, of nodes a little outside the tissue
     };
     /// Parts that share nodes, with their part of the preconditioner: of the step in which it was last made.
     struct Group {

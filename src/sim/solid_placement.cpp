@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rig/muscle_path.h"
+#include "sim/jaw_muscles.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -131,8 +132,8 @@ class Placer {
     }
 
     double force_of(const rig::SolidMuscle& solid, const rig::Muscle& muscle) const {
-        // The scale makes up for what holds mimetic muscles back; the jaw's are published as they are.
-        const double scale = muscle.group == "mimetic" ? rig_.tissue.force_scale : 1.0;
+        // The scale makes up for what holds mimetic muscles back; the jaw's are those that its lines have.
+        const double scale = muscle.group == "mimetic" ? rig_.tissue.force_scale : kJawForceShare;
         return muscle.force_n * solid.strength * scale * head_.size * head_.size;
     }
 
