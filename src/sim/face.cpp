@@ -173,8 +173,9 @@ struct Face::Impl {
             const auto reach = [&](double open, double forward, double side) {
                 return jaw_joint.place(jaw.motion(open, forward, side));
             };
+            // Groups are found with lines for all muscles: what a solid does in their place is about the same
             jaw_synergies.emplace(
-                *jaw_dynamics, channels,
+                JawDynamics(head, rig), channels,
                 JawSynergies::Ranges{reach(1, 0, 0).open_m, reach(0, 1, 0).forward_m,
                                      reach(0, 0, 1).side_m},
                 tissue.ride_stiffness(kStaticStep_s));

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
-constexpr double kSettling_s = 0.1;  // steps this long seek rest, not motion
-
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -218,7 +216,7 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     energy += tethers_->add_energy(x, gradient);
     energy += fibres_->add_energy(x, activation, gradient);
     solids_pull_ = {};
-    energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
+    if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
     energy += contacts_.add_energy(x, gradient);
     energy += air_.add_energy(x, gradient);
     return energy;

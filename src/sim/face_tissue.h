@@ -35,6 +35,9 @@
 
 namespace risorius::sim {
 
+/// Steps this long seek rest, not motion.
+inline constexpr double kSettling_s = 0.1;
+
 struct StepFigures {
     int iterations = 0;
     int evaluations = 0;
@@ -144,6 +147,7 @@ class FaceTissue {
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids
     MusclePlacement muscles_;
+    bool solids_relaxed_ = false;  // riding is measured on what gives way at once
     std::optional<muscle::FibreSet> fibres_;
     ContactSearch search_;
     tissue::Contacts contacts_;

@@ -95,6 +95,8 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     find_contacts(rest);
     solids_->begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
+    // Solids hardly change volume: before they have found their shape they look far stiffer than a held jaw finds them
+    solids_relaxed_ = h >= kSettling_s;
     for (int k = 0; k < kMandibleCoordinates; ++k) {
         // Opening and forwards only: the other way, teeth and eminence are in the way
         const JawPose pose = jaw.joint().pose(kDifference_m * JawVector::Unit(k));
@@ -105,6 +107,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
         stiffness.col(k) =
             along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
     }
+    solids_relaxed_ = false;
     prescribe({});
     const Eigen::SelfAdjointEigenSolver<JawMatrix> parts(0.5 * (stiffness + stiffness.transpose()));
     stiffness = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() *

@@ -37,9 +37,9 @@ JawDynamics::MassPoints JawDynamics::still() {
 }
 
 JawDynamics::JawDynamics(const rig::Head& head, const rig::RigDescription& rig,
-                         const std::set<std::string>& without)
+                         const std::set<std::string>& solids)
     : joint_(head, rig.jaw),
-      muscles_(head, rig, without),
+      muscles_(head, rig, solids),
       hyoid_at_full_opening_(head.mm(1.0) * kHyoidAtFullOpening_mm),
       columns_(rig.channels().column_count()) {
     // Six equal masses on the axes, as far out as gives the moments of inertia
@@ -86,6 +86,8 @@ JawDynamics::MassPoints JawDynamics::mass_points(const JawPose& pose, const JawV
 
 Eigen::VectorXd JawDynamics::with_tone(const Eigen::VectorXd& activation) const {
     Eigen::VectorXd out = activation;
+    for (const JawMuscle& muscle : muscles_.list())
+        if (muscle.tone_only) out[muscle.column] = 0;
     for (const int column : tonic_columns_) out[column] = std::min(1.0, out[column] + kTone);
     return out;
 }

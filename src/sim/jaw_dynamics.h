@@ -35,9 +35,9 @@ struct JawLoad {
 
 class JawDynamics {
   public:
-    /// Muscles named in `without` are left out: something else pulls in their place.
+    /// Muscles named in `solids` keep only their tone: something else pulls in their place.
     JawDynamics(const rig::Head& head, const rig::RigDescription& rig,
-                const std::set<std::string>& without = {});
+                const std::set<std::string>& solids = {});
 
     static constexpr int kMassPoints = 7;  ///< the last one is the hyoid
     using MassPoints = std::array<Vec3, kMassPoints>;

