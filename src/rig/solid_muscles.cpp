@@ -2,12 +2,16 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 namespace risorius::rig {
 
 namespace {
 
 constexpr int kMostCells = 32;
+constexpr std::pair<std::string_view, std::string_view> kRing{"orbicularis_oris_upper_peripheral",
+                                                              "orbicularis_oris_lower_peripheral"};
 
 const Muscle& muscle_named(const JsonCursor& json, const std::string& id,
                            const MuscleTable& table) {
@@ -29,6 +33,9 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
     for (const std::string& id : json.keys()) {
         const JsonCursor item = json.at(id);
         const Muscle& muscle = muscle_named(item, id, table);
+        if (muscle.group != "mimetic" && muscle.group != "jaw")
+            item.fail("a muscle of the face or the jaw",
+                      "\"" + id + "\", of the group " + muscle.group);
         if (muscle.paths.empty()) item.fail("a muscle with a path", "\"" + id + "\"");
         item.allow_keys(
             {"strength", "width_mm", "thickness_mm", "ends", "cells", "shear_pa", "volume_pa"});
@@ -52,6 +59,10 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
         if (const auto v = item.find("volume_pa")) solid.volume_pa = v->number({1, 1e10});
         out.push_back(solid);
     }
+    for (const auto& [half, other] : {kRing, std::pair{kRing.second, kRing.first}})
+        if (json.has(half) && !json.has(other))
+            json.at(half).fail("the other half of the ring, \"" + std::string(other) + "\", too",
+                               "this half alone");
     return out;
 }
 

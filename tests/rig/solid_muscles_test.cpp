@@ -59,6 +59,12 @@ TEST(SolidMuscles, MistakesAreNamedWithWhatWasExpected) {
         "rig.json:/mentalis/ends: expected two ratios, of the origin and the insertion, found [1]");
     EXPECT_EQ(message_of(R"({"mentalis": {"volume_pa": 0}})"),
               "rig.json:/mentalis/volume_pa: expected [1, 1e+10], found 0");
+    EXPECT_EQ(message_of(R"({"levator_palpebrae_superioris": {}})"),
+              "rig.json:/levator_palpebrae_superioris: expected a muscle of the face or the jaw, "
+              "found \"levator_palpebrae_superioris\", of the group lid");
+    EXPECT_EQ(message_of(R"({"orbicularis_oris_lower_peripheral": {}})"),
+              "rig.json:/orbicularis_oris_lower_peripheral: expected the other half of the ring, "
+              "\"orbicularis_oris_upper_peripheral\", too, found this half alone");
 }
 
 }  // namespace
