@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "muscle/activation.h"
 #include "sim/face_tissue.h"
@@ -370,6 +371,10 @@ Face::~Face() = default;
 Face::Face(Face&&) noexcept = default;
 
 void Face::drive_jaw_by(track::JawDrive by) { impl_->drive_jaw_by(by); }
+void Face::set_bite_block(double height_m) {
+    if (!impl_->jaw_dynamics) throw std::logic_error("a bite block in a jaw that channels place");
+    impl_->jaw_dynamics->joint().set_bite_block(height_m);
+}
 
 track::Drive Face::driven(track::Drive drive) const {
     drive.excitation = impl_->with_jaw(drive.excitation, drive);

@@ -58,6 +58,9 @@ class Face {
 
     /// What moves the jaw, from the next start() or settle() on. At first its channels do.
     void drive_jaw_by(track::JawDrive by);
+    /// A rigid block between the incisors, as high as it holds them apart; 0 takes it away. Only for a jaw driven by muscles, and
+    /// to be put in while it is open.
+    void set_bite_block(double height_m);
     /// The drive as the muscles get it: with what the jaw's channels ask of them, when muscles move it.
     track::Drive driven(track::Drive drive) const;
 

@@ -54,6 +54,25 @@ TEST(JawInFace, OpensByMostOfItsRangeAndClosesWhenLetGo) {
     EXPECT_LT(std::abs(shut.jaw.open_m), 0.5e-3);
 }
 
+track::Drive closers() {
+    track::Drive drive = neutral();
+    for (const char* muscle : {"masseter_superficial", "masseter_deep", "temporalis_anterior",
+                               "temporalis_middle", "temporalis_posterior", "pterygoid_medial"})
+        drive = with_muscle(muscle, 1.0, std::nullopt, drive);
+    return drive;
+}
+
+TEST(JawInFace, BitesWithTheForceOfIncisors) {
+    // 150-400 N on a block, some of the closers being volume muscles
+    pose_after(24, openers());
+    chewing().set_bite_block(10e-3);
+    const double force = pose_after(40, closers(), false).tooth_force_n;
+    chewing().set_bite_block(0);
+    EXPECT_GT(force, 150);
+    EXPECT_LT(force, 400);
+    RecordProperty("force_n", std::to_string(force));
+}
+
 TEST(JawInFace, TheTissueHoldsItBack) {
     // A few hundredths of activation open a bare jaw by 20 mm; skin and flesh leave less than half of that.
     track::Drive drive = openers();
