@@ -444,6 +444,7 @@ int Face::dropped_tets() const { return impl_->mesh.dropped_tets; }
 int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().fibres().size()); }
 double Face::build_s() const { return impl_->build_s; }
 const rig::Head& Face::head() const { return impl_->head; }
+const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {

@@ -94,6 +94,8 @@ class Face {
     int fibre_count() const;
     double build_s() const;  ///< wall time of the construction, for benchmarks
     const rig::Head& head() const;
+    /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
+    const Triangles& simulated_skin() const;
     const std::vector<StepFigures>& history() const;  ///< of every step since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
