@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/fit_activations.h"
 #include "app/landmark_points.h"
 #include "app/measured_shapes.h"
 #include "app/rig_files.h"
@@ -152,6 +153,14 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
         one.table.vertices = face.pose().vertices;
         one.table.inverted_tets = face.inverted_tets();
         one.table.score = score(one.table.vertices - rest, shape.displacement, area, landmarks);
+        if (options.fit) {
+            Attempt& fitted = one.fitted.emplace();
+            const auto unknowns = activation_unknowns(files.rig, shape.drive, shape.sided);
+            fitted.drive = fit_activations(face, unknowns, shape.displacement, area, shape.drive);
+            fitted.vertices = face.pose().vertices;
+            fitted.inverted_tets = face.inverted_tets();
+            fitted.score = score(fitted.vertices - rest, shape.displacement, area, landmarks);
+        }
         out.expressions.push_back(std::move(one));
     }
     if (folder) {

@@ -8,30 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/expression_drive.h"
 #include "core/error.h"
 #include "core/json_cursor.h"
 
 namespace risorius::app {
 
 namespace {
-
-struct SidedShape {
-    std::string base;
-    std::optional<Side> side;
-};
-
-SidedShape split_shape(const std::string& name) {
-    for (const auto& [ending, side] : {std::pair{"_L", Side::kLeft},
-                                       {"_R", Side::kRight},
-                                       {"Left", Side::kLeft},
-                                       {"Right", Side::kRight}}) {
-        const std::string_view tail(ending);
-        // mouthLeft is a direction of its own: what has no other side is taken whole by the caller
-        if (name.size() > tail.size() && name.ends_with(tail))
-            return {name.substr(0, name.size() - tail.size()), side};
-    }
-    return {name, std::nullopt};
-}
 
 // The raw numbers, checked.
 std::vector<float> read_numbers(const JsonCursor& json, std::size_t count) {
@@ -54,72 +37,27 @@ std::vector<float> read_numbers(const JsonCursor& json, std::size_t count) {
     return numbers;
 }
 
+// The file's own "excitations" come before the rig's tables.
 class Drives {
   public:
     Drives(const rig::RigDescription& rig, const JsonCursor& json)
         : rig_(rig), channels_(rig.channels()), json_(json) {}
 
     track::Expansion of(const std::string& name) const {
-        track::Expansion out = track::Expansion::none(channels_);
         if (const auto table = json_.find("excitations"))
             if (const auto given = table->find(name)) {
+                track::Expansion out = track::Expansion::none(channels_);
                 for (const std::string& source : given->keys()) add(*given, source, out);
                 return out;
             }
-        const SidedShape shape = split_shape(name);
-        const auto add_arkit = [&](const std::string& arkit) {
-            const track::ArkitShape* found = rig_.facs.find_arkit(arkit);
-            if (found) out.add(track::expand(*found, rig_.facs, channels_), 1.0);
-            return found != nullptr;
-        };
-        if (add_arkit(name)) return out;
-        if (shape.side && add_arkit(shape.base + (*shape.side == Side::kLeft ? "Left" : "Right")))
-            return out;
-        if (shape.side && add_arkit(shape.base)) return one_side(out, *shape.side);
-        if (add_arkit(name + "Left") && add_arkit(name + "Right")) return out;
-        const track::SidedName unit = track::split_side(name);
-        if (const track::ActionUnit* found = rig_.facs.find(unit.id)) {
-            out.add(track::expand(*found, unit.side, channels_), 1.0);
-            return out;
-        }
-        if (const track::Expression* found = rig_.expressions.find(name)) {
-            for (const track::ExpressionUnit& part : found->units)
-                out.add(track::expand(*rig_.facs.find(part.use.unit), part.use.side, channels_),
-                        part.use.value);
-            return out;
-        }
+        if (const auto known = expansion_named(rig_, name)) return *known;
         json_.at("names").fail(
             "names of ARKit shapes, action units or expressions of the rig, or \"excitations\" for "
             "the others",
             "\"" + name + "\"");
     }
 
-    track::Drive clamped(const track::Expansion& sum) const {
-        track::Drive drive;
-        drive.excitation = sum.excitation.cwiseMax(channels_.column_min()).cwiseMin(1.0);
-        for (int k = 0; k < track::kKinematicCount; ++k) {
-            const track::KinematicChannel& channel =
-                track::kinematic_channels()[static_cast<std::size_t>(k)];
-            drive.kinematic[static_cast<std::size_t>(k)] =
-                std::clamp(sum.kinematic[static_cast<std::size_t>(k)], channel.min, channel.max);
-        }
-        return drive;
-    }
-
   private:
-    // Of what has sides that side, of the rest half.
-    track::Expansion one_side(track::Expansion whole, Side side) const {
-        for (const track::MuscleChannel& muscle : channels_.muscles) {
-            const int left = channels_.column(muscle.id, Side::kLeft),
-                      right = channels_.column(muscle.id, Side::kRight);
-            if (left == right)
-                whole.excitation[left] *= 0.5;
-            else
-                whole.excitation[side == Side::kLeft ? right : left] = 0;
-        }
-        for (double& value : whole.kinematic) value *= 0.5;
-        return whole;
-    }
     void add(const JsonCursor& given, const std::string& source, track::Expansion& out) const {
         const JsonCursor at = given.at(source);
         const double value = at.number();
@@ -224,7 +162,7 @@ std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& fil
             if (!at) json.at("on_top_of").fail("a name of the list", "\"" + *other + "\"");
             take(*other, *at);
         }
-        one.drive = drives.clamped(sum);
+        one.drive = clamped_drive(sum, rig.channels());
         out.push_back(std::move(one));
     }
     for (const std::string& wanted : options.only)

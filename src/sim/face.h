@@ -16,6 +16,7 @@
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
+#include "sim/shell.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -113,6 +114,7 @@ class Face {
     const rig::Head& head() const;
     /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
     const Triangles& simulated_skin() const;
+    const Shell& shell() const;
     const std::vector<StepFigures>& history() const;  ///< of every step since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
@@ -128,6 +130,21 @@ class Face {
     Points rest_skin_nodes() const;
     double kinetic_energy_j() const;
     double tissue_volume_m3() const;  ///< signed, of all tets
+
+    /// The same skin, bone and mesh with other numbers of anatomy or tissue: what changes with them, at the same nodes.
+    /// `changed` must place as many muscles' fibres as it likes but keep landmarks, thickness and jaw.
+    class Variant {
+      public:
+        Variant(const Face& face, const rig::RigDescription& changed);
+        ~Variant();
+        /// dE/dx of everything but contact at given nodes, N; rows of fixed nodes are zero.
+        Points static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                               const track::Drive& drive);
+
+      private:
+        struct Parts;
+        std::unique_ptr<Parts> parts_;
+    };
 
   private:
     struct Impl;

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/compare_heads.h"
 #include "app/evaluate.h"
 #include "commands.h"
+#include "core/error.h"
 
 namespace risorius::cli {
 
@@ -13,8 +15,22 @@ namespace {
 struct EvaluateArguments {
     Common common;
     app::EvaluateOptions options;
+    std::filesystem::path like;
     bool no_pictures = false;
 };
+
+void print(const app::HeadComparison& comparison) {
+    std::printf(
+        "%s compared with %s: landmarks of brows, eyes, nose and lips, scaled by head size\n",
+        comparison.rig.c_str(), comparison.like.c_str());
+    std::printf("  %-20s %10s %7s %7s %6s  %s\n", "", "difference", "cosine", "length", "mm",
+                "most at");
+    for (const app::HeadDifference& one : comparison.expressions)
+        std::printf("  %-20s %10.3f %7.3f %7.2f %6.2f  %s\n", one.expression.c_str(),
+                    one.difference, one.cosine, one.length_ratio, one.landmark_mm,
+                    one.worst.c_str());
+    std::printf("  %-20s %10.3f\n", "mean", comparison.mean_difference());
+}
 
 void print_means(const char* what, const app::Evaluation& evaluation,
                  const std::vector<std::string>& names) {
@@ -66,7 +82,27 @@ void print(const app::Evaluation& evaluation, bool fit) {
         print_means("mean of the 24", evaluation, app::twenty_four_expressions());
 }
 
+void compare(EvaluateArguments& arguments) {
+    app::HeadComparison comparison;
+    {
+        ProgressBar bar(arguments.common);
+        comparison =
+            app::compare_heads(arguments.options.rig, arguments.like,
+                               arguments.options.only.empty() ? app::twenty_four_expressions()
+                                                              : arguments.options.only,
+                               arguments.options.quality, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", comparison.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(comparison);
+}
+
 void run(EvaluateArguments& arguments) {
+    if (arguments.options.shapes.empty() == arguments.like.empty())
+        throw Error("evaluate", "one of --shapes and --like",
+                    arguments.like.empty() ? "neither" : "both");
+    if (!arguments.like.empty()) return compare(arguments);
     arguments.options.pictures = !arguments.no_pictures;
     app::Evaluation evaluation;
     {
@@ -87,10 +123,11 @@ void add_evaluate(CLI::App& app) {
     auto arguments = std::make_shared<EvaluateArguments>();
     app::EvaluateOptions& options = arguments->options;
     command->add_option("RIG", options.rig, "The rig whose expressions are tried")->required();
-    command
-        ->add_option("--shapes", options.shapes,
-                     "Measured displacements of the same mesh's vertices, JSON beside raw numbers")
-        ->required();
+    command->add_option(
+        "--shapes", options.shapes,
+        "Measured displacements of the same mesh's vertices, JSON beside raw numbers");
+    command->add_option("--like", arguments->like,
+                        "Another rig, instead: do both heads make the same expressions?");
     command->add_option("-o,--out", options.out, "A folder for the report");
     command->add_option("--only", options.only, "Names of expressions; all when not given")
         ->delimiter(',');
