@@ -87,7 +87,7 @@ TEST(FaceStatics, SensitivitiesForetellSettledPoses) {
         const Points above = pose_at(step), below = pose_at(-step);
         const Points found = (above - below) / (2 * step);
         // Contact planes ride along, but do not follow the tissue that slides over them
-        EXPECT_LT((found - slopes[i]).norm(), 0.05 * found.norm()) << parameters[i].name;
+        EXPECT_LT((found - slopes[i]).norm(), 0.1 * found.norm()) << parameters[i].name;
     }
 }
 
