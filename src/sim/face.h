@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,22 @@ class Face {
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                        int iterations = 400);
+
+    /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
+    /// Nodes, n x 3, m: tissue, then volume muscles.
+    const Points& nodes() const;
+    /// Slope g of the static energy, N, at any nodes, activation and drive: zero in equilibrium and on nodes that are held.
+    Points static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                           const track::Drive& drive) const;
+    /// H^-1 b, H = dg/d(nodes). With b the slope of a number L by the nodes and p anything g hangs on, also a number of the rig:
+    /// dL/dp = - sum solve_static(b) * dg/dp.
+    Points solve_static(const Points& b);
+    /// Derivatives of all vertices, V x 3 each, m per unit: by activations of columns (the lids they move included), then by
+    /// kinematic channels. At the kink of a lid's levator the mean of both sides.
+    std::vector<Points> sensitivities(std::span<const int> columns,
+                                      std::span<const track::Kinematic> channels);
+    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held.
+    Points pull_back(const Points& vertex_gradient) const;
 
     FacePose pose() const;  ///< after the last step
     double time_s() const;

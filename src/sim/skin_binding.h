@@ -23,6 +23,9 @@ class SkinBinding {
     /// Adds the displacement of every skin vertex to `vertices` (V x 3). `shell_displacement` is N x 3.
     void apply(const Points& shell_displacement, const Rigid& mandible, Points& vertices) const;
 
+    /// The transpose: from a slope by the vertices to that by the shell's displacement, `shell_vertices` x 3.
+    Points pull_back(const Points& by_vertex, long shell_vertices) const;
+
     /// Binds another vertex (a lash) as the skin vertex `like`.
     void follow(int vertex, int like);
 
