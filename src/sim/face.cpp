@@ -606,10 +606,8 @@ Face::Variant::~Variant() = default;
 Points Face::Variant::static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
                                       const track::Drive& drive) {
     parts_->tissue.prescribe(parts_->face.prescribed(activation, drive));
-    Points gradient;
     parts_->tissue.begin_rest(nodes);
-    parts_->tissue.static_energy(nodes, activation, gradient);
-    return gradient;
+    return parts_->tissue.static_gradient(nodes, activation);
 }
 
 }  // namespace risorius::sim

@@ -101,6 +101,8 @@ class FaceTissue {
     /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
     const Rigid& mandible() const { return mandible_; }
+    /// dE/dx at rest in time, with the contacts found last; zero where nodes are fixed.
+    Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
 
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
     /// Of everything at rest: tissue, then the volume muscles. States have these rows.

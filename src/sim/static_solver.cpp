@@ -1,5 +1,6 @@
 #include "sim/static_solver.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +17,52 @@ constexpr double kLoose_n_per_m = 1e-6;
 // Farther from equilibrium the exact curvature is hardly ever positive.
 constexpr double kFar_m = 0.5e-3;
 constexpr double kGain = 0.2;  // a round that leaves more than this share of |B g| has B made anew
-constexpr double kTakingTurns = 0.7;  // of |B g| a round before, left by new planes
-constexpr double kLeastShare = 1.0 / 16;
+constexpr int kMixed = 5;      // rounds that Anderson's mixing looks back
+
+/// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
+/// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
+class FixedPoint {
+  public:
+    void forget() { rounds_.clear(); }
+
+    Points next(const Points& z, const Points& x) {
+        const double length = (x - z).norm();
+        if (!rounds_.empty() && !(length < kWorse * rounds_.back().length)) forget();
+        rounds_.push_back({x - z, x, length});
+        if (rounds_.size() > kMixed + 1) rounds_.erase(rounds_.begin());
+        const auto count = static_cast<int>(rounds_.size()) - 1;
+        if (count == 0) return x;
+        Eigen::MatrixXd products(count, count);
+        Eigen::VectorXd right(count);
+        const Round& last = rounds_.back();
+        std::vector<Points> change;
+        for (int i = 0; i < count; ++i)
+            change.push_back(last.move - rounds_[static_cast<std::size_t>(i)].move);
+        for (int i = 0; i < count; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            right[i] = solve::dot(change[at], last.move);
+            for (int j = 0; j <= i; ++j)
+                products(i, j) = products(j, i) =
+                    solve::dot(change[at], change[static_cast<std::size_t>(j)]);
+        }
+        constexpr double kRidge = 1e-12;
+        products.diagonal() += kRidge * products.diagonal();
+        const Eigen::VectorXd gamma = products.ldlt().solve(right);
+        Points out = x;
+        for (int i = 0; i < count; ++i)
+            if (std::isfinite(gamma[i]))
+                out -= gamma[i] * (last.to - rounds_[static_cast<std::size_t>(i)].to);
+        return out;
+    }
+
+  private:
+    static constexpr double kWorse = 2;
+    struct Round {
+        Points move, to;
+        double length;
+    };
+    std::vector<Round> rounds_;
+};
 
 }  // namespace
 
@@ -78,10 +123,10 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
     };
     const auto metric = [&](const Points& b, Points& y) { solve(b, y); };
     // Planes of contact depend on where they are searched. Sought where the tissue came to rest on the last ones, two sets of
-    // them may take turns for ever; `where` then follows x by a part of the way only.
+    // them may take turns for ever: the fixed point where = x(where) is found by Anderson's mixing instead.
     Points where = x;
+    FixedPoint fixed_point;
     solve::Curvature curvature = solve::Curvature::kPositive;
-    double share = 1, before = 0;
     bool solved = true;  // the last round, with the planes it had
     const auto left_at = [&] {
         energy(x, activation, gradient_);
@@ -99,10 +144,6 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         figures.converged =
             left <= options.tolerance_m && solve::longest_row(move_) <= options.tolerance_m;
         if (figures.converged || figures.iterations >= options.iterations) break;
-        if (solved && before > 0)
-            share = left > kTakingTurns * before ? std::max(0.5 * share, kLeastShare)
-                                                 : std::min(1.3 * share, 1.0);
-        before = left;
         const solve::StepReport report = search_.minimise(
             energy_at, metric, x,
             {.iterations = std::min(options.round, options.iterations - figures.iterations),
@@ -114,7 +155,8 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         const double still = left_at();
         solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
         curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
-        where += share * (x - where);
+        if (!solved) fixed_point.forget();
+        where = fixed_point.next(where, x);
     }
     figures.contact_depth_m = ContactSearch::deepest(tissue_.contacts().list(), x);
     figures.muscle_volume_error = tissue_.solids().greatest_volume_error(x);
