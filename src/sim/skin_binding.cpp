@@ -290,7 +290,10 @@ void SkinBinding::apply(const Points& shell_displacement, const Rigid& mandible,
     }
 }
 
-void SkinBinding::follow(int vertex, int like) { rows_[vertex] = rows_[like]; }
+void SkinBinding::follow(int vertex, int like) {
+    rows_[vertex] = rows_[like];
+    followers_.push_back({vertex, like});
+}
 
 std::vector<char> SkinBinding::moving() const {
     std::vector<char> out;
