@@ -50,7 +50,8 @@ std::vector<AtlasLandmark> read_atlas_landmarks(JsonCursor json) {
     for (const JsonCursor& item : json.at("landmarks").items()) {
         item.allow_keys({"id", "name", "side", "region", "xyz_mm", "core", "definition"});
         out.push_back({item.at("id").string(), item.at("name").string(),
-                       1e-3 * item.at("xyz_mm").vec3(), item.at("core").boolean()});
+                       1e-3 * item.at("xyz_mm").vec3(), item.at("core").boolean(),
+                       item.at("region").string()});
     }
     return out;
 }

@@ -19,6 +19,7 @@ struct AtlasLandmark {
     std::string name;
     Vec3 position;  ///< m
     bool core = true;
+    std::string region;  ///< brow, eye, nose, lip, cheek...
 };
 
 /// A thickness or stiffness sample: a landmark, or a point given beside one.

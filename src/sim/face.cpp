@@ -213,12 +213,16 @@ struct Face::Impl {
         return figures;
     }
 
+    Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
+        return {mandible(now.jaw.q, drive),
+                {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
+                drive.at(track::Kinematic::kMouthPressure)};
+    }
+
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
         tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
-        tissue.prescribe({mandible(now.jaw.q, drive),
-                          {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                          drive.at(track::Kinematic::kMouthPressure)});
+        tissue.prescribe(prescribed(activation, drive));
     }
 
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
@@ -449,6 +453,8 @@ int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().f
 double Face::build_s() const { return impl_->build_s; }
 const WrinkleLines& Face::wrinkle_lines() const { return impl_->skin->lines(); }
 const rig::Head& Face::head() const { return impl_->head; }
+const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
+const Shell& Face::shell() const { return impl_->shell; }
 const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
@@ -510,6 +516,23 @@ double Face::kinetic_energy_j() const {
     for (long i = 0; i < impl_->velocity.rows(); ++i)
         sum += 0.5 * impl_->tissue.mass()[i] * impl_->velocity.row(i).squaredNorm();
     return sum;
+}
+
+struct Face::Variant::Parts {
+    const Face::Impl& face;
+    rig::RigDescription rig;
+    FaceTissue tissue;
+    Parts(const Face::Impl& of, const rig::RigDescription& changed)
+        : face(of), rig(changed), tissue(of.head, rig, of.jaw, of.lids, of.shell, of.mesh) {}
+};
+Face::Variant::Variant(const Face& face, const rig::RigDescription& changed)
+    : parts_(std::make_unique<Parts>(*face.impl_, changed)) {}
+Face::Variant::~Variant() = default;
+
+Points Face::Variant::static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                                      const track::Drive& drive) {
+    parts_->tissue.prescribe(parts_->face.prescribed(activation, drive));
+    return parts_->tissue.static_gradient(nodes, activation);
 }
 
 }  // namespace risorius::sim

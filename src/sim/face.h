@@ -15,6 +15,7 @@
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
+#include "sim/shell.h"
 #include "sim/wrinkle_lines.h"
 #include "track/channels.h"
 
@@ -99,6 +100,9 @@ class Face {
     int fibre_count() const;
     double build_s() const;  ///< wall time of the construction, for benchmarks
     const rig::Head& head() const;
+    /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
+    const Triangles& simulated_skin() const;
+    const Shell& shell() const;
     const std::vector<StepFigures>& history() const;  ///< of every step since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
@@ -114,6 +118,21 @@ class Face {
     Points rest_skin_nodes() const;
     double kinetic_energy_j() const;
     double tissue_volume_m3() const;  ///< signed, of all tets
+
+    /// The same skin, bone and mesh with other numbers of anatomy or tissue: what changes with them, at the same nodes.
+    /// `changed` must place as many muscles' fibres as it likes but keep landmarks, thickness and jaw.
+    class Variant {
+      public:
+        Variant(const Face& face, const rig::RigDescription& changed);
+        ~Variant();
+        /// dE/dx of everything but contact at given nodes, N; rows of fixed nodes are zero.
+        Points static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                               const track::Drive& drive);
+
+      private:
+        struct Parts;
+        std::unique_ptr<Parts> parts_;
+    };
 
   private:
     struct Impl;

@@ -83,6 +83,9 @@ class FaceTissue {
                               const Eigen::VectorXd& activation,
                               const solve::QuasiNewtonOptions& options, Points& x);
 
+    /// dE/dx at rest in time, with the contacts found last; zero where nodes are fixed.
+    Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
+
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
     /// Of everything at rest: tissue, then the volume muscles. States have these rows.
     const Points& rest() const { return rest_; }
