@@ -35,6 +35,15 @@ std::string mirrored_landmark(const std::string& id) {
     return id;
 }
 
+MuscleBand mirrored(const MuscleBand& band) {
+    MuscleBand out = band;
+    for (BandPoint& point : out.points) {
+        point.landmark = mirrored_landmark(point.landmark);
+        point.offset.x() = -point.offset.x();
+    }
+    return out;
+}
+
 std::vector<AtlasLandmark> read_atlas_landmarks(JsonCursor json) {
     json.allow_keys({"source", "frame", "landmarks"});
     std::vector<AtlasLandmark> out;

@@ -74,5 +74,7 @@ std::vector<MuscleBand> read_muscle_bands(JsonCursor json);
 
 /// "ch_l" -> "ch_r" and back; midline ids are their own mirror.
 std::string mirrored_landmark(const std::string& id);
+/// The band of the right side.
+MuscleBand mirrored(const MuscleBand& band);
 
 }  // namespace risorius::rig

@@ -17,6 +17,7 @@
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
+#include "sim/skin_layer.h"
 #include "sim/tissue_mesh.h"
 #include "track/channels.h"
 
@@ -78,6 +79,7 @@ struct Face::Impl {
     TissueMesh mesh;
     FaceTissue tissue;
     std::optional<SkinBinding> binding;
+    std::optional<SkinLayer> skin;
     std::optional<Follow>
         follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
 
@@ -117,6 +119,7 @@ struct Face::Impl {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
+        skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),
             muscle::ActivationLaw{.form = rig.activation.law == "smooth"
@@ -416,6 +419,7 @@ struct Face::Impl {
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
+        out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
         const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
                                        out.head};
@@ -525,6 +529,7 @@ int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(imp
 int Face::dropped_tets() const { return impl_->mesh.dropped_tets; }
 int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().fibres().size()); }
 double Face::build_s() const { return impl_->build_s; }
+const WrinkleLines& Face::wrinkle_lines() const { return impl_->skin->lines(); }
 const rig::Head& Face::head() const { return impl_->head; }
 const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const Shell& Face::shell() const { return impl_->shell; }

@@ -17,6 +17,7 @@
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
 #include "sim/shell.h"
+#include "sim/wrinkle_lines.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -44,6 +45,7 @@ using DriveAt = std::function<track::Drive(double t_s)>;
 struct FacePose {
     Points vertices;                   ///< V x 3, m, the mesh's own order
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
+    Points fold_depth;  ///< V x 3 or no rows, m: of wrinkles finer than the mesh, see skin_layer.h
     Rigid head = Rigid::Identity();
     double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
     JawPlace jaw;
@@ -104,6 +106,9 @@ class Face {
     /// pose_at(t_s), with the head's own turn.
     const MuscleSurfaces& muscle_surfaces() const;
     Points muscle_vertices_at(double t_s) const;
+
+    /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
+    const WrinkleLines& wrinkle_lines() const;
 
     int node_count() const;
     int tet_count() const;
