@@ -91,7 +91,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
-    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &elements_})
+    for (GLuint* buffer :
+         {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &colour_buffer_, &elements_})
         glGenBuffers(1, buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
@@ -109,8 +110,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 }
 
 SceneBuffers::~SceneBuffers() {
-    const GLuint buffers[] = {moving_buffer_, fixed_buffer_, occlusion_buffer_, elements_};
-    glDeleteBuffers(4, buffers);
+    const GLuint buffers[] = {moving_buffer_, fixed_buffer_, occlusion_buffer_, colour_buffer_,
+                              elements_};
+    glDeleteBuffers(5, buffers);
     glDeleteVertexArrays(1, &array_);
 }
 
@@ -128,6 +130,12 @@ void SceneBuffers::upload(const Points& positions) {
         }
     glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(moving_), moving_.data(), GL_STREAM_DRAW);
+}
+
+void SceneBuffers::set_colours(const std::vector<float>& rgb) {
+    glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(rgb), rgb.data(), GL_STREAM_DRAW);
+    attribute(kColour, 3, 3, 0);
 }
 
 void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,

@@ -29,6 +29,7 @@ class SceneBuffers {
 
     void bind() const { glBindVertexArray(array_); }
     void upload(const Points& positions);
+    void set_colours(const std::vector<float>& rgb);  ///< linear, 3 per vertex
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
     void draw(const Batch& batch) const;
@@ -48,7 +49,8 @@ class SceneBuffers {
     std::vector<LashPlace> lashes_;
     std::vector<float> positions_, normals_, moving_;
     int index_count_ = 0;
-    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0, elements_ = 0;
+    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,
+           colour_buffer_ = 0, elements_ = 0;
 };
 
 }  // namespace risorius::render
