@@ -367,11 +367,11 @@ struct Face::Impl {
     }
 
     // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
-    Points pull_through(const FollowDrive& drive, const Points& skin, const Points& slope) const {
+    Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const {
         constexpr double kDifference_m = 1e-6;
         Points out(slope.rows(), 3);
         for (int k = 0; k < 3; ++k) {
-            Points above = skin, below = skin;
+            Points above = surface, below = surface;
             above.col(k).array() += kDifference_m;
             below.col(k).array() -= kDifference_m;
             follow->apply(drive, above);
