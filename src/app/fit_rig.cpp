@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/fit_landmarks.h"
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/rig_files.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kSmallestHead = 0.6, kLargestHead = 1.6;  // of an average adult
 constexpr double kLargestResidual_mm = 25;                 // people differ from the atlas by 4 to 8
-constexpr double kFarthestFromSkin_mm = 15;
 
 rig::RigDescription standard_rig(const fs::path& folder) {
     const auto table = [&](const char* name) { return JsonCursor::read_file(folder / name); };
@@ -31,64 +31,6 @@ rig::RigDescription standard_rig(const fs::path& folder) {
     rig.facs = track::read_facs(table("facs.json"), rig.channels());
     rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
     return rig;
-}
-
-std::string quoted_list(const std::vector<std::string>& ids) {
-    std::string out;
-    for (const std::string& id : ids) out += (out.empty() ? "\"" : " \"") + id + "\"";
-    return out;
-}
-
-// In mesh units.
-std::map<std::string, Vec3> checked_landmarks(const rig::RigDescription& rig,
-                                              const geom::PolygonMesh& mesh, const fs::path& file) {
-    const std::string place = file.string() + ":/landmarks";
-    std::map<std::string, Vec3> out;
-    for (const auto& [id, landmark] : rig.landmarks) {
-        if (landmark.vertex >= mesh.vertex_count())
-            throw Error(
-                place + "/" + id + "/vertex",
-                "a vertex of the mesh, in [0, " + std::to_string(mesh.vertex_count() - 1) + "]",
-                std::to_string(landmark.vertex));
-        out[id] = landmark.vertex >= 0 ? Vec3(mesh.positions.row(landmark.vertex).transpose())
-                                       : landmark.xyz;
-    }
-    std::vector<std::string> missing;
-    for (const std::string& id : rig::required_landmarks())
-        if (!out.count(id)) missing.push_back(id);
-    if (!missing.empty())
-        throw Error(place,
-                    "the " + std::to_string(rig::required_landmarks().size()) +
-                        " landmarks without which no head can be placed",
-                    "none for " + quoted_list(missing));
-    return out;
-}
-
-double unit_from_landmarks(const std::map<std::string, Vec3>& landmarks, const rig::Atlas& atlas) {
-    const double size = rig::find_head_frame(landmarks, atlas, 1.0).size;
-    double best = 1;
-    for (double unit : {1.0, 0.1, 0.01, 0.001, 0.0254, 0.3048})
-        if (std::abs(std::log(size * unit)) < std::abs(std::log(size * best))) best = unit;
-    return best;
-}
-
-// Left and right exchanged, or all in one place: mistakes that would only look like a wrong size below.
-void check_sides(const std::map<std::string, Vec3>& landmarks, const rig::Atlas& atlas,
-                 const FitOptions& options) {
-    const std::string place = options.landmarks.string() + ":/landmarks";
-    const Vec3& first = landmarks.begin()->second;
-    double widest = 0;
-    for (const auto& [id, p] : landmarks) widest = std::max(widest, (p - first).norm());
-    if (!(widest > 0)) throw Error(place, "landmarks in different places", "all in one");
-    std::map<std::string, Vec3> exchanged;
-    for (const auto& [id, p] : landmarks) exchanged[rig::mirrored_landmark(id)] = p;
-    const auto misfit = [&](const std::map<std::string, Vec3>& marks) {
-        const rig::HeadFrame frame = rig::find_head_frame(marks, atlas, 1.0);
-        return frame.residual_m / frame.size;
-    };
-    if (misfit(exchanged) < 0.5 * misfit(landmarks))
-        throw Error(place, "_l on the subject's left and _r on the right",
-                    "them the other way round");
 }
 
 void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
@@ -112,39 +54,6 @@ void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
                     format_number(std::round(residual_mm)) + " mm (are they those of this mesh?)");
 }
 
-void check_on_skin(const rig::Head& head, const std::map<std::string, Vec3>& landmarks,
-                   const FitOptions& options) {
-    for (const auto& [id, in_mesh] : landmarks) {
-        const Vec3 p = head.frame.to_head(in_mesh);
-        double least = 1e300;
-        for (long v = 0; v < head.vertices.rows(); ++v)
-            if (head.carrier[static_cast<std::size_t>(v)] == rig::Carrier::kSkin)
-                least = std::min(least, (head.vertices.row(v).transpose() - p).squaredNorm());
-        const double away_mm = 1e3 * std::sqrt(least) / head.size;
-        if (away_mm > kFarthestFromSkin_mm)
-            throw Error(options.landmarks.string() + ":/landmarks/" + id, "a point on the skin",
-                        "one " + format_number(std::round(away_mm)) + " mm away from it");
-    }
-}
-
-// Missing landmarks in the order of how many points of muscles are placed by them.
-std::vector<std::string> worth_giving(const rig::Head& head, const rig::Atlas& atlas) {
-    std::map<std::string, int> uses;
-    for (const rig::MuscleBand& band : atlas.bands)
-        for (const rig::BandPoint& point : band.points) {
-            ++uses[point.landmark];
-            const std::string other = rig::mirrored_landmark(point.landmark);
-            if (other != point.landmark) ++uses[other];
-        }
-    std::vector<std::string> out;
-    for (const std::string& id : head.warped_landmarks)
-        if (uses.count(id)) out.push_back(id);
-    std::stable_sort(out.begin(), out.end(), [&](const std::string& a, const std::string& b) {
-        return uses.at(a) > uses.at(b);
-    });
-    return out;
-}
-
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const Watch& watch) {
@@ -159,9 +68,8 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     rig.mesh_file = options.mesh;
     const geom::PolygonMesh mesh = io::read_mesh(options.mesh);
     rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
-    const std::map<std::string, Vec3> landmarks = checked_landmarks(rig, mesh, options.landmarks);
-
-    check_sides(landmarks, rig.atlas, options);
+    const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
+    check_sides(landmarks, rig.atlas, options.landmarks);
 
     // How large it is, and what its groups are
     FitReport report;
@@ -196,7 +104,9 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
 
     // Prove that a face can be built of it
     watch.tell(0, "building the face");
-    check_on_skin(rig::place_head(rig, mesh, options.out.string()), landmarks, options);
+    for (std::string& note : check_places(rig::place_head(rig, mesh, options.out.string()),
+                                          landmarks, rig.atlas, options.landmarks))
+        report.notes.push_back(std::move(note));
     sim::Face face(rig, mesh, sim::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 

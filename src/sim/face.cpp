@@ -17,6 +17,7 @@
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
+#include "sim/skin_layer.h"
 #include "sim/tissue_mesh.h"
 #include "track/channels.h"
 
@@ -78,6 +79,7 @@ struct Face::Impl {
     TissueMesh mesh;
     FaceTissue tissue;
     std::optional<SkinBinding> binding;
+    std::optional<SkinLayer> skin;
     std::optional<Follow>
         follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
 
@@ -117,6 +119,7 @@ struct Face::Impl {
         tissue.prepare(kStep_s);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
+        skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),
             muscle::ActivationLaw{.form = rig.activation.law == "smooth"
@@ -364,11 +367,11 @@ struct Face::Impl {
     }
 
     // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
-    Points pull_through(const FollowDrive& drive, const Points& skin, const Points& slope) const {
+    Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const {
         constexpr double kDifference_m = 1e-6;
         Points out(slope.rows(), 3);
         for (int k = 0; k < 3; ++k) {
-            Points above = skin, below = skin;
+            Points above = surface, below = surface;
             above.col(k).array() += kDifference_m;
             below.col(k).array() -= kDifference_m;
             follow->apply(drive, above);
@@ -416,6 +419,7 @@ struct Face::Impl {
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
+        out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
         const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
                                        out.head};
@@ -525,6 +529,7 @@ int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(imp
 int Face::dropped_tets() const { return impl_->mesh.dropped_tets; }
 int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().fibres().size()); }
 double Face::build_s() const { return impl_->build_s; }
+const WrinkleLines& Face::wrinkle_lines() const { return impl_->skin->lines(); }
 const rig::Head& Face::head() const { return impl_->head; }
 const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const Shell& Face::shell() const { return impl_->shell; }
@@ -572,6 +577,20 @@ Points Face::rest_skin_nodes() const {
     Points out(static_cast<long>(impl_->shell.vertex.size()), 3);
     for (long v = 0; v < out.rows(); ++v)
         out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
+    return out;
+}
+BoneEstimate Face::bone_estimate() const {
+    BoneEstimate out;
+    out.skin = rest_skin_nodes();
+    out.bone.resize(out.skin.rows(), 3);
+    out.triangles = impl_->shell.triangles;
+    for (long v = 0; v < out.bone.rows(); ++v) {
+        const Vec3 bone = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kDeep)).transpose();
+        out.bone.row(v) = bone.transpose();
+        out.thickness_m.push_back((out.skin.row(v) - out.bone.row(v)).norm());
+        out.jaw_share.push_back(
+            impl_->jaw.weight(bone, impl_->shell.over_bite_m[static_cast<std::size_t>(v)]));
+    }
     return out;
 }
 double Face::tissue_volume_m3() const {

@@ -17,6 +17,7 @@
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
 #include "sim/shell.h"
+#include "sim/wrinkle_lines.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -44,10 +45,19 @@ using DriveAt = std::function<track::Drive(double t_s)>;
 struct FacePose {
     Points vertices;                   ///< V x 3, m, the mesh's own order
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
+    Points fold_depth;  ///< V x 3 or no rows, m: of wrinkles finer than the mesh, see skin_layer.h
     Rigid head = Rigid::Identity();
     double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
     JawPlace jaw;
     double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
+};
+
+/// What the moving tissue lies on, as estimated from skin and landmarks: a point of bone under every skin node, at rest, m.
+struct BoneEstimate {
+    Points skin, bone;                ///< N x 3
+    Triangles triangles;              ///< over both
+    std::vector<double> thickness_m;  ///< N
+    std::vector<double> jaw_share;    ///< N, 1 on the mandible, 0 on the skull
 };
 
 class Face {
@@ -105,6 +115,9 @@ class Face {
     const MuscleSurfaces& muscle_surfaces() const;
     Points muscle_vertices_at(double t_s) const;
 
+    /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
+    const WrinkleLines& wrinkle_lines() const;
+
     int node_count() const;
     int tet_count() const;
     int inverted_tets() const;
@@ -128,6 +141,7 @@ class Face {
     /// Skin nodes, for tests and evaluation: current N x 3 and rest.
     Points skin_nodes() const;
     Points rest_skin_nodes() const;
+    BoneEstimate bone_estimate() const;
     double kinetic_energy_j() const;
     double tissue_volume_m3() const;  ///< signed, of all tets
 

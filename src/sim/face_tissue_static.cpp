@@ -13,6 +13,12 @@ double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activat
     return energy;
 }
 
+Points FaceTissue::static_gradient(const Points& x, const Eigen::VectorXd& activation) const {
+    Points gradient;
+    static_energy(x, activation, gradient);
+    return gradient;
+}
+
 void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
                                     solve::Curvature curvature,
                                     solve::HessianBuilder& hessian) const {

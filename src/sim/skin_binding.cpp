@@ -298,7 +298,10 @@ Points SkinBinding::pull_back(const Points& by_vertex, long shell_vertices) cons
     return out;
 }
 
-void SkinBinding::follow(int vertex, int like) { rows_[vertex] = rows_[like]; }
+void SkinBinding::follow(int vertex, int like) {
+    rows_[vertex] = rows_[like];
+    followers_.push_back({vertex, like});
+}
 
 std::vector<char> SkinBinding::moving() const {
     std::vector<char> out;

@@ -7,6 +7,7 @@
 // skull and mandible and everything outside the face at rest.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/types.h"
@@ -28,6 +29,8 @@ class SkinBinding {
 
     /// Binds another vertex (a lash) as the skin vertex `like`.
     void follow(int vertex, int like);
+    /// What was bound so: vertex, like.
+    const std::vector<std::pair<int, int>>& followers() const { return followers_; }
 
     /// Vertices that the shell or the harmonic extension moves.
     std::vector<char> moving() const;
@@ -41,6 +44,7 @@ class SkinBinding {
     std::vector<Row> rows_;  // V
     std::vector<int> column_;
     std::vector<double> weight_;
+    std::vector<std::pair<int, int>> followers_;
 };
 
 }  // namespace risorius::sim
