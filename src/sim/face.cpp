@@ -236,6 +236,8 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.lip_depth_m = part.lip_depth_m;
+            figures.bone_depth_m = part.bone_depth_m;
             figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
@@ -389,6 +391,7 @@ void Face::start(const DriveAt& drive) {
             activation[i] = first.activation[i];
     impl_->steps = 0;
     impl_->history.clear();
+    impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
