@@ -489,20 +489,6 @@ Points Face::rest_skin_nodes() const {
         out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
     return out;
 }
-BoneEstimate Face::bone_estimate() const {
-    BoneEstimate out;
-    out.skin = rest_skin_nodes();
-    out.bone.resize(out.skin.rows(), 3);
-    out.triangles = impl_->shell.triangles;
-    for (long v = 0; v < out.bone.rows(); ++v) {
-        const Vec3 bone = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kDeep)).transpose();
-        out.bone.row(v) = bone.transpose();
-        out.thickness_m.push_back((out.skin.row(v) - out.bone.row(v)).norm());
-        out.jaw_share.push_back(
-            impl_->jaw.weight(bone, impl_->shell.over_bite_m[static_cast<std::size_t>(v)]));
-    }
-    return out;
-}
 double Face::tissue_volume_m3() const {
     const Points& x = impl_->now.x;
     double six = 0;
