@@ -87,6 +87,9 @@ struct OffscreenView::Impl {
           resolve(options.background),
           vertex_count(scene.rest.rows()),
           context(options.threads) {
+        if (scene.fold_phase.rows() != 0 && scene.fold_phase.rows() != vertex_count)
+            throw Error("scene/fold_phase", std::to_string(vertex_count) + " rows, or none",
+                        std::to_string(scene.fold_phase.rows()));
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
         if (options.show == Show::kMuscles)
@@ -183,11 +186,14 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.positions.rows() != view.vertex_count)
         throw Error("pose/positions", std::to_string(view.vertex_count) + " rows",
                     std::to_string(pose.positions.rows()));
+    if (pose.fold_depth.rows() != 0 && pose.fold_depth.rows() != view.vertex_count)
+        throw Error("pose/fold_depth", std::to_string(view.vertex_count) + " rows, or none",
+                    std::to_string(pose.fold_depth.rows()));
     const GlContext::Current current(view.context);
 
     // What moved
     view.buffers->bind();
-    view.buffers->upload(pose.positions);
+    view.buffers->upload(pose.positions, pose.fold_depth);
     if (view.muscles) view.muscles->upload(pose);
 
     // Shadow of the key light
