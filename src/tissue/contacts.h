@@ -19,6 +19,10 @@
 #include "core/types.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+class HessianBuilder;
+}
+
 namespace risorius::tissue {
 
 class Contacts {
@@ -61,6 +65,10 @@ class Contacts {
     static double depth(const Contact& contact, const Points& x) {
         return contact.share * (contact.rest_gap_m - gap(contact, x));
     }
+
+    /// Adds the second derivative at x, which has no negative part; pairs apart are named too, so that the pattern does not
+    /// hang on what touches.
+    void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;
 
     /// The deepest penetration beyond the one at rest, m; 0 when nothing touches.
     double max_penetration(const Points& x) const;
