@@ -75,8 +75,9 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
             (upper ? upper_ : lower_)
                 .push_back({node_of(v, kSkin), node_of(v, kDeep), stiffness,
                             kStick_pa * mesh.area_m2[v], normal, (skin - deep).normalized()});
-            deep_.push_back(
-                {node_of(v, kSkin), stiffness, nearest(skin, skull_), nearest(skin, mandible_)});
+            deep_.push_back({node_of(v, kSkin), stiffness,
+                             std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v])),
+                             nearest(skin, skull_), nearest(skin, mandible_)});
             touching.push_back({node_of(v, kSkin), kLipStiffness * stiffness});
         }
         for (int side = 0; side < 2; ++side) {

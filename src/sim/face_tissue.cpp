@@ -211,6 +211,10 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
 
 void FaceTissue::find_contacts(const Points& x) {
     contacts_.set(search_.find(x, mandible_));
+    note_contacts();
+}
+
+void FaceTissue::note_contacts() {
     contact_on_mandible_.clear();
     const Rigid to_rest = mandible_.inverse();
     for (const tissue::Contacts::Contact& contact : contacts_.list())
@@ -227,6 +231,7 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
     energy += contacts_.add_energy(x, gradient);
     energy += air_.add_energy(x, gradient);
+    lip_drive_->drive(activation);
     energy += lip_drive_->add_energy(x, gradient);
     return energy;
 }
@@ -257,10 +262,15 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
         return step_energy(h, start, aim, activation, at, gradient);
     };
     solids_->begin_step(h, start, activation);
-    lip_drive_->begin_step(activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
     return end_step(newton_.minimise(energy, solve, x, options), x);
+}
+
+void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
+    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
+    figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
 }
 
 StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
@@ -269,9 +279,7 @@ StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& 
     figures.evaluations = report.evaluations;
     figures.last_step_rms_m = report.last_step_rms_m;
     figures.converged = report.converged;
-    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
-    figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
-    figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
+    put_depths(x, figures);
     contacts_.remember(x);
     figures.muscle_volume_error = solids_->greatest_volume_error(x);
     return figures;

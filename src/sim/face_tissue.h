@@ -102,6 +102,10 @@ class FaceTissue {
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
     const tissue::Contacts& contacts() const { return contacts_; }
+    /// The same as find_contacts() for equilibria: contacts are firmer and remember nothing.
+    void find_rest_contacts(const Points& x);
+    /// After coming to rest at x: depths and volumes, and steps from here press as hard.
+    StepFigures end_rest(const Points& x);
     /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
     const Rigid& mandible() const { return mandible_; }
@@ -150,6 +154,8 @@ class FaceTissue {
     /// E and its gradient by the nodes.
     double step_energy(double h, const Points& start, const Points& aim,
                        const Eigen::VectorXd& activation, const Points& at, Points& gradient);
+    void note_contacts();
+    void put_depths(const Points& x, StepFigures& figures) const;
     StepFigures end_step(const solve::StepReport& report, const Points& x);
     /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
     void move_mandible(const Rigid& moved);
@@ -174,7 +180,7 @@ class FaceTissue {
     MusclePlacement muscles_;
     bool solids_relaxed_ = false;  // riding is measured on what gives way at once
     std::optional<muscle::FibreSet> fibres_;
-    std::optional<LipDrive> lip_drive_;
+    mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
     tissue::DeadLoads air_;

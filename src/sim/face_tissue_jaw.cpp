@@ -142,7 +142,6 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     };
 
     solids_->begin_step(h, start, activation);
-    lip_drive_->begin_step(activation);
 
     // The jaw alone first, the tissue being linear to it
     Points unknowns(rows + kJawRows, 3), gradient(rows + kJawRows, 3);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/polyline.h"
+#include "solve/hessian_builder.h"
 
 namespace risorius::sim {
 
@@ -92,15 +93,17 @@ LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const 
     }
 }
 
-void LipDrive::begin_step(const Eigen::VectorXd& activation) {
+void LipDrive::drive(const Eigen::VectorXd& activation) {
     const auto of = [&](int column) {
         return column < 0 ? 0.0 : std::clamp(activation[column], 0.0, 1.0);
     };
+    const std::array<double, 2> turned = turn_;
     for (int lip : {kUpper, kLower}) {
         const double inwards = of(marginal_[lip]) - of(peripheral_[lip]);
         turn_[lip] = std::max(0.0, inwards);
         push_[lip] = std::max(0.0, -inwards);
     }
+    if (turn_ == turned) return;
     for (Turned& member : turned_) {
         // Red lip goes up or down towards the other lip, its rim back
         const double share = turn_[member.lip] * member.weight;
@@ -163,6 +166,18 @@ void LipDrive::add_mandible_gradient(const Points& x, Wrench& sum) const {
 void LipDrive::add_metric(solve::MetricBuilder& builder) const {
     for (const Turned& member : turned_) builder.add_diagonal(member.node, 0.5 * member.stiffness);
     for (const Pushed& member : pushed_) builder.add_diagonal(member.node, 0.5 * member.stiffness);
+}
+
+void LipDrive::add_hessian(const Points& x, solve::HessianBuilder& hessian) const {
+    const Mat3 across = Vec3(0, 1, 1).asDiagonal();
+    for (const Turned& member : turned_)
+        hessian.add(member.node, member.node, turn_[member.lip] * member.stiffness * across);
+    for (const Pushed& member : pushed_) {
+        const bool pushes = !pull(member, x).isZero(0.0);
+        hessian.add(member.node, member.node,
+                    (pushes ? push_[member.lip] * member.stiffness : 0.0) * member.normal *
+                        member.normal.transpose());
+    }
 }
 
 }  // namespace risorius::sim

@@ -23,6 +23,10 @@
 #include "sim/wrench.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+class HessianBuilder;
+}
+
 namespace risorius::sim {
 
 class LipDrive {
@@ -31,7 +35,7 @@ class LipDrive {
              const TissueMesh& mesh, const std::vector<Attachment>& attachments);
 
     /// How far each lip is turned and pushed, from here on.
-    void begin_step(const Eigen::VectorXd& activation);
+    void drive(const Eigen::VectorXd& activation);
     /// Targets and directions with the mandible there; within a step only targets go with it.
     void set_mandible(const Rigid& mandible);
     void move_mandible(const Rigid& mandible);
@@ -41,6 +45,7 @@ class LipDrive {
     /// dE/d(motion of the mandible).
     void add_mandible_gradient(const Points& x, Wrench& sum) const;
     void add_metric(solve::MetricBuilder& builder) const;
+    void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;
 
   private:
     enum { kUpper, kLower };

@@ -55,6 +55,23 @@ void Contacts::remember(const Points& x) {
               [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
 }
 
+void Contacts::set_firm(std::vector<Contact> contacts, double firmer) {
+    contacts_ = std::move(contacts);
+    for (Contact& contact : contacts_) contact.stiffness_n_per_m *= firmer;
+}
+
+void Contacts::remember_firm(const Points& x, double firmer) {
+    memory_.clear();
+    for (const Contact& contact : contacts_) {
+        const double depth = contact.rest_gap_m - gap(contact, x);
+        if (contact.slot < 0 || depth <= 0) continue;
+        memory_.push_back(
+            {contact.slot, std::min((firmer - 1) * depth, kGreatestShift_m), std::nullopt});
+    }
+    std::sort(memory_.begin(), memory_.end(),
+              [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
+}
+
 double Contacts::gap(const Contact& contact, const Points& x) {
     Vec3 d = x.row(contact.node).transpose() - contact.point;
     for (int i = 0; i < contact.count; ++i)
@@ -96,7 +113,7 @@ double Contacts::add_energy(const Points& x, Points& gradient) const {
 
 void Contacts::add_hessian(const Points& x, solve::HessianBuilder& hessian) const {
     for (const Contact& contact : contacts_) {
-        const bool apart = gap(contact, x) >= contact.rest_gap_m;
+        const bool apart = gap(contact, x) >= contact.rest_gap_m + contact.shift_m;
         const Mat3 block =
             (apart ? 0.0 : contact.stiffness_n_per_m) * contact.normal * contact.normal.transpose();
         hessian.add(contact.node, contact.node, block);

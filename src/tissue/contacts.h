@@ -54,6 +54,11 @@ class Contacts {
     void remember(const Points& x);
     void forget() { memory_.clear(); }
 
+    /// For solvers that a stiff contact does not slow: the same list without memory, `firmer` times as stiff.
+    void set_firm(std::vector<Contact> contacts, double firmer);
+    /// After such a solve: what makes the next list from set() press as hard.
+    void remember_firm(const Points& x, double firmer);
+
     static double gap(const Contact& contact, const Points& x);  ///< m
     /// dE/dgap, N: < 0 pushes apart, > 0 sticks.
     static double pull_n(const Contact& contact, const Points& x);
@@ -66,7 +71,7 @@ class Contacts {
         return contact.share * (contact.rest_gap_m - gap(contact, x));
     }
 
-    /// Adds the second derivative at x, which has no negative part; pairs apart are named too, so that the pattern does not
+    /// Adds the second derivative at x but for what sticks, which has no negative part then; pairs apart are named too, so that the pattern does not
     /// hang on what touches.
     void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;
 
