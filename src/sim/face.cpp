@@ -134,7 +134,7 @@ struct Face::Impl {
         statics.emplace(
             tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
-                return pose_of({x, a, d, {}}).vertices;
+                return pose_of({x, a, d, {}}, Folds::kLeftOut).vertices;
             },
             channels.column_min());
     }
@@ -369,7 +369,8 @@ struct Face::Impl {
     }
 
     // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
-    Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const {
+    Points pull_through(const FollowDrive& drive, const Points& surface,
+                        const Points& slope) const {
         constexpr double kDifference_m = 1e-6;
         Points out(slope.rows(), 3);
         for (int k = 0; k < 3; ++k) {
@@ -385,7 +386,7 @@ struct Face::Impl {
 
     Points pull_back(const Points& slope) const {
         Points by_skin = slope;
-        pose_of(now, &by_skin);
+        pose_of(now, Folds::kLeftOut, &by_skin);
         const Points by_shell = binding->pull_back(by_skin, static_cast<long>(shell.vertex.size()));
         Points out = Points::Zero(now.x.rows(), 3);
         for (long v = 0; v < by_shell.rows(); ++v)
@@ -399,8 +400,11 @@ struct Face::Impl {
         return {now.x, now.activation, now.drive};
     }
 
+    /// What the skin's own layer adds to what the tissue does: no part of slopes.
+    enum class Folds { kFormed, kLeftOut };
     /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
-    FacePose pose_of(const State& state, Points* pulled = nullptr) const {
+    FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
+                     Points* pulled = nullptr) const {
         const track::Drive& drive = state.drive;
         const Points displacement = skin_displacement(state.x);
         FacePose out;
@@ -421,7 +425,7 @@ struct Face::Impl {
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
-        out.fold_depth = skin->apply(out.vertices);
+        if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
         const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
                                        out.head};

@@ -6,7 +6,7 @@
 
 #include "solve/force_term.h"
 #include "solve/point_sums.h"
-#include "solve/symmetric_factor.h"
+#include "solve/supernodal_cholesky.h"
 
 namespace risorius::sim {
 
@@ -68,7 +68,7 @@ class FixedPoint {
 
 struct StaticSolver::Linear {
     solve::HessianBuilder hessian;
-    solve::SymmetricFactor factor;
+    solve::SupernodalCholesky factor;
     explicit Linear(const FaceTissue& tissue)
         : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {}
 };
@@ -100,8 +100,7 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
             linear_->hessian.add_diagonal(i, kLoose_n_per_m);
         for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
         ++factors_;
-        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3) ==
-                              solve::Definiteness::kPositive;
+        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
         if (positive || curvature == solve::Curvature::kPositive) break;
     }
     known_ = true;
@@ -111,7 +110,7 @@ void StaticSolver::solve(const Points& b, Points& y) const {
     y = b;
     for (long i = 0; i < y.rows(); ++i)
         if (tissue_.fixed()[static_cast<std::size_t>(i)]) y.row(i).setZero();
-    linear_->factor.solve(y.data(), y.data(), 1);
+    linear_->factor.solve(y.data(), y.data());
 }
 
 StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
