@@ -5,10 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit_landmarks.h"
+#include "app/fit_page.h"
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
+#include "app/piece_guess.h"
 #include "app/rig_files.h"
+#include "app/staged_folder.h"
 #include "io/read_mesh.h"
+#include "media/image_file.h"
+#include "rig/cut_lips.h"
 #include "rig/head.h"
 
 namespace risorius::app {
@@ -54,6 +59,53 @@ void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
                     format_number(std::round(residual_mm)) + " mm (are they those of this mesh?)");
 }
 
+// Pieces of a mesh without groups become groups, unless the user names parts himself; what they were taken for.
+std::vector<std::string> group_pieces_of(geom::PolygonMesh& mesh, const rig::HeadFrame& frame,
+                                         const LandmarkPositions& landmarks,
+                                         const FitOptions& options) {
+    if (!options.parts.empty()) return {};
+    LandmarkPositions in_head;
+    for (const auto& [id, p] : landmarks) in_head[id] = frame.to_head(p);
+    return group_pieces(
+        mesh, [&](const Vec3& p) { return frame.to_head(p); }, in_head, frame.size);
+}
+
+// Lips that are grown together are refused, or cut when that was asked for; then `mesh` and `rig` are of the cut head.
+bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescription& rig,
+               geom::PolygonMesh& mesh, std::vector<std::string>& notes) {
+    const bool closed = rig::lips_are_closed(head);
+    if (!closed) {
+        if (options.cut_lips) notes.push_back("the lips are apart already: nothing was cut");
+        return false;
+    }
+    if (!options.cut_lips)
+        throw Error(options.mesh.string(), "lips that can part (--cut-lips cuts them)",
+                    "skin that runs on from the upper lip to the lower");
+    std::vector<int> skin;
+    for (const std::string& group : rig.parts.at("skin")) skin.push_back(mesh.group_index(group));
+    rig::CutLips cut = rig::cut_lips(mesh, head, skin, options.mesh.string());
+
+    // Landmarks go with their own lip
+    for (auto& [id, landmark] : rig.landmarks)
+        if (landmark.vertex >= 0)
+            landmark.vertex = head.welded[static_cast<std::size_t>(landmark.vertex)];
+    const std::size_t middle = static_cast<std::size_t>(cut.middle);
+    rig.landmarks["stos"] = {.vertex = cut.upper[middle]};
+    rig.landmarks["stoi"] = {.vertex = cut.lower[middle]};
+    for (const char* id : {"lli_l", "lli_r"}) {
+        const auto given = rig.landmarks.find(id);
+        if (given == rig.landmarks.end()) continue;
+        const auto above = std::find(cut.upper.begin(), cut.upper.end(), given->second.vertex);
+        if (above != cut.upper.end())
+            given->second.vertex = cut.lower[static_cast<std::size_t>(above - cut.upper.begin())];
+    }
+    rig.parts["mouth"].push_back(rig::kLiningGroup);
+    mesh = std::move(cut.mesh);
+    notes.push_back("the lips are cut apart over " + std::to_string(cut.upper.size()) +
+                    " points, with a lining behind");
+    return true;
+}
+
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const Watch& watch) {
@@ -66,7 +118,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
                                              rig.muscles);
     rig.name = options.name.empty() ? options.mesh.stem().string() : options.name;
     rig.mesh_file = options.mesh;
-    const geom::PolygonMesh mesh = io::read_mesh(options.mesh);
+    geom::PolygonMesh mesh = io::read_mesh(options.mesh);
     rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
     const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
     check_sides(landmarks, rig.atlas, options.landmarks);
@@ -79,6 +131,8 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         options.metres_per_unit.value_or(unit_from_landmarks(landmarks, rig.atlas));
     const rig::HeadFrame frame = rig::find_head_frame(landmarks, rig.atlas, rig.metres_per_unit);
     check_frame(frame, options);
+    report.notes = group_pieces_of(mesh, frame, landmarks, options);
+    const bool regrouped = !report.notes.empty();
     for (const auto& [role, groups] : options.parts) {
         const auto& roles = rig::part_roles();
         if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
@@ -94,7 +148,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     PartGuess guess =
         guess_parts(mesh, options.parts, [&](const Vec3& p) { return frame.to_head(p).x(); });
     rig.parts = guess.parts;
-    report.notes = guess.notes;
+    report.notes.insert(report.notes.end(), guess.notes.begin(), guess.notes.end());
     if (!rig.parts.count("skin"))
         throw Error(options.mesh.string(),
                     "a group whose name says that it is skin (--part skin=GROUP names one)",
@@ -104,9 +158,14 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
 
     // Prove that a face can be built of it
     watch.tell(0, "building the face");
-    for (std::string& note : check_places(rig::place_head(rig, mesh, options.out.string()),
-                                          landmarks, rig.atlas, options.landmarks))
-        report.notes.push_back(std::move(note));
+    {
+        const rig::Head placed = rig::place_head(rig, mesh, options.out.string());
+        for (std::string& note : check_places(placed, landmarks, rig.atlas, options.landmarks))
+            report.notes.push_back(std::move(note));
+        report.lips_cut = open_lips(options, placed, rig, mesh, report.notes);
+    }
+    std::optional<StagedFolder> folder;
+    if (!options.report.empty()) folder.emplace(options.report);
     sim::Face face(rig, mesh, sim::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
@@ -129,6 +188,11 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         fs::create_directories(options.out.parent_path(), failure);
         if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
     }
+    if (report.lips_cut || regrouped) {
+        rig.mesh_file = options.out;
+        rig.mesh_file.replace_filename(options.out.stem().string() + "_head.obj");
+        io::write_obj(mesh, rig.mesh_file);
+    }
     rig::write_rig(rig, options.out,
                    {.standard_folder = standard, .inline_tables = options.inline_tables});
     report.metres_per_unit = rig.metres_per_unit;
@@ -149,6 +213,16 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
     if (!report.teeth)
         report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
+    const BoneEstimate bone = bone_estimate(head, rig);
+    report.bone = bone_figures(bone);
+    if (report.bone.through_skin > 0)
+        report.notes.push_back(std::to_string(report.bone.through_skin) +
+                               " points of bone lie outside of the skin: look at the report");
+    if (folder) {
+        media::write_png(fit_picture(head, bone, rig, mesh), folder->partial() / kFitPicture);
+        write_fit_report(report, rig, folder->partial());
+        folder->commit();
+    }
     watch.tell(1, "done");
     return report;
 }
@@ -169,6 +243,11 @@ Json FitReport::json() const {
     json["dropped_tets"] = dropped_tets;
     json["inverted_tets"] = inverted_tets;
     json["fibres"] = fibres;
+    json["bone"] = {{"thinnest_mm", bone.thinnest_mm},
+                    {"thickest_mm", bone.thickest_mm},
+                    {"mean_mm", bone.mean_mm},
+                    {"through_skin", bone.through_skin}};
+    json["lips_cut"] = lips_cut;
     json["eyes"] = eyes;
     json["teeth"] = teeth;
     json["strengths"] = Json::array();

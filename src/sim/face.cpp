@@ -266,6 +266,8 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.lip_depth_m = part.lip_depth_m;
+            figures.bone_depth_m = part.bone_depth_m;
             figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
@@ -464,6 +466,7 @@ void Face::start(const DriveAt& drive) {
             activation[i] = first.activation[i];
     impl_->steps = 0;
     impl_->history.clear();
+    impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
@@ -581,20 +584,6 @@ Points Face::rest_skin_nodes() const {
     Points out(static_cast<long>(impl_->shell.vertex.size()), 3);
     for (long v = 0; v < out.rows(); ++v)
         out.row(v) = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
-    return out;
-}
-BoneEstimate Face::bone_estimate() const {
-    BoneEstimate out;
-    out.skin = rest_skin_nodes();
-    out.bone.resize(out.skin.rows(), 3);
-    out.triangles = impl_->shell.triangles;
-    for (long v = 0; v < out.bone.rows(); ++v) {
-        const Vec3 bone = impl_->mesh.nodes.row(node_of(static_cast<int>(v), kDeep)).transpose();
-        out.bone.row(v) = bone.transpose();
-        out.thickness_m.push_back((out.skin.row(v) - out.bone.row(v)).norm());
-        out.jaw_share.push_back(
-            impl_->jaw.weight(bone, impl_->shell.over_bite_m[static_cast<std::size_t>(v)]));
-    }
     return out;
 }
 double Face::tissue_volume_m3() const {

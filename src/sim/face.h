@@ -52,14 +52,6 @@ struct FacePose {
     double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
 };
 
-/// What the moving tissue lies on, as estimated from skin and landmarks: a point of bone under every skin node, at rest, m.
-struct BoneEstimate {
-    Points skin, bone;                ///< N x 3
-    Triangles triangles;              ///< over both
-    std::vector<double> thickness_m;  ///< N
-    std::vector<double> jaw_share;    ///< N, 1 on the mandible, 0 on the skull
-};
-
 class Face {
   public:
     /// `place` names the rig in messages. Throws Error when the mesh and the rig do not fit.
@@ -141,7 +133,6 @@ class Face {
     /// Skin nodes, for tests and evaluation: current N x 3 and rest.
     Points skin_nodes() const;
     Points rest_skin_nodes() const;
-    BoneEstimate bone_estimate() const;
     double kinetic_energy_j() const;
     double tissue_volume_m3() const;  ///< signed, of all tets
 

@@ -28,7 +28,7 @@ StepFigures FaceStatics::settle(const Eigen::VectorXd& activation, int iteration
 void FaceStatics::prepare(const Pose& pose) {
     prescribe_(pose.activation, pose.drive);
     tissue_.begin_rest(pose.x);
-    tissue_.find_contacts(pose.x);
+    tissue_.find_rest_contacts(pose.x);
     if (!factored_) solver_.factorise(pose.x, pose.activation, solve::Curvature::kExact);
     factored_ = true;
 }
@@ -37,11 +37,11 @@ Points FaceStatics::gradient(const Pose& pose, const Points& nodes,
                              const Eigen::VectorXd& activation, const track::Drive& drive) {
     prescribe_(activation, drive);
     tissue_.begin_rest(nodes);
-    tissue_.find_contacts(nodes);
+    tissue_.find_rest_contacts(nodes);
     Points g;
     tissue_.static_energy(nodes, activation, g);
     prescribe_(pose.activation, pose.drive);
-    tissue_.find_contacts(pose.x);
+    tissue_.find_rest_contacts(pose.x);
     return g;
 }
 

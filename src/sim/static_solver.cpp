@@ -166,7 +166,7 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         return solve::longest_row(move_);
     };
     while (true) {
-        tissue_.find_contacts(where);
+        tissue_.find_rest_contacts(where);
         if (!known_ || !solved) factorise(x, activation, curvature);
         const double left = left_at();
         figures.last_step_rms_m =
@@ -189,8 +189,11 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         if (!solved) fixed_point.forget();
         where = fixed_point.next(where, x);
     }
-    figures.contact_depth_m = ContactSearch::deepest(tissue_.contacts().list(), x);
-    figures.muscle_volume_error = tissue_.solids().greatest_volume_error(x);
+    const StepFigures last = tissue_.end_rest(x);
+    figures.contact_depth_m = last.contact_depth_m;
+    figures.lip_depth_m = last.lip_depth_m;
+    figures.bone_depth_m = last.bone_depth_m;
+    figures.muscle_volume_error = last.muscle_volume_error;
     return figures;
 }
 
