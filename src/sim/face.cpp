@@ -134,7 +134,7 @@ struct Face::Impl {
         statics.emplace(
             tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
-                return pose_of({x, a, d, {}}, Folds::kLeftOut).vertices;
+                return pose_of({x, a, d, {}}).vertices;
             },
             channels.column_min());
     }
@@ -400,7 +400,7 @@ struct Face::Impl {
         return {now.x, now.activation, now.drive};
     }
 
-    /// What the skin's own layer adds to what the tissue does: no part of slopes.
+    /// What the skin's own layer adds to what the tissue does: no part of what is pulled back.
     enum class Folds { kFormed, kLeftOut };
     /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
     FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
