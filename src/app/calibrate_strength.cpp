@@ -17,7 +17,8 @@ constexpr int kIterations = 200;  // of the solver, per trial
 double target_stretch(const std::string& muscle) {
     if (muscle == "platysma") return 0.86;
     if (muscle == "orbicularis_oculi_orbital") return 0.85;
-    if (muscle.starts_with("orbicularis_oculi_palpebral")) return 0.80;
+    // From canthus to canthus over the eye they can become no shorter than a chord.
+    if (muscle.starts_with("orbicularis_oculi_palpebral")) return 0.94;
     // Measured expressions shorten these less than the others: sneer, mouth frown, pucker.
     if (muscle == "levator_labii_superioris_alaeque_nasi") return 0.82;
     if (muscle == "depressor_anguli_oris") return 0.80;
