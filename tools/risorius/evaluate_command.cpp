@@ -54,13 +54,11 @@ void print(const app::Evaluation& evaluation, bool fit) {
         "mm\n");
     std::printf("  %-20s %6s %6s %6s %6s %6s%s\n", "by the rig's table", "cos", "rel", "rms", "max",
                 "landm", fit ? "   | fitted: cos, rel, rms, max, landm" : "");
-    std::vector<std::string> all;
     const auto numbers = [](const app::ExpressionScore& score) {
         std::printf("%6.3f %6.3f %6.2f %6.1f %6.2f", score.cosine, score.relative,
                     1e3 * score.rms_m, 1e3 * score.greatest_m, 1e3 * score.landmark_m);
     };
     for (const app::EvaluatedExpression& one : evaluation.expressions) {
-        all.push_back(one.name);
         std::printf("  %-20s ", one.name.c_str());
         numbers(one.table.score);
         if (one.fitted) {
@@ -72,14 +70,8 @@ void print(const app::Evaluation& evaluation, bool fit) {
         if (!one.table.converged) std::printf("  did not come to rest");
         std::printf("\n");
     }
-    print_means("mean", evaluation, all);
-    const auto of = [&](const std::vector<std::string>& names) {
-        return evaluation.means(names, false).count == static_cast<int>(names.size());
-    };
-    if (of(app::sixteen_expressions()))
-        print_means("mean of the 16", evaluation, app::sixteen_expressions());
-    if (of(app::twenty_four_expressions()))
-        print_means("mean of the 24", evaluation, app::twenty_four_expressions());
+    for (const app::ExpressionGroup& group : evaluation.groups())
+        print_means(("mean of " + group.title).c_str(), evaluation, group.names);
 }
 
 void compare(EvaluateArguments& arguments) {
