@@ -32,22 +32,6 @@ class Weighting {
     std::vector<double> root_;
 };
 
-// Of settled poses, one unknown after the other
-std::vector<Points> differences(sim::Face& face, const std::vector<ActivationUnknown>& unknowns,
-                                const track::Drive& drive) {
-    std::vector<Points> out;
-    const Points base = face.pose().vertices;
-    for (const auto& u : unknowns) {
-        track::Drive d = drive;
-        const double v = value_of(u, drive), h = v < 0.5 ? 0.05 : -0.05;
-        set_value(u, v + h, d);
-        face.settle(d.excitation, d);
-        out.push_back((face.pose().vertices - base) / h);
-        face.settle(drive.excitation, drive);
-    }
-    return out;
-}
-
 }  // namespace
 
 double value_of(const ActivationUnknown& unknown, const track::Drive& drive) {
@@ -137,9 +121,22 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
     double least = cost(miss, x);
     double longest = options.longest_step;
     for (int round = 0; round < options.rounds && longest > 0.01; ++round) {
-        const std::vector<Points> moved = differences(face, unknowns, drive);
-        Eigen::MatrixXd J(goal.size(), count);
-        for (long i = 0; i < count; ++i) J.col(i) = weighted(moved[static_cast<std::size_t>(i)]);
+        std::vector<int> columns;
+        std::vector<track::Kinematic> channels;
+        for (const ActivationUnknown& unknown : unknowns) {
+            columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
+            channels.insert(channels.end(), unknown.channels.begin(), unknown.channels.end());
+        }
+        const std::vector<Points> moved = face.sensitivities(columns, channels);
+        Eigen::MatrixXd J = Eigen::MatrixXd::Zero(goal.size(), count);
+        std::size_t by_column = 0, by_channel = columns.size();
+        for (long i = 0; i < count; ++i) {
+            const ActivationUnknown& unknown = unknowns[static_cast<std::size_t>(i)];
+            for (std::size_t k = 0; k < unknown.columns.size(); ++k)
+                J.col(i) += weighted(moved[by_column++]);
+            for (std::size_t k = 0; k < unknown.channels.size(); ++k)
+                J.col(i) += unknown.scale * weighted(moved[by_channel++]);
+        }
         solve::BoxQuadratic problem;
         problem.A = J.transpose() * J / size;
         problem.A.diagonal().array() += options.ridge;

@@ -99,6 +99,9 @@ struct OffscreenView::Impl {
           resolve(options.background),
           vertex_count(scene.rest.rows()),
           context(options.threads) {
+        if (scene.fold_phase.rows() != 0 && scene.fold_phase.rows() != vertex_count)
+            throw Error("scene/fold_phase", std::to_string(vertex_count) + " rows, or none",
+                        std::to_string(scene.fold_phase.rows()));
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
         if (options.show == Show::kMuscles)
@@ -195,6 +198,9 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.positions.rows() != view.vertex_count)
         throw Error("pose/positions", std::to_string(view.vertex_count) + " rows",
                     std::to_string(pose.positions.rows()));
+    if (pose.fold_depth.rows() != 0 && pose.fold_depth.rows() != view.vertex_count)
+        throw Error("pose/fold_depth", std::to_string(view.vertex_count) + " rows, or none",
+                    std::to_string(pose.fold_depth.rows()));
     if (pose.values && static_cast<Eigen::Index>(pose.values->at.size()) != view.vertex_count)
         throw Error("pose/values", std::to_string(view.vertex_count) + " values",
                     std::to_string(pose.values->at.size()));
@@ -202,7 +208,7 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // What moved
     view.buffers->bind();
-    view.buffers->upload(pose.positions);
+    view.buffers->upload(pose.positions, pose.fold_depth);
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
 

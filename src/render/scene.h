@@ -64,6 +64,8 @@ struct Scene {
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Look look;
+    Points
+        fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown
 };
 
@@ -79,6 +81,7 @@ struct Pose {
     Points positions;  ///< V x 3, m, world = head frame at rest
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};  ///< world from rest eye
     double jaw_open = 0.0;            ///< ratio, darkens or lights the mouth
+    Points fold_depth;                ///< V x 3, m, of the wrinkles along fold_phase; no rows: none
     Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
     std::vector<double> activations;  ///< per muscle of the scene, ratio
     std::optional<SkinValues> values;  ///< of this frame; any view shows them

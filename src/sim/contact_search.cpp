@@ -47,11 +47,10 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         if (distance_to_polyline(skin, lips) < head.mm(60)) {
             // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
             const double share = jaw.weight(skin, shell.over_bite_m[v]);
-            const double reach = std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v]));
             const bool above_bite = shell.over_bite_m[v] > 0;
-            if (above_bite && share < 0.6) skull_.push_back({deep, mesh.direction[v], reach});
+            if (above_bite && share < 0.6) skull_.push_back({deep, mesh.direction[v]});
             if (!above_bite && share > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
-                mandible_.push_back({deep, mesh.direction[v], reach});
+                mandible_.push_back({deep, mesh.direction[v]});
         }
     }
     for (int v = 0; v < count; ++v) {
@@ -61,8 +60,9 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         const double from_mouth = distance_to_polyline(skin, lips);
         if (from_mouth < head.mm(50)) {
-            DeepNode node{node_of(v, kDeep), stiffness, nearest(deep, skull_),
-                          nearest(deep, mandible_)};
+            DeepNode node{node_of(v, kDeep), stiffness,
+                          std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v])),
+                          nearest(deep, skull_), nearest(deep, mandible_)};
             deep_.push_back(node);
             touching.push_back({node.node, stiffness});
         }
@@ -102,15 +102,10 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
         if (carried) p = to_mandible * p;
         const Vec3 rest = rest_.row(node.node).transpose();
         double nearest_squared = 1e300;
-        const BonePoint* nearest_point = nullptr;
-        for (int c : candidates) {
-            const double squared = (bone[c].point - p).squaredNorm();
-            if (squared < nearest_squared) {
-                nearest_squared = squared;
-                nearest_point = &bone[c];
-            }
-        }
-        const double radius = std::sqrt(nearest_squared) + 1.5 * nearest_point->reach;
+        for (int c : candidates)
+            nearest_squared = std::min(nearest_squared, (bone[c].point - p).squaredNorm());
+        // Nothing here may hang on which point is the nearest: planes that jump keep a held pose from ever coming to rest
+        const double radius = std::sqrt(nearest_squared) + 1.5 * node.reach;
         Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
         double weights = 0;
         for (int c : candidates) {
@@ -126,10 +121,9 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
         const double gap = (p - point).dot(normal);
         const double rest_gap = std::min(0.0, (rest - point).dot(normal));
         if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
-        const double aside =
-            (p - nearest_point->point - (p - nearest_point->point).dot(normal) * normal).norm();
-        const double inside =
-            1.0 - smoothstep(0.8 * nearest_point->reach, 1.3 * nearest_point->reach, aside);
+        // Within the bone the blended point lies below the node, beyond its edge it stays behind
+        const double aside = (p - point - (p - point).dot(normal) * normal).norm();
+        const double inside = 1.0 - smoothstep(1.2 * node.reach, 1.7 * node.reach, aside);
         if (inside <= 0) return;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
@@ -171,7 +165,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
             tissue::Contacts::Contact contact;
             contact.node = node.node;
             contact.normal = sign * up;
-            double weights = 0, height = 0, stiffness = node.stiffness;
+            double weights = 0, height = 0, stiffness = 0;
             for (std::size_t k = 0; k < kLipNeighbours; ++k) {
                 const LipNode& o = other[nearest_few[k].second];
                 const double share = 1.0 - nearest_few[k].first / nearest_few[kLipNeighbours].first;
@@ -181,12 +175,14 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
                 weights += w;
                 height += w * sign *
                           (rest_.row(node.node) - rest_.row(o.node)).dot(Vec3::UnitY().transpose());
-                stiffness = std::min(stiffness, o.stiffness);
+                stiffness += w * o.stiffness;
             }
             for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
             contact.count = kLipNeighbours;
             contact.rest_gap_m = height / weights - lip_gap_m_;
-            contact.stiffness_n_per_m = inside * kLipStiffness * stiffness;
+            // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
+            contact.stiffness_n_per_m =
+                inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
             out.push_back(contact);
         }
     };

@@ -35,11 +35,11 @@ class ContactSearch {
   private:
     struct BonePoint {
         Vec3 point, normal;
-        double reach;  // how far its plane stands for the bone around it, m
     };
     struct DeepNode {
         int node;
         double stiffness;
+        double reach;  // how far a plane stands for the bone around it, m
         std::vector<int> skull, mandible;  // nearest bone points at rest
     };
     struct LipNode {

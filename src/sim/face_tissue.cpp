@@ -222,14 +222,6 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     return energy;
 }
 
-Points FaceTissue::static_gradient(const Points& x, const Eigen::VectorXd& activation) const {
-    Points gradient = Points::Zero(x.rows(), 3);
-    potential(x, activation, gradient);
-    for (long i = 0; i < x.rows(); ++i)
-        if (fixed_[i]) gradient.row(i).setZero();
-    return gradient;
-}
-
 double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
                                const Eigen::VectorXd& activation, const Points& at,
                                Points& gradient) {

@@ -33,6 +33,11 @@
 #include "tissue/tet_solid.h"
 #include "tissue/tethers.h"
 
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
 namespace risorius::sim {
 
 /// Steps this long seek rest, not motion.
@@ -83,6 +88,19 @@ class FaceTissue {
                               const Eigen::VectorXd& activation,
                               const solve::QuasiNewtonOptions& options, Points& x);
 
+    /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
+    void begin_rest(const Points& x) { solids_->begin_rest(x); }
+    /// Returns what deforms, without inertia and damping, and its gradient: zero on fixed rows. After begin_rest().
+    double static_energy(const Points& x, const Eigen::VectorXd& activation,
+                         Points& gradient) const;
+    /// Adds the second derivative of that; pairs in contact as found, and all that may ever touch named in the same order.
+    void add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
+                            solve::Curvature curvature, solve::HessianBuilder& hessian) const;
+    const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
+    const tissue::Contacts& contacts() const { return contacts_; }
+    /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
+    void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
+    const Rigid& mandible() const { return mandible_; }
     /// dE/dx at rest in time, with the contacts found last; zero where nodes are fixed.
     Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
 

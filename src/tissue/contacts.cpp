@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solve/hessian_builder.h"
+
 namespace risorius::tissue {
 
 void Contacts::set(std::vector<Contact> contacts) { contacts_ = std::move(contacts); }
@@ -26,6 +28,21 @@ double Contacts::add_energy(const Points& x, Points& gradient) const {
             gradient.row(contact.others[i]) -= contact.weights[i] * push.transpose();
     }
     return energy;
+}
+
+void Contacts::add_hessian(const Points& x, solve::HessianBuilder& hessian) const {
+    for (const Contact& contact : contacts_) {
+        const bool apart = gap(contact, x) >= contact.rest_gap_m;
+        const Mat3 block =
+            (apart ? 0.0 : contact.stiffness_n_per_m) * contact.normal * contact.normal.transpose();
+        hessian.add(contact.node, contact.node, block);
+        for (int i = 0; i < contact.count; ++i) {
+            hessian.add(contact.node, contact.others[i], -contact.weights[i] * block);
+            for (int j = 0; j <= i; ++j)
+                hessian.add(contact.others[i], contact.others[j],
+                            contact.weights[i] * contact.weights[j] * block);
+        }
+    }
 }
 
 double Contacts::max_penetration(const Points& x) const {

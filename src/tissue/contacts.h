@@ -13,6 +13,10 @@
 #include "core/types.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+class HessianBuilder;
+}
+
 namespace risorius::tissue {
 
 class Contacts {
@@ -37,6 +41,10 @@ class Contacts {
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
     double add_energy(const Points& x, Points& gradient) const;
+
+    /// Adds the second derivative at x, which has no negative part; pairs apart are named too, so that the pattern does not
+    /// hang on what touches.
+    void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;
 
     /// The deepest penetration beyond the one at rest, m; 0 when nothing touches.
     double max_penetration(const Points& x) const;
