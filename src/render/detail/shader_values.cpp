@@ -9,7 +9,7 @@ constexpr const char* kValuesVertex = R"(
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 4) in vec2 in_occlusion;
-layout(location = 5) in vec3 in_colour;
+layout(location = 7) in vec3 in_colour;
 out vec3 position;
 out vec3 normal;
 out vec3 value;
