@@ -131,7 +131,22 @@ constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "mus
 constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json",
                                        "attachments.json", "muscle_bands.json", "muscles.json"};
 
+std::vector<std::string> names_of(const JsonCursor& list) {
+    std::vector<std::string> out;
+    for (const JsonCursor& name : list.items()) out.push_back(name.string());
+    return out;
+}
+
 }  // namespace
+
+std::vector<std::string> read_calibration(const std::filesystem::path& file) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.allow_keys({"format", "version", "source", "expressions"});
+    json.at("format").one_of({"risorius-calibration"});
+    json.at("version").integer(1, 1);
+    json.at("source").string();
+    return names_of(json.at("expressions"));
+}
 
 const SolidMuscle* RigDescription::solid(const std::string& muscle) const {
     for (const SolidMuscle& entry : solids)
@@ -174,7 +189,7 @@ std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file
 RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
-                     "facs", "expressions", "look"});
+                     "facs", "expressions", "look", "calibrated_on"});
     json.at("format").one_of({"risorius-rig"});
     json.at("version").integer(1, 1);
     RigDescription rig;
@@ -229,6 +244,12 @@ RigDescription read_rig(const std::filesystem::path& file) {
                                      : "a landmark of the atlas (did you mean \"" + near + "\"?)",
                         "\"" + id + "\"");
         }
+
+    if (const auto calibrated = json.find("calibrated_on")) {
+        rig.calibrated_on =
+            calibrated->is_string() ? read_calibration(calibrated->path()) : names_of(*calibrated);
+        if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
+    }
 
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
@@ -291,6 +312,10 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["facs"] = table("facs.json");
     json["expressions"] = table("expressions.json");
     json["look"] = fields_of(rig.look);
+    if (!rig.calibrated_on.empty())
+        json["calibrated_on"] = options.inline_tables
+                                    ? Json(rig.calibrated_on)
+                                    : Json(relative(options.standard_folder / kCalibrationFile));
 
     const std::filesystem::path partial = file.string() + ".part";
     {
