@@ -200,17 +200,18 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
             for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
             contact.normal.normalize();
             rest_normal.normalize();
-            const auto beside = [&](const Vec3& d, const Vec3& normal) {
-                return 1.0 - smoothstep(lip_aside_m_, 2 * lip_aside_m_,
+            const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
+                return 1.0 - smoothstep(from_m, from_m + lip_aside_m_,
                                         (d - d.dot(normal) * normal).norm());
             };
             off /= weights;
             rest_off /= weights;
-            inside *= beside(off, contact.normal);
+            inside *= beside(off, contact.normal, lip_aside_m_);
             if (inside <= 0) continue;
             contact.count = kLipNeighbours;
-            contact.rest_gap_m =
-                beside(rest_off, rest_normal) * std::min(0.0, rest_off.dot(rest_normal));
+            // Whole for all that are inside at rest, or rest would not be free of force
+            contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) *
+                                 std::min(0.0, rest_off.dot(rest_normal));
             if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) continue;
             // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
             contact.stiffness_n_per_m =

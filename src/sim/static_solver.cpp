@@ -121,13 +121,13 @@ void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptio
                             Points& x, StepFigures& figures) {
     if (known_) {
         tissue_.begin_rest(x);
-        tissue_.find_contacts(x);
+        tissue_.find_rest_contacts(x);
         energy(x, activation, gradient_);
         solve(gradient_, move_);
         if (solve::longest_row(move_) < kFar_m) return;
     }
     for (int round = 0; round < kRoughRounds && figures.iterations < options.iterations; ++round) {
-        tissue_.find_contacts(x);
+        tissue_.find_rest_contacts(x);
         const Points start = x;
         const StepFigures part = tissue_.implicit_step(
             kRoughStep_s, start, start, activation,
