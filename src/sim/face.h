@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "rig/rig_description.h"
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
+#include "sim/shell.h"
+#include "sim/wrinkle_lines.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -42,6 +45,7 @@ using DriveAt = std::function<track::Drive(double t_s)>;
 struct FacePose {
     Points vertices;                   ///< V x 3, m, the mesh's own order
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
+    Points fold_depth;  ///< V x 3 or no rows, m: of wrinkles finer than the mesh, see skin_layer.h
     Rigid head = Rigid::Identity();
     double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
     JawPlace jaw;
@@ -77,6 +81,22 @@ class Face {
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                        int iterations = 400);
 
+    /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
+    /// Nodes, n x 3, m: tissue, then volume muscles.
+    const Points& nodes() const;
+    /// Slope g of the static energy, N, at any nodes, activation and drive: zero in equilibrium and on nodes that are held.
+    Points static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                           const track::Drive& drive) const;
+    /// H^-1 b, H = dg/d(nodes). With b the slope of a number L by the nodes and p anything g hangs on, also a number of the rig:
+    /// dL/dp = - sum solve_static(b) * dg/dp.
+    Points solve_static(const Points& b);
+    /// Derivatives of all vertices without the skin's folds, V x 3 each, m per unit: by activations of columns (the lids
+    /// they move included), then by kinematic channels. At the kink of a lid's levator the mean of both sides.
+    std::vector<Points> sensitivities(std::span<const int> columns,
+                                      std::span<const track::Kinematic> channels);
+    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held.
+    Points pull_back(const Points& vertex_gradient) const;
+
     FacePose pose() const;  ///< after the last step
     double time_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
@@ -87,6 +107,9 @@ class Face {
     const MuscleSurfaces& muscle_surfaces() const;
     Points muscle_vertices_at(double t_s) const;
 
+    /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
+    const WrinkleLines& wrinkle_lines() const;
+
     int node_count() const;
     int tet_count() const;
     int inverted_tets() const;
@@ -94,6 +117,9 @@ class Face {
     int fibre_count() const;
     double build_s() const;  ///< wall time of the construction, for benchmarks
     const rig::Head& head() const;
+    /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
+    const Triangles& simulated_skin() const;
+    const Shell& shell() const;
     const std::vector<StepFigures>& history() const;  ///< of every step since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
@@ -109,6 +135,21 @@ class Face {
     Points rest_skin_nodes() const;
     double kinetic_energy_j() const;
     double tissue_volume_m3() const;  ///< signed, of all tets
+
+    /// The same skin, bone and mesh with other numbers of anatomy or tissue: what changes with them, at the same nodes.
+    /// `changed` must place as many muscles' fibres as it likes but keep landmarks, thickness and jaw.
+    class Variant {
+      public:
+        Variant(const Face& face, const rig::RigDescription& changed);
+        ~Variant();
+        /// dE/dx of everything but contact at given nodes, N; rows of fixed nodes are zero.
+        Points static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                               const track::Drive& drive);
+
+      private:
+        struct Parts;
+        std::unique_ptr<Parts> parts_;
+    };
 
   private:
     struct Impl;
