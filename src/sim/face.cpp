@@ -240,7 +240,8 @@ struct Face::Impl {
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
         return {mandible(now.jaw.q, drive),
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                drive.at(track::Kinematic::kMouthPressure), gaze(drive)};
+                drive.at(track::Kinematic::kMouthPressure),
+                gaze(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.

@@ -34,8 +34,7 @@ struct LidMember {
     bool upper = true;
     double place = 0.0;   ///< s
     double height = 0.0;  ///< q, 0 on the margin and before it
-    double share =
-        1.0;  ///< of the upper lid's turn, the lower lid's takes the rest; 0 or 1 between the canthi
+    double share = 1.0;   ///< of the upper lid's motion, the lower lid's takes the rest
     double beyond = 0.0;  ///< the canthi, m
 };
 
