@@ -1,6 +1,7 @@
 #include "app/fit_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +10,7 @@
 #include "render/measure_view.h"
 #include "sim/lids.h"
 #include "sim/shell.h"
+#include "sim/tissue_mesh.h"
 
 namespace risorius::app {
 
@@ -86,8 +88,29 @@ std::string text_of(const char* format, double a, double b = 0, double c = 0) {
 
 }  // namespace
 
-BoneFigures bone_figures(const sim::Face& face) {
-    const sim::BoneEstimate bone = face.bone_estimate();
+BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig) {
+    const std::array<sim::EyeLids, 2> lids{sim::EyeLids(head, 0, rig.eyes.lid_closed_share),
+                                           sim::EyeLids(head, 1, rig.eyes.lid_closed_share)};
+    const sim::Jaw jaw(head, rig.jaw);
+    const sim::Shell shell = sim::build_shell(head, jaw, lids, {});
+    const sim::TissueMesh tissue = sim::build_tissue_mesh(head, rig, shell, lids);
+    BoneEstimate out;
+    const long count = static_cast<long>(shell.vertex.size());
+    out.skin.resize(count, 3);
+    out.bone.resize(count, 3);
+    out.triangles = shell.triangles;
+    for (long v = 0; v < count; ++v) {
+        const int node = static_cast<int>(v);
+        out.skin.row(v) = tissue.nodes.row(sim::node_of(node, sim::kSkin));
+        out.bone.row(v) = tissue.nodes.row(sim::node_of(node, sim::kDeep));
+        out.thickness_m.push_back((out.skin.row(v) - out.bone.row(v)).norm());
+        out.jaw_share.push_back(jaw.weight(out.bone.row(v).transpose(),
+                                           shell.over_bite_m[static_cast<std::size_t>(v)]));
+    }
+    return out;
+}
+
+BoneFigures bone_figures(const BoneEstimate& bone) {
     BoneFigures out;
     out.thinnest_mm = 1e9;
     for (const double thickness : bone.thickness_m) {
@@ -110,9 +133,8 @@ BoneFigures bone_figures(const sim::Face& face) {
     return out;
 }
 
-Image fit_picture(const sim::Face& face, const rig::RigDescription& rig,
+Image fit_picture(const rig::Head& head, const BoneEstimate& bone, const rig::RigDescription& rig,
                   const geom::PolygonMesh& mesh) {
-    const rig::Head& head = face.head();
     const std::vector<ColouredSurface> whole = head_surfaces(head, mesh);
 
     // What was given, what was guessed, and what came of it
@@ -131,7 +153,6 @@ Image fit_picture(const sim::Face& face, const rig::RigDescription& rig,
     }
 
     // Thickness on the skin that moves, the rest of the head pale behind it
-    const sim::BoneEstimate bone = face.bone_estimate();
     ColouredSurface thickness{bone.skin, bone.triangles, {}};
     for (const double t : bone.thickness_m)
         thickness.colours.push_back(
