@@ -35,8 +35,6 @@ rig::RigDescription standard_rig(const fs::path& folder) {
     rig.muscles = rig::read_muscle_table(table("muscles.json"));
     rig.facs = track::read_facs(table("facs.json"), rig.channels());
     rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
-    if (fs::exists(folder / rig::kCalibrationFile))
-        rig.calibrated_on = rig::read_calibration(folder / rig::kCalibrationFile);
     return rig;
 }
 
@@ -215,12 +213,13 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
     if (!report.teeth)
         report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
-    report.bone = bone_figures(face);
+    const BoneEstimate bone = bone_estimate(head, rig);
+    report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +
                                " points of bone lie outside of the skin: look at the report");
     if (folder) {
-        media::write_png(fit_picture(face, rig, mesh), folder->partial() / kFitPicture);
+        media::write_png(fit_picture(head, bone, rig, mesh), folder->partial() / kFitPicture);
         write_fit_report(report, rig, folder->partial());
         folder->commit();
     }
