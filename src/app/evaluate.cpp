@@ -14,6 +14,7 @@
 #include "app/staged_file.h"
 #include "app/staged_folder.h"
 #include "core/error.h"
+#include "rig/calibration.h"
 #include "sim/face.h"
 
 namespace risorius::app {
@@ -127,8 +128,8 @@ ScoreMeans Evaluation::means(const std::vector<std::string>& names, bool fitted)
 }
 
 bool Evaluation::is_calibrated_on(const std::string& expression) const {
-    const auto has = [&](const std::string& name) {
-        return std::find(calibrated_on.begin(), calibrated_on.end(), name) != calibrated_on.end();
+    const auto has = [&](const std::string& wanted) {
+        return std::find(calibrated_on.begin(), calibrated_on.end(), wanted) != calibrated_on.end();
     };
     return has(expression) || has(split_shape(expression).base);  // one side of it
 }
@@ -192,7 +193,7 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
 
     Evaluation out;
     out.name = files.rig.name;
-    out.calibrated_on = files.rig.calibrated_on;
+    out.calibrated_on = rig::calibrated_on(options.rig);
     out.rig = options.rig.generic_string();
     out.shapes = options.shapes.generic_string();
     out.nodes = face.node_count();

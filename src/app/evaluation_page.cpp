@@ -16,7 +16,7 @@ namespace risorius::app {
 namespace {
 
 // Rows of a table that change places when another order is chosen; bars of activations side by side.
-constexpr const char* kStyle = R"(
+constexpr const char* kEvaluationStyle = R"(
 .orders input { position: absolute; opacity: 0; }
 .orders label { display: inline-block; padding: .1rem .6rem; margin: .15rem .3rem .15rem 0; border: 1px solid var(--line); border-radius: 1rem; cursor: pointer; font-size: .87rem; }
 .orders input:checked + label { background: var(--link); border-color: var(--link); color: #fff; }
@@ -225,7 +225,7 @@ void write_scale(HtmlWriter& html) {
         .close();
 }
 
-void write_image(HtmlWriter& html, const std::string& file, const std::string& description) {
+void write_face(HtmlWriter& html, const std::string& file, const std::string& description) {
     html.open("a", {{"href", file}})
         .single("img", {{"src", file},
                         {"alt", description},
@@ -248,7 +248,7 @@ void write_faces(HtmlWriter& html, const std::string& name,
         const auto file = pictures.find(shown.kind);
         if (file == pictures.end()) continue;
         html.open("figure");
-        write_image(html, file->second, name + ", " + shown.caption + ", " + camera);
+        write_face(html, file->second, name + ", " + shown.caption + ", " + camera);
         html.element("figcaption", shown.caption).close();
     }
     html.close();
@@ -357,7 +357,7 @@ void write_expression(HtmlWriter& html, const Evaluation& evaluation, std::size_
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationPictures* pictures) {
     const std::string title = evaluation.name + ": simulated against measured expressions";
     HtmlWriter html;
-    html.element("style", kStyle).element("h1", title);
+    html.element("style", kEvaluationStyle).element("h1", title);
     html.element("p",
                  "Rig " + evaluation.rig + " (" + std::to_string(evaluation.nodes) +
                      " nodes), measured shapes " + evaluation.shapes + ", " +

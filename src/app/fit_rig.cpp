@@ -35,8 +35,6 @@ rig::RigDescription standard_rig(const fs::path& folder) {
     rig.muscles = rig::read_muscle_table(table("muscles.json"));
     rig.facs = track::read_facs(table("facs.json"), rig.channels());
     rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
-    if (fs::exists(folder / rig::kCalibrationFile))
-        rig.calibrated_on = rig::read_calibration(folder / rig::kCalibrationFile);
     return rig;
 }
 

@@ -71,7 +71,7 @@ void read_numbers(ShapesFile& shapes) {
 }
 
 ShapesFile read_shapes_file(const std::filesystem::path& file, const rig::Head& head) {
-    ShapesFile out{.json = JsonCursor::read_file(file)};
+    ShapesFile out{JsonCursor::read_file(file), 0, {}, {}, {}};
     const JsonCursor& json = out.json;
     // "stats", "source" and "note" are for people
     json.allow_keys({"format", "version", "shape", "dtype", "layout", "names", "file",

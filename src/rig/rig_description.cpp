@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "rig/calibration.h"
+
 namespace risorius::rig {
 
 namespace {
@@ -131,22 +133,7 @@ constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "mus
 constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json",
                                        "attachments.json", "muscle_bands.json", "muscles.json"};
 
-std::vector<std::string> names_of(const JsonCursor& list) {
-    std::vector<std::string> out;
-    for (const JsonCursor& name : list.items()) out.push_back(name.string());
-    return out;
-}
-
 }  // namespace
-
-std::vector<std::string> read_calibration(const std::filesystem::path& file) {
-    const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "source", "expressions"});
-    json.at("format").one_of({"risorius-calibration"});
-    json.at("version").integer(1, 1);
-    json.at("source").string();
-    return names_of(json.at("expressions"));
-}
 
 const SolidMuscle* RigDescription::solid(const std::string& muscle) const {
     for (const SolidMuscle& entry : solids)
@@ -246,8 +233,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
         }
 
     if (const auto calibrated = json.find("calibrated_on")) {
-        rig.calibrated_on =
-            calibrated->is_string() ? read_calibration(calibrated->path()) : names_of(*calibrated);
+        read_calibration(*calibrated);
         if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
     }
 
@@ -312,10 +298,11 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["facs"] = table("facs.json");
     json["expressions"] = table("expressions.json");
     json["look"] = fields_of(rig.look);
-    if (!rig.calibrated_on.empty())
+    if (const auto source = options.standard_folder / kCalibrationFile;
+        std::filesystem::exists(source))
         json["calibrated_on"] = options.inline_tables
-                                    ? Json(rig.calibrated_on)
-                                    : Json(relative(options.standard_folder / kCalibrationFile));
+                                    ? Json(read_calibration(JsonCursor::read_file(source)))
+                                    : Json(relative(source));
 
     const std::filesystem::path partial = file.string() + ".part";
     {

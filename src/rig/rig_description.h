@@ -109,7 +109,6 @@ struct RigDescription {
     track::FacsTable facs;
     track::Expressions expressions;
     LookDescription look;
-    std::vector<std::string> calibrated_on;  ///< measured expressions its numbers were tuned with
     std::vector<std::filesystem::path> table_files;  ///< read because the rig file names them
 
     const SolidMuscle* solid(const std::string& muscle) const;  ///< null for a bundle
@@ -118,10 +117,6 @@ struct RigDescription {
 
 /// Throws Error naming file, place, expected and found.
 RigDescription read_rig(const std::filesystem::path& file);
-
-/// Calibration files: {"format": "risorius-calibration", "version": 1, "source": "...", "expressions": [names]}.
-std::vector<std::string> read_calibration(const std::filesystem::path& file);
-inline constexpr const char* kCalibrationFile = "calibration.json";  ///< of the standard anatomy
 
 /// What `fit` writes: the tables of `standard` are referred to by path when `tables_folder` is given, otherwise written inline.
 /// Written beside and renamed, never half.
