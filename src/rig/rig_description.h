@@ -45,6 +45,7 @@ struct EyesDescription {
     double upper_lid_per_gaze_up = 0.48;
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
+    double lids_per_gaze_aside = 0.25;
     double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
     double lid_closed_share =
         0.96;  ///< share of the fissure the upper lid travels, the lower does the rest

@@ -151,7 +151,10 @@ struct Face::Impl {
         const double lower = of("orbicularis_oculi_palpebral_lower");
         LidPose pose;
         pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
-        pose.lower_closure = (1.0 - pose.upper_closure) * 4.0 * lower + pose.upper_closure;
+        pose.lower_closure = pose.upper_closure;
+        pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
+        // Orbicularis draws both lids towards the inner canthus it springs from.
+        pose.inward = pose.upper_closure * (0.5 + 0.5 * std::min(1.0, upper));
         constexpr double kDegree = 3.14159265358979323846 / 180.0;
         const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft
                                                 : track::Kinematic::kGazePitchRight);
@@ -162,9 +165,22 @@ struct Face::Impl {
         pose.lower_gaze_rad =
             -open * kDegree *
             (pitch > 0 ? rig.eyes.lower_lid_per_gaze_up : rig.eyes.lower_lid_per_gaze_down) * pitch;
+        pose.aside_rad =
+            open * kDegree * rig.eyes.lids_per_gaze_aside *
+            drive.at(side == 0 ? track::Kinematic::kGazeYawLeft : track::Kinematic::kGazeYawRight);
         pose.upper_gaze_rad -= kDegree * rig.eyes.wide_deg *
                                (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
         return pose;
+    }
+
+    std::array<Mat3, 2> gaze(const track::Drive& drive) const {
+        const auto of = [&](track::Kinematic channel) {
+            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
+        };
+        return {
+            gaze_rotation(of(track::Kinematic::kGazeYawLeft), of(track::Kinematic::kGazePitchLeft)),
+            gaze_rotation(of(track::Kinematic::kGazeYawRight),
+                          of(track::Kinematic::kGazePitchRight))};
     }
 
     Rigid mandible(const track::Drive& drive) const {
@@ -224,7 +240,8 @@ struct Face::Impl {
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
         return {mandible(now.jaw.q, drive),
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                drive.at(track::Kinematic::kMouthPressure)};
+                drive.at(track::Kinematic::kMouthPressure),
+                gaze(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
@@ -414,25 +431,19 @@ struct Face::Impl {
         if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
                                     : drive.at(track::Kinematic::kJawOpen);
-        const auto gaze_of = [&](track::Kinematic channel) {
-            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
-        };
-        const std::array<Mat3, 2> gaze{gaze_rotation(gaze_of(track::Kinematic::kGazeYawLeft),
-                                                     gaze_of(track::Kinematic::kGazePitchLeft)),
-                                       gaze_rotation(gaze_of(track::Kinematic::kGazeYawRight),
-                                                     gaze_of(track::Kinematic::kGazePitchRight))};
+        const std::array<Mat3, 2> turned = gaze(drive);
         const std::array<LidPose, 2> lid{lid_pose(0, state.activation, drive),
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
         if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
-        const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
+        const FollowDrive follow_drive{moved, turned, lid, drive.at(track::Kinematic::kTongueOut),
                                        out.head};
         if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
         follow->apply(follow_drive, out.vertices);
         for (int side = 0; side < 2; ++side)
-            out.eye_rotation[side] = out.head.linear() * gaze[side];
+            out.eye_rotation[side] = out.head.linear() * turned[side];
         return out;
     }
 };

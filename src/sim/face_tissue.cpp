@@ -116,12 +116,12 @@ void FaceTissue::build_tethers() {
         const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
         for (int side = 0; side < 2; ++side) {
             if ((p - lids_[side].centre()).norm() > lids_[side].zone_m() + head_.mm(3)) continue;
-            const LidMember member =
-                lids_[side].classify(p, head_.mm(2.0), head_.mm(4.0), head_.mm(2.8));
-            if (member.weight < 1e-3) continue;
+            const LidMember member = lids_[side].member(p);
+            const double firmness = EyeLids::firmness(member, 0.4, 1.15, 0.2, 0.65);
+            if (firmness < 1e-3) continue;
             for (Layer layer : {kDeep, kMiddle, kSkin}) {
                 const int node = node_of(static_cast<int>(v), layer);
-                const double k = member.weight * kLidTether_pa_per_m * mesh_.area_m2[v];
+                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
                 held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
                 lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
             }
@@ -172,6 +172,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
 void FaceTissue::prescribe(const Prescribed& prescribed) {
     const Rigid& moved = prescribed.mandible;
     mandible_ = moved;
+    gaze_ = prescribed.gaze;
     std::vector<tissue::Tethers::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Attachment& a = attachments_[i];
@@ -184,8 +185,7 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
         const LidTether& t = lid_tethers_[i];
         held[attachments_.size() + i].target =
-            t.rest +
-            lids_[t.side].ride(t.rest, t.member.upper, t.member.place, prescribed.lid[t.side]);
+            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
@@ -210,7 +210,7 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
 }
 
 void FaceTissue::find_contacts(const Points& x) {
-    contacts_.set(search_.find(x, mandible_));
+    contacts_.set(search_.find(x, mandible_, gaze_));
     note_contacts();
 }
 

@@ -60,6 +60,7 @@ struct Prescribed {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
+    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
 };
 
 /// A jaw that its muscles move within a step of the tissue.
@@ -185,6 +186,7 @@ class FaceTissue {
     tissue::Contacts contacts_;
     tissue::DeadLoads air_;
     Rigid mandible_ = Rigid::Identity();
+    std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
     std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<LidTether> lid_tethers_;

@@ -31,15 +31,12 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
             if (from_centre > lids[side].zone_m() + head.mm(4)) continue;
             if (p.z() < lids[side].centre().z()) continue;
             skin_near_eye[side].push_back(static_cast<int>(v));
-            LidMember member = lids[side].classify(p, head.mm(0.8), head.mm(4.5), head.mm(3.2));
-            member.vertex = static_cast<int>(v);
-            const Vec3 r = p - lids[side].centre();
-            const Vec3 gaze = head.eyes[side].forward;
-            const double surface =
-                head.eyes[side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze)));
+            const LidMember member = lids[side].member(p);
+            const double weight = EyeLids::firmness(member, 0.15, 1.0, 0.08, 0.45);
             // Never more than at rest, so that rest stays as it was imported
-            const double clearance = std::min(from_centre - surface, head.mm(1.6));
-            lid_vertices_.push_back({side, member, clearance});
+            const double clearance =
+                std::min(head.eyes[side].distance(p, head.eyes[side].forward), head.mm(1.6));
+            lid_vertices_.push_back({static_cast<int>(v), side, member, weight, clearance});
         }
     }
 
@@ -52,10 +49,11 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
         const int side = p.x() >= 0 ? 0 : 1;
         const double upper = distance_to_polyline(p, lids[side].upper_margin());
         const double lower = distance_to_polyline(p, lids[side].lower_margin());
-        LidMember member = lids[side].classify(p, head.mm(30), head.mm(1), head.mm(1));
-        member.vertex = v;
+        LidMember member;
         member.upper = upper < lower;
-        lid_vertices_.push_back({side, member, kNotKept});
+        member.share = member.upper ? 1.0 : 0.0;
+        member.place = std::clamp(lids[side].place_of(p), 0.0, 1.0);
+        lid_vertices_.push_back({v, side, member, 1.0, kNotKept});
         int nearest = -1;
         double least = 1e300;
         for (int w : skin_near_eye[side]) {
@@ -137,24 +135,18 @@ void Follow::turn_with_head(const Rigid& head, const Points& rest, Points& point
 
 void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
     for (const LidVertex& lid : lid_vertices_) {
-        const int v = lid.member.vertex;
+        const int v = lid.vertex;
         const Vec3 rest = rest_.row(v).transpose();
-        if (lid.member.weight > 0) {
-            const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member.upper, lid.member.place,
-                                                          drive.lid[lid.side]);
-            vertices.row(v) =
-                (1 - lid.member.weight) * vertices.row(v) + lid.member.weight * ride.transpose();
+        if (lid.weight > 0) {
+            const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member, drive.lid[lid.side]);
+            vertices.row(v) = (1 - lid.weight) * vertices.row(v) + lid.weight * ride.transpose();
         }
         if (lid.clearance == kNotKept) continue;
         // The lid slides over the cornea: it is lifted where the eye's surface comes closer than at rest
-        const Vec3 r = Vec3(vertices.row(v).transpose()) - lids_[lid.side].centre();
-        const double distance = r.norm();
-        const Vec3 gaze = drive.gaze[lid.side] * head_.eyes[lid.side].forward;
-        const double wanted =
-            head_.eyes[lid.side].profile_at(std::atan2(r.cross(gaze).norm(), r.dot(gaze))) +
-            lid.clearance;
-        if (distance < wanted && distance > 0)
-            vertices.row(v) += ((wanted / distance - 1) * r).transpose();
+        const rig::EyeGeometry& eye = head_.eyes[lid.side];
+        const Vec3 p = vertices.row(v).transpose();
+        const double lift = lid.clearance - eye.distance(p, drive.gaze[lid.side] * eye.forward);
+        if (lift > 0) vertices.row(v) += lift * (p - eye.centre).normalized().transpose();
     }
 }
 

@@ -35,8 +35,10 @@ class Follow {
 
   private:
     struct LidVertex {
+        int vertex;
         int side;
         LidMember member;
+        double weight;     ///< 1 on the tarsal plate, 0 where tissue alone moves it
         double clearance;  ///< kept from the eye's surface, m
     };
     struct TongueVertex {
