@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -78,10 +79,12 @@ class FaceTissue {
     /// Finds the contact pairs at x; they hold until the next call.
     void find_contacts(const Points& x);
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends.
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// tried first.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x);
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {});
 
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
     /// Of everything at rest: tissue, then the volume muscles. States have these rows.
