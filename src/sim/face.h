@@ -33,7 +33,7 @@ struct Quality {
     double tolerance_rms_m =
         0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
 };
-/// "preview": six iterations, real time. "video": until an iteration changes the step by less than 0.005 mm RMS, after six at least
+/// "preview": seven iterations, real time. "video": until an iteration changes the step by less than 0.005 mm RMS, after six at least
 /// (0.05 mm RMS of lag is left; stopping at 0.05 mm leaves 0.6 mm).
 /// "fine": as video, with 1,700 skin vertices.
 Quality quality_named(const std::string& name);
