@@ -52,6 +52,8 @@ struct Prescribed {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
+    Vec3 weight_m_s2 =
+        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
 };
 
 /// A jaw that its muscles move within a step of the tissue.
@@ -151,7 +153,7 @@ class FaceTissue {
     std::optional<muscle::FibreSet> fibres_;
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;
+    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
     std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
