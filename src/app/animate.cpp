@@ -144,6 +144,7 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
                                                               : sim::Motion::kQuasiStatic);
     const track::Timeline timeline(script, channels);
     render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
+    add_wrinkles(face.wrinkle_lines(), scene);
     const bool inside = shot.view.show == render::Show::kMuscles;
     if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
     render::OffscreenView view(scene, shot.view);

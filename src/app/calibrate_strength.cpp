@@ -14,17 +14,6 @@ constexpr int kIterations = 200;  // of the solver, per trial
 
 }  // namespace
 
-double target_stretch(const std::string& muscle) {
-    if (muscle == "platysma") return 0.86;
-    if (muscle == "orbicularis_oculi_orbital") return 0.85;
-    if (muscle.starts_with("orbicularis_oculi_palpebral")) return 0.80;
-    // Measured expressions shorten these less than the others: sneer, mouth frown, pucker.
-    if (muscle == "levator_labii_superioris_alaeque_nasi") return 0.82;
-    if (muscle == "depressor_anguli_oris") return 0.80;
-    if (muscle.starts_with("orbicularis_oris") || muscle.starts_with("incisivus")) return 0.80;
-    return 0.72;
-}
-
 std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDescription& rig,
                                                const Watch& watch) {
     std::vector<MuscleStrength> out;
@@ -34,7 +23,7 @@ std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDe
                            .strength = rig.solid(band.muscle) != nullptr
                                            ? rig.solid(band.muscle)->strength
                                            : band.strength,
-                           .target_stretch = target_stretch(band.muscle)});
+                           .target_stretch = band.shortens_to});
 
     const track::ChannelTable channels = rig.channels();
     track::Drive rest;

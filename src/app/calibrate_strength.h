@@ -3,8 +3,7 @@
 //   s   strength: force / force from the cross-section, ratio, [0.1, 6]
 //   l   mean fibre length / rest length at activation 1
 //
-// Targets for l: 0.72; platysma 0.86; orbicularis oculi 0.85 (orbital) and 0.80 (palpebral); levator labii superioris
-// alaeque nasi 0.82; depressor anguli oris, orbicularis oris and incisivi 0.80.
+// Targets for l are those of the muscle bands, "shortens_to".
 #pragma once
 
 #include <string>
@@ -24,8 +23,6 @@ struct MuscleStrength {
     bool at_limit = false;  ///< the target wants more or less than the limits allow
     bool converged = true;  ///< the face came to rest in the last trial
 };
-
-double target_stretch(const std::string& muscle);
 
 /// Each muscle of the rig's bands alone, be it a bundle or a solid, one after the other, by the secant method; `face` is left with the strengths
 /// found. Throws Interrupted.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/calibrate_strength.h"
+#include "app/fit_picture.h"
 #include "app/watch.h"
 #include "core/json_cursor.h"
 
@@ -22,6 +23,9 @@ struct FitOptions {
         parts;                  ///< role -> groups; the rest is guessed from their names
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
+    bool cut_lips =
+        false;  ///< those of a scan that are grown together; the cut mesh is written beside the rig
+    std::filesystem::path report;  ///< folder for a page with pictures; empty: none
     bool solids = false;  ///< the volume muscles of the standard table, rather than bundles alone
 };
 
@@ -36,14 +40,15 @@ struct FitReport {
     std::vector<std::string> warped_landmarks;  ///< placed by warping the atlas
     std::vector<std::string> worth_giving;  ///< of those, the ones most muscles hang on, best first
     int nodes = 0, tets = 0, dropped_tets = 0, inverted_tets = 0, fibres = 0;
-    bool eyes = false, teeth = false;
+    BoneFigures bone;
+    bool eyes = false, teeth = false, lips_cut = false;
     std::vector<MuscleStrength> strengths;
     std::vector<std::string> notes;
 
     Json json() const;
 };
 
-/// Throws Error when the mesh or the landmarks are not those of a head; then no rig is written.
+/// Throws Error when the mesh or the landmarks are not those of a head; then nothing is written.
 FitReport fit_rig(const FitOptions& options, const Watch& watch = {});
 
 }  // namespace risorius::app

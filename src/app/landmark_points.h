@@ -18,6 +18,7 @@ class LandmarkPoints {
     double distance(const std::string& a, const std::string& b, const Points& vertices) const {
         return (at(a, vertices) - at(b, vertices)).norm();
     }
+    int vertex(const std::string& id) const { return riders_.at(id).vertex; }
     std::vector<std::string> ids() const;
 
   private:

@@ -99,11 +99,16 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
     return scene;
 }
 
+void add_wrinkles(const sim::WrinkleLines& lines, render::Scene& scene) {
+    scene.fold_phase = lines.phase;
+}
+
 render::Pose pose_for_view(const sim::FacePose& pose) {
     render::Pose out;
     out.positions = pose.vertices;
     out.eye_rotation = pose.eye_rotation;
     out.jaw_open = pose.jaw_open;
+    out.fold_depth = pose.fold_depth;
     return out;
 }
 

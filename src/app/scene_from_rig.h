@@ -12,6 +12,9 @@ namespace risorius::app {
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh);
 
+/// What wrinkles the skin may get; before the view is made.
+void add_wrinkles(const sim::WrinkleLines& lines, render::Scene& scene);
+
 render::Pose pose_for_view(const sim::FacePose& pose);
 
 /// What a picture needs to show the muscles: their shapes, once, and what of a frame colours and moves them.

@@ -88,4 +88,12 @@ Image read_png(const std::filesystem::path& file) {
     return image;
 }
 
+void put_text(Image& image, const std::string& text, int x, int y, int height_px) {
+    constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+    constexpr double kCapitals_px = 21;  // of the font at scale 1
+    cv::Mat pixels(image.height_px, image.width_px, CV_8UC4, image.rgba.data());
+    cv::putText(pixels, text, {x, y}, kFont, height_px / kCapitals_px, {30, 30, 30, 255},
+                height_px > 14 ? 2 : 1, cv::LINE_AA);
+}
+
 }  // namespace risorius::media

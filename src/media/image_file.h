@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/image.h"
 
@@ -12,5 +13,8 @@ void write_png(const Image& image, const std::filesystem::path& file);
 /// Whether any pixel is not opaque.
 bool has_transparency(const Image& image);
 Image read_png(const std::filesystem::path& file);
+
+/// Writes ASCII text, its baseline beginning at x, y; capitals are `height_px` high. For captions of pictures.
+void put_text(Image& image, const std::string& text, int x, int y, int height_px);
 
 }  // namespace risorius::media

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solve/force_term.h"
+
 namespace risorius::muscle {
 
 namespace {
@@ -132,6 +134,38 @@ void ChainSet::add_stiffness(const Points& x, double activation, const std::vect
             hessian.add(b, b, block);
             hessian.add(a, b, -block);
         }
+    }
+}
+
+void ChainSet::add_hessian(const Points& x, double activation, solve::Curvature curvature,
+                           const std::vector<int>& row, solve::HessianBuilder& hessian) const {
+    const bool positive = curvature == solve::Curvature::kPositive;
+    for (const Chain& chain : chains_) {
+        const Pull chain_pull = pull(chain, length(chain, x), activation);
+        const double slope = positive ? std::max(chain_pull.slope, 0.0) : chain_pull.slope;
+        const double tension = positive ? std::max(chain_pull.tension, 0.0) : chain_pull.tension;
+        const auto count = chain.node.size();
+        std::vector<Vec3> by_node(count, Vec3::Zero());  // dL/dx
+        for (int s = 0; s + 1 < static_cast<int>(count); ++s) {
+            const Vec3 d = segment(x, chain.node, s);
+            const double l = d.norm();
+            if (!(l > 0)) continue;
+            const Vec3 u = d / l;
+            const auto from = static_cast<std::size_t>(s);
+            by_node[from] -= u;
+            by_node[from + 1] += u;
+            const Mat3 turn = tension / l * (Mat3::Identity() - u * u.transpose());
+            const int a = row[static_cast<std::size_t>(chain.node[from])],
+                      b = row[static_cast<std::size_t>(chain.node[from + 1])];
+            hessian.add(a, a, turn);
+            hessian.add(b, b, turn);
+            hessian.add(a, b, -turn);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j <= i; ++j)
+                hessian.add(row[static_cast<std::size_t>(chain.node[i])],
+                            row[static_cast<std::size_t>(chain.node[j])],
+                            slope * by_node[i] * by_node[j].transpose());
     }
 }
 

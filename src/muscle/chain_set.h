@@ -15,6 +15,10 @@
 #include "muscle/muscle_curves.h"
 #include "solve/hessian_builder.h"
 
+namespace risorius::solve {
+enum class Curvature;
+}
+
 namespace risorius::muscle {
 
 struct ChainProperties {
@@ -41,6 +45,11 @@ class ChainSet {
     /// Node i is row `row[i]` of the builder.
     void add_stiffness(const Points& x, double activation, const std::vector<int>& row,
                        solve::HessianBuilder& hessian) const;
+
+    /// The second derivative of E itself: the one stiffness of a chain joins all its nodes. kPositive without its negative
+    /// part. Node i is row `row[i]` of the builder.
+    void add_hessian(const Points& x, double activation, solve::Curvature curvature,
+                     const std::vector<int>& row, solve::HessianBuilder& hessian) const;
 
     double mean_stretch(const Points& x, double activation) const;  ///< of lam / r over the chains
 

@@ -20,6 +20,11 @@
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
 namespace risorius::muscle {
 
 struct FibrePoint {
@@ -65,6 +70,11 @@ class FibreSet {
     /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by
     /// Fibre::column.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
+
+    /// Adds the second derivative of E at rest (not in a step), slack segments named too; kPositive without its negative
+    /// part, segment by segment.
+    void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
 
     /// dE/d(place of a point) in the last call of add_energy, N: what a point on a body pulls it with is the negative of it.
     Vec3 point_gradient(int point) const {

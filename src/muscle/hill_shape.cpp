@@ -38,6 +38,17 @@ LengthCurves::Value LengthCurves::active(double l) const {
     return {std::exp(-u * u), width_integral_ * std::erf(u)};
 }
 
+double LengthCurves::active_slope(double l) const {
+    const double u = (l - 1.0) * inverse_width_;
+    return -2.0 * u * inverse_width_ * std::exp(-u * u);
+}
+
+double LengthCurves::passive_slope(double l) const {
+    if (l <= 1.0) return 0.0;
+    const double toe = std::fmin((l - 1.0) * inverse_strain_, knee_);
+    return exponent_ * inverse_strain_ * std::exp(exponent_ * toe) * inverse_full_;
+}
+
 LengthCurves::Value LengthCurves::passive(double l) const {
     if (l <= 1.0) return {0.0, 0.0};
     const double e = (l - 1.0) * inverse_strain_;

@@ -40,6 +40,8 @@ class LengthCurves {
     explicit LengthCurves(const HillShape& shape);
     Value active(double l) const;
     Value passive(double l) const;
+    double active_slope(double l) const;   ///< of the force
+    double passive_slope(double l) const;  ///< likewise
 
   private:
     double inverse_width_, width_integral_;

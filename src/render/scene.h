@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,16 @@ struct Scene {
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Look look;
+    Points
+        fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown
+};
+
+/// A quantity on the skin, shown as colour in place of the skin's own, with a scale in the upper left corner.
+struct SkinValues {
+    std::string name, unit;   ///< "error", "mm"
+    double from = 0, to = 1;  ///< beyond, the colours are those of the ends; see value_colour.h
+    std::vector<double> at;   ///< V; grey where it is not a number
 };
 
 /// What changes from frame to frame.
@@ -71,8 +81,10 @@ struct Pose {
     Points positions;  ///< V x 3, m, world = head frame at rest
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};  ///< world from rest eye
     double jaw_open = 0.0;            ///< ratio, darkens or lights the mouth
+    Points fold_depth;                ///< V x 3, m, of the wrinkles along fold_phase; no rows: none
     Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
     std::vector<double> activations;  ///< per muscle of the scene, ratio
+    std::optional<SkinValues> values;  ///< of this frame; any view shows them
 };
 
 }  // namespace risorius::render

@@ -35,13 +35,23 @@ std::string mirrored_landmark(const std::string& id) {
     return id;
 }
 
+MuscleBand mirrored(const MuscleBand& band) {
+    MuscleBand out = band;
+    for (BandPoint& point : out.points) {
+        point.landmark = mirrored_landmark(point.landmark);
+        point.offset.x() = -point.offset.x();
+    }
+    return out;
+}
+
 std::vector<AtlasLandmark> read_atlas_landmarks(JsonCursor json) {
     json.allow_keys({"source", "frame", "landmarks"});
     std::vector<AtlasLandmark> out;
     for (const JsonCursor& item : json.at("landmarks").items()) {
         item.allow_keys({"id", "name", "side", "region", "xyz_mm", "core", "definition"});
         out.push_back({item.at("id").string(), item.at("name").string(),
-                       1e-3 * item.at("xyz_mm").vec3(), item.at("core").boolean()});
+                       1e-3 * item.at("xyz_mm").vec3(), item.at("core").boolean(),
+                       item.at("region").string()});
     }
     return out;
 }
@@ -73,12 +83,15 @@ std::vector<MuscleBand> read_muscle_bands(JsonCursor json) {
     std::vector<MuscleBand> out;
     for (const std::string& muscle : json.at("muscles").keys())
         for (const JsonCursor& item : json.at("muscles").at(muscle).items()) {
-            item.allow_keys({"width_mm", "F0_N", "calibration", "points", "origin", "insertion"});
+            item.allow_keys({"width_mm", "F0_N", "calibration", "shortens_to", "points", "origin",
+                             "insertion"});
             MuscleBand band;
             band.muscle = muscle;
             band.width_m = 1e-3 * item.at("width_mm").number({0.5, 200});
             band.force_n = item.at("F0_N").number({0, 1000});
             band.strength = item.at("calibration").number({0, 100});
+            if (const auto length = item.find("shortens_to"))
+                band.shortens_to = length->number({0.3, 1});
             for (const JsonCursor& point : item.at("points").items()) {
                 point.allow_keys({"landmark", "offset_mm", "depth"});
                 const bool on_mucosa = point.at("depth").json().is_null();

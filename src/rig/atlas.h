@@ -19,6 +19,7 @@ struct AtlasLandmark {
     std::string name;
     Vec3 position;  ///< m
     bool core = true;
+    std::string region;  ///< brow, eye, nose, lip, cheek...
 };
 
 /// A thickness or stiffness sample: a landmark, or a point given beside one.
@@ -48,7 +49,8 @@ struct MuscleBand {
     std::string muscle;
     double width_m;
     double force_n;         ///< isometric force of this side, shared by the muscle's bands
-    double strength = 1.0;  ///< calibration: activation 1 shortens as published
+    double strength = 1.0;  ///< calibration: activation 1 shortens as it should
+    double shortens_to = 0.72;  ///< mean fibre length / rest length at activation 1, the muscle alone
     std::vector<BandPoint> points;
     Body origin = Body::kSkull;
     Body insertion = Body::kSoft;
@@ -72,5 +74,7 @@ std::vector<MuscleBand> read_muscle_bands(JsonCursor json);
 
 /// "ch_l" -> "ch_r" and back; midline ids are their own mirror.
 std::string mirrored_landmark(const std::string& id);
+/// The band of the right side.
+MuscleBand mirrored(const MuscleBand& band);
 
 }  // namespace risorius::rig

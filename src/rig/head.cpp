@@ -6,7 +6,7 @@
 #include <set>
 
 #include "geom/weld.h"
-#include "rig/landmark_warp.h"
+#include "rig/landmark_drop.h"
 
 namespace risorius::rig {
 
@@ -203,40 +203,6 @@ void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vec
     }
 }
 
-Vec3 drop_on_skin(const Vec3& p, const Points& vertices, const std::set<int>& skin_vertices) {
-    Vec3 best = p;
-    double best_squared = 1e300;
-    for (int v : skin_vertices) {
-        const Vec3 q = vertices.row(v).transpose();
-        const double squared = (q - p).squaredNorm();
-        if (squared < best_squared) {
-            best_squared = squared;
-            best = q;
-        }
-    }
-    return best;
-}
-
-void complete_landmarks(Head& head, const Atlas& atlas, const std::map<std::string, Vec3>& given) {
-    std::set<int> skin_vertices;
-    for (long f = 0; f < head.skin.rows(); ++f)
-        for (int k = 0; k < 3; ++k) skin_vertices.insert(head.skin(f, k));
-    Points from(static_cast<long>(given.size()), 3), to(static_cast<long>(given.size()), 3);
-    long row = 0;
-    for (const auto& [id, p] : given) {
-        from.row(row) = atlas.landmark(id)->position.transpose();
-        to.row(row++) = p.transpose();
-    }
-    const LandmarkWarp warp(from, to, 1e-3);
-    head.landmarks = given;
-    for (const AtlasLandmark& landmark : atlas.landmarks) {
-        if (given.count(landmark.id)) continue;
-        head.landmarks[landmark.id] =
-            drop_on_skin(warp(landmark.position), head.vertices, skin_vertices);
-        head.warped_landmarks.push_back(landmark.id);
-    }
-}
-
 }  // namespace
 
 double EyeGeometry::profile_at(double angle_rad) const {
@@ -313,7 +279,11 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
     std::map<std::string, Vec3> in_head;
     for (const auto& [id, p] : in_mesh)
         if (rig.atlas.landmark(id)) in_head[id] = head.frame.to_head(p);
-    complete_landmarks(head, rig.atlas, in_head);
+    head.landmarks = in_head;
+    head.landmarks.merge(
+        missing_landmarks(head.vertices, head.skin, rig.atlas, in_head, head.size));
+    for (const AtlasLandmark& landmark : rig.atlas.landmarks)
+        if (!in_head.count(landmark.id)) head.warped_landmarks.push_back(landmark.id);
 
     // Who carries each vertex
     head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);

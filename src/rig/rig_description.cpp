@@ -54,6 +54,7 @@ void visit_fields(SkinDescription& skin, Visit visit) {
     visit("membrane_n_per_m", skin.membrane_n_per_m, Range{0, 1e6});
     visit("bending_n_m", skin.bending_n_m, Range{0, 1e3});
     visit("lid_membrane_ratio", skin.lid_membrane_ratio, Range{1e-4, 100});
+    visit("wrinkles", skin.wrinkles, Range{0, 10});
 }
 template <typename Visit>
 void visit_fields(LookDescription& look, Visit visit) {

@@ -77,6 +77,7 @@ struct SkinDescription {
     double membrane_n_per_m = 10;
     double bending_n_m = 2e-5;
     double lid_membrane_ratio = 0.02;
+    double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
 };
 
 /// Appearance generated for heads without textures; colours sRGB 0..1.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "muscle/activation.h"
+#include "sim/face_statics.h"
 #include "sim/face_tissue.h"
 #include "sim/follow.h"
 #include "sim/head_motion.h"
@@ -17,6 +18,7 @@
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
+#include "sim/skin_layer.h"
 #include "sim/tissue_mesh.h"
 #include "sim/tissue_motion.h"
 #include "track/channels.h"
@@ -67,6 +69,7 @@ struct Face::Impl {
     TissueMesh mesh;
     FaceTissue tissue;
     std::optional<SkinBinding> binding;
+    std::optional<SkinLayer> skin;
     std::optional<Follow>
         follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
 
@@ -78,6 +81,7 @@ struct Face::Impl {
         JawDynamics::State jaw;  // when muscles move it
     };
     State now, before;
+    std::optional<FaceStatics> statics;
     std::optional<JawDynamics> jaw_dynamics;  // the same
     std::optional<JawSynergies> jaw_synergies;
     JawJoint jaw_joint;
@@ -112,6 +116,7 @@ struct Face::Impl {
         tissue.prepare(motion.effective_step_s());
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
+        skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),
             muscle::ActivationLaw{.form = rig.activation.law == "smooth"
@@ -122,6 +127,16 @@ struct Face::Impl {
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
         before = now;
+<<<<<<< HEAD
+=======
+        velocity = Points::Zero(now.x.rows(), 3);
+        statics.emplace(
+            tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
+            [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
+                return pose_of({x, a, d, {}}, Folds::kLeftOut).vertices;
+            },
+            channels.column_min());
+>>>>>>> main
     }
 
     LidPose lid_pose(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const {
@@ -223,19 +238,44 @@ struct Face::Impl {
         return figures;
     }
 
+    Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
+        return {mandible(now.jaw.q, drive),
+                {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
+                drive.at(track::Kinematic::kMouthPressure)};
+    }
+
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
         tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
+<<<<<<< HEAD
         tissue.prescribe({mandible(now.jaw.q, drive),
                           {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                           drive.at(track::Kinematic::kMouthPressure),
                           gravity_at(drive) - JawDynamics::upright_gravity()});
+=======
+        prescribe(activation, drive);
+    }
+    void prescribe(const Eigen::VectorXd& activation, const track::Drive& drive) {
+        tissue.prescribe(prescribed(activation, drive));
+>>>>>>> main
     }
 
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
                        int iterations) {
         Points x = now.x;
         prescribe(x, activation, drive);
+        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, iterations, x)
+                                                 : statics->settle(activation, iterations, x);
+        now.x = x;
+        now.activation = activation;
+        now.drive = drive;
+        velocity.setZero();
+        before = now;
+        return figures;
+    }
+
+    // Tissue and jaw come to rest together, in long steps of time.
+    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, int iterations, Points& x) {
         StepFigures figures;
         while (figures.iterations < iterations) {
             tissue.find_contacts(x);
@@ -251,6 +291,8 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.lip_depth_m = part.lip_depth_m;
+            figures.bone_depth_m = part.bone_depth_m;
             figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
@@ -260,11 +302,14 @@ struct Face::Impl {
                 break;
             }
         }
+<<<<<<< HEAD
         now.x = x;
         now.activation = activation;
         now.drive = drive;
         motion.start(now.x, head_motion(head, drive));
         before = now;
+=======
+>>>>>>> main
         return figures;
     }
 
@@ -298,7 +343,12 @@ struct Face::Impl {
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
                                                   x);
         tissue.fibres().end_step();
+<<<<<<< HEAD
         motion.end(x);
+=======
+        statics->moved();
+        velocity = (x - now.x) / kStep_s;
+>>>>>>> main
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -343,16 +393,62 @@ struct Face::Impl {
     }
 
     FacePose pose(double share) const {
-        const track::Drive drive = drive_between(share);
-        const Eigen::VectorXd activation = (1 - share) * before.activation + share * now.activation;
+        return pose_of({(1 - share) * before.x + share * now.x,
+                        (1 - share) * before.activation + share * now.activation,
+                        drive_between(share),
+                        {.q = jaw_between(share)}});
+    }
+
+    Points skin_displacement(const Points& x) const {
         Points displacement(static_cast<long>(shell.vertex.size()), 3);
         for (long v = 0; v < displacement.rows(); ++v) {
             const int node = node_of(static_cast<int>(v), kSkin);
-            displacement.row(v) =
-                (1 - share) * before.x.row(node) + share * now.x.row(node) - mesh.nodes.row(node);
+            displacement.row(v) = x.row(node) - mesh.nodes.row(node);
         }
+        return displacement;
+    }
+
+    // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
+    Points pull_through(const FollowDrive& drive, const Points& surface,
+                        const Points& slope) const {
+        constexpr double kDifference_m = 1e-6;
+        Points out(slope.rows(), 3);
+        for (int k = 0; k < 3; ++k) {
+            Points above = surface, below = surface;
+            above.col(k).array() += kDifference_m;
+            below.col(k).array() -= kDifference_m;
+            follow->apply(drive, above);
+            follow->apply(drive, below);
+            out.col(k) = (above - below).cwiseProduct(slope).rowwise().sum() / (2 * kDifference_m);
+        }
+        return out;
+    }
+
+    Points pull_back(const Points& slope) const {
+        Points by_skin = slope;
+        pose_of(now, Folds::kLeftOut, &by_skin);
+        const Points by_shell = binding->pull_back(by_skin, static_cast<long>(shell.vertex.size()));
+        Points out = Points::Zero(now.x.rows(), 3);
+        for (long v = 0; v < by_shell.rows(); ++v)
+            out.row(node_of(static_cast<int>(v), kSkin)) = by_shell.row(v);
+        return out;
+    }
+
+    FaceStatics::Pose at_rest() const {
+        if (jaw_dynamics)
+            throw std::logic_error("an equilibrium's slopes while muscles move the jaw");
+        return {now.x, now.activation, now.drive};
+    }
+
+    /// What the skin's own layer adds to what the tissue does: no part of slopes.
+    enum class Folds { kFormed, kLeftOut };
+    /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
+    FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
+                     Points* pulled = nullptr) const {
+        const track::Drive& drive = state.drive;
+        const Points displacement = skin_displacement(state.x);
         FacePose out;
-        const JawVector q = jaw_between(share);
+        const JawVector& q = state.jaw.q;
         const Rigid moved = mandible(q, drive);
         out.jaw = jaw_joint.place(moved);
         if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
@@ -365,14 +461,22 @@ struct Face::Impl {
                                                      gaze_of(track::Kinematic::kGazePitchLeft)),
                                        gaze_rotation(gaze_of(track::Kinematic::kGazeYawRight),
                                                      gaze_of(track::Kinematic::kGazePitchRight))};
-        const std::array<LidPose, 2> lid{lid_pose(0, activation, drive),
-                                         lid_pose(1, activation, drive)};
+        const std::array<LidPose, 2> lid{lid_pose(0, state.activation, drive),
+                                         lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
+        if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
+<<<<<<< HEAD
         follow->apply({moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
                        drive.at(track::Kinematic::kTongueUp), out.head},
                       out.vertices);
+=======
+        const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
+                                       out.head};
+        if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
+        follow->apply(follow_drive, out.vertices);
+>>>>>>> main
         for (int side = 0; side < 2; ++side)
             out.eye_rotation[side] = out.head.linear() * gaze[side];
         return out;
@@ -407,6 +511,7 @@ void Face::start(const DriveAt& drive) {
     const Eigen::VectorXd activation = impl_->steady_activation(first);
     impl_->done = 0;
     impl_->history.clear();
+    impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
@@ -415,7 +520,12 @@ void Face::start(const DriveAt& drive) {
     impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};
+<<<<<<< HEAD
     impl_->motion.start(impl_->now.x, head_motion(impl_->head, first));
+=======
+    impl_->velocity.setZero();
+    impl_->statics->forget();
+>>>>>>> main
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;
@@ -470,6 +580,20 @@ StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& 
     return impl_->settle(impl_->with_jaw(activation, kinematic), kinematic, iterations);
 }
 
+const Points& Face::nodes() const { return impl_->now.x; }
+Points Face::static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                             const track::Drive& drive) const {
+    return impl_->statics->gradient(impl_->at_rest(), nodes, activation, drive);
+}
+Points Face::solve_static(const Points& b) { return impl_->statics->solve(impl_->at_rest(), b); }
+std::vector<Points> Face::sensitivities(std::span<const int> columns,
+                                        std::span<const track::Kinematic> channels) {
+    return impl_->statics->sensitivities(impl_->at_rest(), columns, channels);
+}
+Points Face::pull_back(const Points& vertex_gradient) const {
+    return impl_->pull_back(vertex_gradient);
+}
+
 FacePose Face::pose() const { return impl_->pose(1.0); }
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
@@ -480,10 +604,14 @@ int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(imp
 int Face::dropped_tets() const { return impl_->mesh.dropped_tets; }
 int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().fibres().size()); }
 double Face::build_s() const { return impl_->build_s; }
+const WrinkleLines& Face::wrinkle_lines() const { return impl_->skin->lines(); }
 const rig::Head& Face::head() const { return impl_->head; }
+const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
+const Shell& Face::shell() const { return impl_->shell; }
 const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
+    impl_->statics->moved();
     impl_->tissue.solids().scale_strength(muscle, factor);
     for (Side side : {Side::kLeft, Side::kRight}) {
         const int column = impl_->channels.column(muscle, side);
@@ -543,6 +671,24 @@ double Face::kinetic_energy_j() const {
     for (long i = 0; i < velocity.rows(); ++i)
         sum += 0.5 * impl_->tissue.mass()[i] * velocity.row(i).squaredNorm();
     return sum;
+}
+
+struct Face::Variant::Parts {
+    const Face::Impl& face;
+    rig::RigDescription rig;
+    FaceTissue tissue;
+    Parts(const Face::Impl& of, const rig::RigDescription& changed)
+        : face(of), rig(changed), tissue(of.head, rig, of.jaw, of.lids, of.shell, of.mesh) {}
+};
+Face::Variant::Variant(const Face& face, const rig::RigDescription& changed)
+    : parts_(std::make_unique<Parts>(*face.impl_, changed)) {}
+Face::Variant::~Variant() = default;
+
+Points Face::Variant::static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                                      const track::Drive& drive) {
+    parts_->tissue.prescribe(parts_->face.prescribed(activation, drive));
+    parts_->tissue.begin_rest(nodes);
+    return parts_->tissue.static_gradient(nodes, activation);
 }
 
 }  // namespace risorius::sim

@@ -44,7 +44,8 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     hill.passive_strain = rig_.tissue.fibre_passive_strain;
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
-    find_cheeks();
+    lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
+    find_cheeks(jaw);
     mass_.resize(rest_.rows());
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
     solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
@@ -129,18 +130,23 @@ void FaceTissue::build_tethers() {
     tethers_.emplace(held);
 }
 
-void FaceTissue::find_cheeks() {
-    // Air presses where the deep tissue is free: the cheeks
+void FaceTissue::find_cheeks(const Jaw& jaw) {
+    // Air fills the vestibule: behind cheeks and lips, from the fold under the nose down to that above the mandible's border, and
+    // back to the masseter. Lips that are shut are pushed forwards as one, which does not open them.
+    const double fold_y = head_.landmark("sn").y();
     for (const Attachment& a : attachments_) {
-        const double log_stiffness = std::log10(a.normal_n_per_m / mesh_.area_m2[a.shell_vertex]);
         const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
-        // Lips that hold the air_ in are not blown open by it.
-        const double sealed = smoothstep(head_.mm(8), head_.mm(20), distance_to_polyline(p, lips_));
-        const double open = sealed * (1.0 - smoothstep(3.5, 4.7, log_stiffness));
-        if (open > 0 && lid_share(p) == 0 && p.y() < head_.landmark("sn").y())
+        const double near =
+            1.0 - smoothstep(head_.mm(38), head_.mm(52), distance_to_polyline(p, lips_));
+        const double below = smoothstep(head_.mm(-2), head_.mm(8), fold_y - p.y());
+        const double above = smoothstep(head_.mm(6), head_.mm(20), jaw.height_over_border(p));
+        const double rim =
+            0.4 + 0.6 * smoothstep(head_.mm(2), head_.mm(10), distance_to_polyline(p, lips_));
+        const double share = near * below * above * rim;
+        if (share > 0 && lid_share(p) == 0)
             cheeks_.push_back(
                 {node_of(a.shell_vertex, kDeep),
-                 open * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+                 share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
     }
 }
 
@@ -154,6 +160,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     tethers_->add_metric(builder);
     fibres_->add_metric(builder, h < kSettling_s ? h : 0);
     solids_->add_metric(builder);
+    lip_drive_->add_metric(builder);
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
         builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
@@ -183,6 +190,7 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
     solids_->set_bodies(bodies);
+    lip_drive_->set_mandible(moved);
     const double pressure = prescribed.mouth_pressure_pa;
     std::vector<tissue::DeadLoads::Load> loads;
     if (pressure != 0)
@@ -207,6 +215,10 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
 
 void FaceTissue::find_contacts(const Points& x) {
     contacts_.set(search_.find(x, mandible_));
+    note_contacts();
+}
+
+void FaceTissue::note_contacts() {
     contact_on_mandible_.clear();
     const Rigid to_rest = mandible_.inverse();
     for (const tissue::Contacts::Contact& contact : contacts_.list())
@@ -223,6 +235,8 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
     energy += contacts_.add_energy(x, gradient);
     energy += air_.add_energy(x, gradient);
+    lip_drive_->drive(activation);
+    energy += lip_drive_->add_energy(x, gradient);
     return energy;
 }
 
@@ -254,16 +268,23 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     solids_->begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
-    return figures(newton_.minimise(energy, solve, x, options), x);
+    return end_step(newton_.minimise(energy, solve, x, options), x);
 }
 
-StepFigures FaceTissue::figures(const solve::StepReport& report, const Points& x) const {
+void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
+    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
+    figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
+}
+
+StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
     StepFigures figures;
     figures.iterations = report.iterations;
     figures.evaluations = report.evaluations;
     figures.last_step_rms_m = report.last_step_rms_m;
     figures.converged = report.converged;
-    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    put_depths(x, figures);
+    contacts_.remember(x);
     figures.muscle_volume_error = solids_->greatest_volume_error(x);
     return figures;
 }

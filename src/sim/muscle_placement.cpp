@@ -10,15 +10,6 @@ namespace risorius::sim {
 
 namespace {
 
-rig::MuscleBand mirrored(const rig::MuscleBand& band) {
-    rig::MuscleBand out = band;
-    for (rig::BandPoint& point : out.points) {
-        point.landmark = rig::mirrored_landmark(point.landmark);
-        point.offset.x() = -point.offset.x();
-    }
-    return out;
-}
-
 int bands_of(const rig::Atlas& atlas, const std::string& muscle) {
     return static_cast<int>(
         std::count_if(atlas.bands.begin(), atlas.bands.end(),

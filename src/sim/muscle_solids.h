@@ -30,6 +30,10 @@
 #include "tissue/cell_solid.h"
 #include "tissue/tethers.h"
 
+namespace risorius::solve {
+enum class Curvature;
+}
+
 namespace risorius::sim {
 
 using Wrenches = std::array<Wrench, kBodies>;
@@ -76,6 +80,12 @@ class MuscleSolids {
     /// given, what the muscles exert on the bones; dE / d(motion of a body) is the negative of it.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                       Wrenches* on_bodies = nullptr) const;
+
+    /// Before static energies from x on: no step, nothing is damped.
+    void begin_rest(const Points& x);
+    /// Adds the second derivative of add_energy at rest, over the rows of x.
+    void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
 
     /// What the tissue feels of the solids, over the tissue's nodes.
     void add_metric(solve::MetricBuilder& builder) const;

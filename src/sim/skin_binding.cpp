@@ -290,7 +290,18 @@ void SkinBinding::apply(const Points& shell_displacement, const Rigid& mandible,
     }
 }
 
-void SkinBinding::follow(int vertex, int like) { rows_[vertex] = rows_[like]; }
+Points SkinBinding::pull_back(const Points& by_vertex, long shell_vertices) const {
+    Points out = Points::Zero(shell_vertices, 3);
+    for (long v = 0; v < by_vertex.rows(); ++v)
+        for (int k = rows_[v].begin; k < rows_[v].end; ++k)
+            out.row(column_[k]) += weight_[k] * by_vertex.row(v);
+    return out;
+}
+
+void SkinBinding::follow(int vertex, int like) {
+    rows_[vertex] = rows_[like];
+    followers_.push_back({vertex, like});
+}
 
 std::vector<char> SkinBinding::moving() const {
     std::vector<char> out;

@@ -7,6 +7,7 @@
 // skull and mandible and everything outside the face at rest.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/types.h"
@@ -23,8 +24,13 @@ class SkinBinding {
     /// Adds the displacement of every skin vertex to `vertices` (V x 3). `shell_displacement` is N x 3.
     void apply(const Points& shell_displacement, const Rigid& mandible, Points& vertices) const;
 
+    /// The transpose: from a slope by the vertices to that by the shell's displacement, `shell_vertices` x 3.
+    Points pull_back(const Points& by_vertex, long shell_vertices) const;
+
     /// Binds another vertex (a lash) as the skin vertex `like`.
     void follow(int vertex, int like);
+    /// What was bound so: vertex, like.
+    const std::vector<std::pair<int, int>>& followers() const { return followers_; }
 
     /// Vertices that the shell or the harmonic extension moves.
     std::vector<char> moving() const;
@@ -38,6 +44,7 @@ class SkinBinding {
     std::vector<Row> rows_;  // V
     std::vector<int> column_;
     std::vector<double> weight_;
+    std::vector<std::pair<int, int>> followers_;
 };
 
 }  // namespace risorius::sim

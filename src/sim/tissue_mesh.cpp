@@ -10,7 +10,6 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kMiddleDepth = 0.42;  // of the thickness, from the skin
 constexpr double kLeastVolume = 0.12;  // of a tet's nominal volume
 constexpr int kRepairRounds = 60;
 

@@ -16,6 +16,8 @@ namespace risorius::sim {
 
 enum Layer { kDeep = 0, kMiddle = 1, kSkin = 2, kLayers = 3 };
 
+inline constexpr double kMiddleDepth = 0.42;  ///< of the thickness, from the skin
+
 inline int node_of(int shell_vertex, Layer layer) { return kLayers * shell_vertex + layer; }
 
 struct TissueMesh {

@@ -17,6 +17,11 @@
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
 namespace risorius::tissue {
 
 /// One object serves one thread at a time: it keeps scratch arrays.
@@ -31,6 +36,11 @@ class SkinSheet {
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
     /// order.
     double add_energy(const Points& x, Points& gradient) const;
+
+    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
+    /// part, triangle by triangle and hinge by hinge.
+    void add_hessian(const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
 
     /// sum 2 A k G G^T + w c c^T
     void add_metric(solve::MetricBuilder& builder) const;

@@ -14,6 +14,11 @@
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
 namespace risorius::tissue {
 
 /// One object serves one thread at a time: it keeps scratch arrays.
@@ -27,6 +32,11 @@ class TetSolid {
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
     /// order.
     double add_energy(const Points& x, Points& gradient) const;
+
+    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
+    /// part, tet by tet.
+    void add_hessian(const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
 
     /// sum V (2 mu + K) G G^T: the stiffness at rest seen by one coordinate, a bound good enough to
     /// precondition with.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solve/hessian_builder.h"
+
 namespace risorius::tissue {
 
 Tethers::Tethers(std::vector<Tether> tethers) : tethers_(std::move(tethers)) {}
@@ -20,6 +22,14 @@ double Tethers::add_energy(const Points& x, Points& gradient) const {
             (tether.kn_n_per_m * along * tether.normal + tether.kt_n_per_m * across).transpose();
     }
     return energy;
+}
+
+void Tethers::add_hessian(solve::HessianBuilder& hessian) const {
+    for (const Tether& tether : tethers_)
+        hessian.add(tether.node, tether.node,
+                    tether.kt_n_per_m * Mat3::Identity() + (tether.kn_n_per_m - tether.kt_n_per_m) *
+                                                               tether.normal *
+                                                               tether.normal.transpose());
 }
 
 void Tethers::add_metric(solve::MetricBuilder& builder) const {

@@ -10,6 +10,10 @@
 #include "core/types.h"
 #include "solve/metric_builder.h"
 
+namespace risorius::solve {
+class HessianBuilder;
+}
+
 namespace risorius::tissue {
 
 class Tethers {
@@ -29,6 +33,9 @@ class Tethers {
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
     double add_energy(const Points& x, Points& gradient) const;
+
+    /// Adds the second derivative, which has no negative part.
+    void add_hessian(solve::HessianBuilder& hessian) const;
 
     /// max(kn, kt) on the diagonal: a bound whichever way the normal turns.
     void add_metric(solve::MetricBuilder& builder) const;

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "second_derivative_checks.h"
+
 namespace risorius::muscle {
 namespace {
 
@@ -262,6 +264,22 @@ TEST(FibreSet, ASegmentWithoutLengthIsRefused) {
     } catch (const std::invalid_argument& error) {
         EXPECT_STREQ(error.what(), "FibreSet: fibre 0 has a segment without length");
     }
+}
+
+TEST(FibreSet, SecondDerivativesAreTheSlopeOfItsForces) {
+    FibreSet set = two_fibres();
+    const Eigen::VectorXd activation = Eigen::Vector2d(0.6, 1.0);
+    const Points x = shaken(cloud(), 31);
+    const auto second = [&](solve::Curvature curvature) {
+        return testing_of::dense_second(x.rows(), [&](solve::HessianBuilder& builder) {
+            set.add_hessian(x, activation, curvature, builder);
+        });
+    };
+    const Eigen::MatrixXd exact = second(solve::Curvature::kExact);
+    testing_of::expect_slope_of_gradient(
+        exact, x,
+        [&](const Points& y, Points& g) { return set.add_energy(y, activation, g); }, 1e-8, 1e-6);
+    testing_of::expect_positive_part(second(solve::Curvature::kPositive), exact);
 }
 
 }  // namespace

@@ -56,6 +56,8 @@ void print(const app::FitReport& report) {
     std::printf(
         "  tissue      %d nodes, %d tetrahedra (%d dropped, %d inverted), %d muscle fibres\n",
         report.nodes, report.tets, report.dropped_tets, report.inverted_tets, report.fibres);
+    std::printf("  bone        %.1f to %.1f mm under the skin, %.1f on average\n",
+                report.bone.thinnest_mm, report.bone.thickest_mm, report.bone.mean_mm);
     if (!report.strengths.empty())
         std::printf("\n  %-40s %8s %8s %8s\n", "muscle", "strength", "length", "target");
     for (const app::MuscleStrength& m : report.strengths)
@@ -104,6 +106,11 @@ void add_fit(CLI::App& app) {
     command->add_option("--standard", options.standard, "Folder of the standard anatomy");
     command->add_flag("--solids", arguments->options.solids,
                       "Make the muscles of standard/muscle_solids.json volume-preserving solids");
+    command->add_flag(
+        "--cut-lips", arguments->options.cut_lips,
+        "Cut lips that a scan has grown together; writes the cut mesh beside the rig");
+    command->add_option("--report", options.report,
+                        "A folder for pictures and figures of the fit, to be looked at");
     command->add_flag("--no-calibrate", arguments->no_calibrate,
                       "Keep the standard strengths of the muscles (faster)");
     add_common(*command, arguments->common);

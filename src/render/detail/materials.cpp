@@ -9,10 +9,10 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, bool veiled) {
+std::string fragment_shader(Material material, bool veiled, bool folds) {
     switch (material) {
         case Material::kSkin:
-            return veiled ? veil_shader() : skin_shader();
+            return veiled ? veil_shader(folds) : skin_shader(folds);
         case Material::kEye:
             return eye_shader();
         case Material::kCornea:
@@ -64,8 +64,10 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const Musc
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
         if (programs_.contains(batch.material)) continue;
         const std::string name = "material " + std::to_string(static_cast<int>(batch.material));
-        auto program = std::make_unique<GlProgram>(
-            name, surface_vertex_shader(), fragment_shader(batch.material, muscles != nullptr));
+        const bool folds = batch.material == Material::kSkin && scene.fold_phase.rows() > 0;
+        auto program =
+            std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
+                                        fragment_shader(batch.material, muscles != nullptr, folds));
         program->use();
         if (muscles && batch.material == Material::kSkin) {
             muscles->tell(*program);
@@ -130,6 +132,13 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 }
 
 void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const {
+    if (batch.material == Material::kSkin && pose.values) {
+        if (!values_)
+            values_ =
+                std::make_unique<GlProgram>("values", values_vertex_shader(), values_shader());
+        values_->use();
+        return;
+    }
     const GlProgram& program = *programs_.at(batch.material);
     program.use();
     if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);

@@ -91,7 +91,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
-    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &elements_})
+    for (GLuint* buffer :
+         {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &colour_buffer_, &elements_})
         glGenBuffers(1, buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
@@ -103,18 +104,31 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     attribute(kPaintPlace, 2, 5, 3);
     set_occlusion(std::vector<float>(vertices, 1.0F), std::vector<float>(vertices, 0.0F));
     attribute(kOcclusion, 2, 2, 0);
+    if (scene.fold_phase.rows() > 0) {
+        std::vector<float> phase(3 * vertices, 0.0F);
+        for (std::size_t i = 0; i < phase.size(); ++i)
+            phase[i] = static_cast<float>(scene.fold_phase.data()[i]);
+        glGenBuffers(1, &fold_phase_buffer_);
+        glBindBuffer(GL_ARRAY_BUFFER, fold_phase_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, bytes(phase), phase.data(), GL_STATIC_DRAW);
+        attribute(kFoldPhase, 3, 3, 0);
+        glGenBuffers(1, &fold_depth_buffer_);
+        glBindBuffer(GL_ARRAY_BUFFER, fold_depth_buffer_);
+        attribute(kFoldDepth, 3, 3, 0);
+    }
     upload(scene.rest);
     attribute(kPosition, 3, 6, 0);
     attribute(kNormal, 3, 6, 3);
 }
 
 SceneBuffers::~SceneBuffers() {
-    const GLuint buffers[] = {moving_buffer_, fixed_buffer_, occlusion_buffer_, elements_};
-    glDeleteBuffers(4, buffers);
+    const GLuint buffers[] = {moving_buffer_, fixed_buffer_,      occlusion_buffer_, colour_buffer_,
+                              elements_,      fold_phase_buffer_, fold_depth_buffer_};
+    glDeleteBuffers(7, buffers);
     glDeleteVertexArrays(1, &array_);
 }
 
-void SceneBuffers::upload(const Points& positions) {
+void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
     const auto vertices = static_cast<std::size_t>(positions.rows());
     positions_.resize(3 * vertices);
     for (std::size_t i = 0; i < positions_.size(); ++i)
@@ -126,8 +140,22 @@ void SceneBuffers::upload(const Points& positions) {
             moving_[6 * v + k] = positions_[3 * v + k];
             moving_[6 * v + 3 + k] = normals_[3 * v + k];
         }
+    if (fold_depth_buffer_ != 0) {
+        fold_depth_.assign(3 * vertices, 0.0F);
+        if (fold_depth.rows() > 0)
+            for (std::size_t i = 0; i < fold_depth_.size(); ++i)
+                fold_depth_[i] = static_cast<float>(fold_depth.data()[i]);
+        glBindBuffer(GL_ARRAY_BUFFER, fold_depth_buffer_);
+        glBufferData(GL_ARRAY_BUFFER, bytes(fold_depth_), fold_depth_.data(), GL_STREAM_DRAW);
+    }
     glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(moving_), moving_.data(), GL_STREAM_DRAW);
+}
+
+void SceneBuffers::set_colours(const std::vector<float>& rgb) {
+    glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(rgb), rgb.data(), GL_STREAM_DRAW);
+    attribute(kColour, 3, 3, 0);
 }
 
 void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,

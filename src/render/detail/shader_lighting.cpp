@@ -89,6 +89,19 @@ float noise(vec3 p) {
 }
 )";
 
+// What the wrinkles of the skin need, see shader_skin.cpp
+constexpr const char* kFoldsVertex = R"(
+layout(location = 5) in vec3 in_fold_phase;
+layout(location = 6) in vec3 in_fold_depth;
+out vec3 fold_phase;
+out vec3 fold_depth;
+void pass_folds() {
+    fold_phase = in_fold_phase;
+    fold_depth = in_fold_depth;
+}
+)";
+constexpr const char* kNoFoldsVertex = "void pass_folds() {}";
+
 constexpr const char* kSurfaceVertex = R"(
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
@@ -116,6 +129,7 @@ void main() {
     normal = in_normal;
     rest = in_rest;
     paint = in_paint;
+    pass_folds();
     float inside = inside_mouth ? 1.0 : in_occlusion.y;
     sky_seen = mix(in_occlusion.x, seen_through_lips(in_position), inside);
     behind_seen = (1.0 - inside) * in_occlusion.x;
@@ -134,7 +148,9 @@ void main() { gl_Position = clip_from_world * vec4(in_position, 1.0); }
 std::string frame_chunk() { return kFrame; }
 std::string lighting_chunk() { return std::string(kFrame) + kLights; }
 std::string noise_chunk() { return kNoise; }
-std::string surface_vertex_shader() { return std::string(kFrame) + kSurfaceVertex; }
+std::string surface_vertex_shader(bool folds) {
+    return std::string(kFrame) + (folds ? kFoldsVertex : kNoFoldsVertex) + kSurfaceVertex;
+}
 std::string depth_vertex_shader() { return kDepthVertex; }
 
 }  // namespace risorius::render

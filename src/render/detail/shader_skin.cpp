@@ -7,13 +7,15 @@ namespace {
 // Scattering under the skin as a wider, redder terminator (the wrap widths follow the mean free paths of red, green and
 // blue light, Jensen 2001, over the radius of a cheek) and a red edge of the shadow; gloss from two lobes, a broad one of
 // the skin and a narrow one of its oil, on a normal bent by pores.
-constexpr const char* kSkin = R"(
+constexpr const char* kInputs = R"(
 in vec3 position;
 in vec3 normal;
 in vec2 paint;
 in float sky_seen;
 in float behind_seen;
 out vec4 colour;
+)";
+constexpr const char* kSkin = R"(
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
 layout(binding = 2) uniform sampler2D pore_map;    // slope
 
@@ -36,12 +38,16 @@ void main() {
     float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, length(paint - 0.5)) + 0.08;
     vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
     vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
-    vec3 m = normalize(n - slope.x * t - slope.y * cross(n, t));
+    vec3 m = n - slope.x * t - slope.y * cross(n, t);
+    float open = fold(n, m);    // of the valleys of wrinkles to light
+    m = normalize(m);
+    albedo *= mix(kValley, vec3(1.0), open);
 
     float s = key_visibility(position, n);
     vec3 shade = s + s * (1.0 - s) * vec3(0.45, 0.05, 0.0);
     vec3 k = key_direction.xyz, f = fill_direction.xyz, r = rim_direction.xyz;
-    vec3 ao = sky_seen + sky_seen * (1.0 - sky_seen) * vec3(0.40, 0.10, 0.0);
+    float sky_here = sky_seen * open;
+    vec3 ao = sky_here + sky_here * (1.0 - sky_here) * vec3(0.40, 0.10, 0.0);
 
     float soft = dot(n, k), bent = dot(m, k);
     vec3 diffuse = key_radiance.rgb * shade * scattered(mix(soft, bent, 0.5));
@@ -51,7 +57,7 @@ void main() {
 
     float rough = 0.52 - 0.14 * oil;
     float narrow = rough * 0.58;
-    float seen = sky_seen * sky_seen;
+    float seen = sky_here * sky_here;
     vec3 gloss = key_radiance.rgb * s * two_glints(m, v, k, vec2(rough, narrow), vec2(0.75, 0.35 * oil), 0.028);
     gloss += fill_radiance.rgb * seen * glint(m, v, f, rough, 0.028);
     gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
@@ -60,6 +66,42 @@ void main() {
     vec3 seen_skin = seen_through(albedo * diffuse, diffuse, albedo, oil, edge, sky_seen);
     colour = vec4(film(seen_skin + gloss * kGloss * (0.20 + 1.10 * oil)), 1.0);
 }
+)";
+
+// Wrinkles: height A d P(f) over the skin, P = sqrt(sin^2(pi f) + r^2) and d of each line as in sim/wrinkles.cpp, so that
+// valleys are narrow and ridges round. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
+// (Mikkelsen 2010, Bump Mapping Unparametrized Surfaces); folds finer than two samples fade out.
+constexpr const char* kFolds = R"(
+in vec3 fold_phase;
+in vec3 fold_depth;
+const float kRounding = 0.2;
+const vec3 kValley = vec3(0.92, 0.80, 0.76);
+
+float fold(vec3 n, inout vec3 m) {
+    vec3 px = dFdx(position), py = dFdy(position);
+    vec3 fx = dFdx(fold_phase), fy = dFdy(fold_phase);
+    if (max(fold_depth.x, max(fold_depth.y, fold_depth.z)) <= 0.0) return 1.0;
+    vec3 ax = cross(py, n), ay = cross(n, px);
+    float area = dot(px, ax);
+    if (abs(area) < 1e-14) return 1.0;
+    float open = 1.0;
+    for (int i = 0; i < 3; ++i) {
+        if (fold_depth[i] <= 0.0) continue;
+        vec3 gradient = (fx[i] * ax + fy[i] * ay) / area;
+        float shown = 1.0 - smoothstep(0.2, 0.5, length(vec2(fx[i], fy[i])));
+        float s = sin(3.14159265 * fold_phase[i]), c = cos(3.14159265 * fold_phase[i]);
+        float rounded = s * s + kRounding * kRounding;
+        float depth = fold_depth[i] * shown * (1.0 + 0.4 * sin(2.4 * round(fold_phase[i])));
+        m -= depth * 3.14159265 * s * c * inversesqrt(rounded) * gradient;
+        float steep = depth * length(gradient);
+        open *= 1.0 - min(0.75, 2.6 * steep) * (kRounding * kRounding) / rounded;
+    }
+    return open;
+}
+)";
+constexpr const char* kNoFolds = R"(
+const vec3 kValley = vec3(1.0);
+float fold(vec3 n, vec3 m) { return 1.0; }
 )";
 
 constexpr const char* kOpaque = R"(
@@ -112,12 +154,16 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, flo
 }
 )";
 
+std::string skin_with(bool folds) {
+    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + kSkin;
+}
+
 }  // namespace
 
-std::string skin_shader() { return lighting_chunk() + kOpaque + kSkin; }
-std::string veil_shader() {
+std::string skin_shader(bool folds) { return lighting_chunk() + kOpaque + skin_with(folds); }
+std::string veil_shader(bool folds) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +
-           kTranslucent + kSkin;
+           kTranslucent + skin_with(folds);
 }
 
 }  // namespace risorius::render

@@ -1,0 +1,60 @@
+// Equilibria of a face whose bones, lids and air are held: positions at which the static energy of FaceTissue has no slope,
+// and what is linear around them.
+//
+//   g(x) = dE/dx      H = d2E/dx2      B = H^-1 as last factored, there or nearby, without negative curvature
+//
+// L-BFGS with B as its metric: its first iteration is Newton's, the next ones correct B for where they are. Contact pairs are
+// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/types.h"
+#include "sim/face_tissue.h"
+#include "solve/quasi_newton.h"
+
+namespace risorius::sim {
+
+struct StaticOptions {
+    int iterations = 400;       ///< of L-BFGS, at most
+    double tolerance_m = 2e-6;  ///< converged when |B g| is no longer on any node
+    int round = 12;             ///< iterations between searches for contacts
+    int memory = 8;
+    double step_cap_m = 6e-3;
+};
+
+class StaticSolver {
+  public:
+    /// Keeps a reference.
+    explicit StaticSolver(FaceTissue& tissue);
+    ~StaticSolver();
+
+    /// Moves x to the equilibrium; the tissue must be prescribed, and x's fixed rows in place. Finds contacts.
+    StepFigures settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
+
+    /// Factors H at x with the contacts as they are; an exact one that is not positive gives way to its positive part.
+    void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
+    /// y = H^-1 b, n x 3 each, with the last factor; fixed rows of y are zero.
+    void solve(const Points& b, Points& y) const;
+    /// The next settle() does not begin with the last factor: what it finds depends on its arguments alone.
+    void forget() { known_ = false; }
+
+    long factors() const { return factors_; }  ///< made so far
+
+  private:
+    struct Linear;
+    double energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient);
+
+    FaceTissue& tissue_;
+    std::unique_ptr<Linear> linear_;
+    bool known_ = false;
+    long factors_ = 0;
+    std::vector<std::pair<int, int>> touched_;  ///< nodes of pairs that were in contact, sorted
+    solve::QuasiNewton search_;
+    Points gradient_, move_;
+};
+
+}  // namespace risorius::sim

@@ -1,0 +1,68 @@
+// Least squares in a box with a price: against the conditions of its minimum and cases known by hand.
+#include "solve/box_quadratic.h"
+
+#include <gtest/gtest.h>
+
+namespace risorius::solve {
+namespace {
+
+BoxQuadratic random_problem(int unknowns, unsigned seed) {
+    std::srand(seed);
+    const Eigen::MatrixXd J = Eigen::MatrixXd::Random(2 * unknowns, unknowns);
+    BoxQuadratic problem;
+    problem.A = J.transpose() * J;
+    problem.b = 3 * Eigen::VectorXd::Random(unknowns);
+    problem.price = Eigen::VectorXd::Constant(unknowns, 0.2);
+    problem.least = Eigen::VectorXd::Constant(unknowns, -0.3);
+    problem.most = Eigen::VectorXd::Constant(unknowns, 0.4);
+    return problem;
+}
+
+TEST(BoxQuadratic, WithoutLimitsAndPriceItSolvesTheEquations) {
+    BoxQuadratic problem = random_problem(12, 1);
+    problem.price.setZero();
+    problem.least.setConstant(-1e3);
+    problem.most.setConstant(1e3);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(12);
+    minimise(problem, x, 1e-13);
+    EXPECT_LT((problem.A * x + problem.b).norm(), 1e-9);
+}
+
+TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
+    for (unsigned seed = 1; seed < 6; ++seed) {
+        const BoxQuadratic problem = random_problem(20, seed);
+        Eigen::VectorXd x = Eigen::VectorXd::Constant(20, 10);
+        minimise(problem, x, 1e-13);
+        const Eigen::VectorXd slope = problem.A * x + problem.b;
+        int free = 0, zero = 0, held = 0;
+        for (long i = 0; i < 20; ++i) {
+            ASSERT_GE(x[i], problem.least[i]);
+            ASSERT_LE(x[i], problem.most[i]);
+            // Slopes to either side, price included
+            const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.price[i];
+            const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.price[i];
+            if (x[i] < problem.most[i]) EXPECT_GE(up, -1e-8);
+            if (x[i] > problem.least[i]) EXPECT_LE(down, 1e-8);
+            const bool at_limit = x[i] == problem.least[i] || x[i] == problem.most[i];
+            ++(at_limit ? held : x[i] == 0 ? zero : free);
+        }
+        EXPECT_GT(free, 0);
+        EXPECT_GT(held, 0);
+    }
+}
+
+TEST(BoxQuadratic, APriceAboveTheSlopeKeepsAnUnknownAtZero) {
+    BoxQuadratic problem;
+    problem.A = Eigen::MatrixXd::Identity(2, 2);
+    problem.b = Eigen::Vector2d(-0.5, -0.5);
+    problem.price = Eigen::Vector2d(0.6, 0.2);
+    problem.least = Eigen::Vector2d(-1, -1);
+    problem.most = Eigen::Vector2d(1, 1);
+    Eigen::VectorXd x = Eigen::Vector2d(1, 1);
+    minimise(problem, x);
+    EXPECT_EQ(x[0], 0.0);
+    EXPECT_DOUBLE_EQ(x[1], 0.3);
+}
+
+}  // namespace
+}  // namespace risorius::solve

@@ -1,0 +1,291 @@
+#include "calibration.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/expression_score.h"
+#include "sim/face.h"
+#include "sim/tissue_mesh.h"
+#include "solve/box_quadratic.h"
+
+namespace risorius::calibrate {
+
+namespace {
+
+// Per expression: what is measured at the skin nodes, and the activations' part of the unknowns.
+struct Expression {
+    const app::MeasuredShape* shape;
+    std::vector<app::ActivationUnknown> unknowns;
+    Eigen::VectorXd price;        // what the table does not list costs more
+    Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
+    double size;                  // |goal|^2
+    long first;                   // of its activations among all unknowns
+};
+
+struct Trial {
+    std::vector<std::unique_ptr<sim::Face>> faces;
+    std::vector<track::Drive> drives;
+    std::vector<Eigen::VectorXd> miss;
+    double cost = 0;
+};
+
+// Few nodes feel one parameter.
+struct SparseForce {
+    std::vector<int> row;
+    std::vector<Eigen::Vector3f> value;
+};
+
+class Calibration {
+  public:
+    Calibration(const app::RigFiles& files, const std::vector<app::MeasuredShape>& shapes,
+                const std::vector<Parameter>& parameters, const Options& options)
+        : files_(files), parameters_(parameters), options_(options) {
+        const sim::Face face = make_face(files.rig);
+        const sim::Shell& shell = face.shell();
+        const Eigen::VectorXd fine = app::vertex_areas(face.simulated_skin(), face.head().vertices);
+        root_area_ = Eigen::VectorXd::Zero(static_cast<long>(shell.vertex.size()));
+        for (long v = 0; v < fine.size(); ++v)
+            if (fine[v] > 0) root_area_[shell.collapsed_to[static_cast<std::size_t>(v)]] += fine[v];
+        root_area_ = root_area_.cwiseSqrt();
+        long unknowns = static_cast<long>(parameters.size());
+        for (const app::MeasuredShape& shape : shapes) {
+            Expression one;
+            one.shape = &shape;
+            one.unknowns = app::activation_unknowns(files.rig, shape.drive, shape.sided);
+            one.table.resize(static_cast<long>(one.unknowns.size()));
+            for (std::size_t i = 0; i < one.unknowns.size(); ++i)
+                one.table[static_cast<long>(i)] = app::value_of(one.unknowns[i], shape.drive);
+            one.price = one.table.unaryExpr(
+                [&](double value) { return options.price * (value != 0 ? 0.5 : 3.0); });
+            for (std::size_t i = 0; i < one.unknowns.size(); ++i)
+                if (!one.unknowns[i].channels.empty()) one.price[static_cast<long>(i)] *= 2;
+            Points measured(static_cast<long>(shell.vertex.size()), 3);
+            for (std::size_t v = 0; v < shell.vertex.size(); ++v)
+                measured.row(static_cast<long>(v)) = shape.displacement.row(shell.vertex[v]);
+            one.goal = weighted(measured);
+            one.size = one.goal.squaredNorm();
+            one.first = unknowns;
+            unknowns += one.table.size();
+            expressions_.push_back(std::move(one));
+        }
+        z_ = Eigen::VectorXd::Zero(unknowns);
+        for (const Expression& one : expressions_)
+            z_.segment(one.first, one.table.size()) = one.table;
+    }
+
+    Result run(const std::function<void(const std::string&)>& tell) {
+        Trial now = attempt(z_);
+        Result result;
+        for (std::size_t e = 0; e < expressions_.size(); ++e)
+            result.relative_before.push_back(relative(now, e));
+        say(tell, "begins", now);
+        double reach = 1;
+        for (int round = 0; round < options_.rounds && reach > 0.05; ++round) {
+            solve::BoxQuadratic problem = linearised(now, tell);
+            bool better = false;
+            while (!better && reach > 0.05) {
+                limit(reach, problem);
+                Eigen::VectorXd next = z_;
+                solve::minimise(problem, next, 1e-6, 400);
+                Trial trial = attempt(next);
+                say(tell, "reach " + std::to_string(reach), trial);
+                better = trial.cost < now.cost;
+                if (better) {
+                    z_ = next;
+                    now = std::move(trial);
+                    reach = std::min(1.0, 1.5 * reach);
+                } else {
+                    reach *= 0.4;
+                }
+            }
+        }
+        result.parameters = z_.head(static_cast<long>(parameters_.size()));
+        for (std::size_t e = 0; e < expressions_.size(); ++e) {
+            const Expression& one = expressions_[e];
+            result.activations.push_back(z_.segment(one.first, one.table.size()));
+            result.unknowns.push_back(one.unknowns);
+            result.relative_after.push_back(relative(now, e));
+        }
+        return result;
+    }
+
+  private:
+    sim::Face make_face(const rig::RigDescription& rig) const {
+        return sim::Face(rig, files_.mesh, sim::quality_named(options_.quality), files_.place());
+    }
+    Eigen::VectorXd weighted(const Points& nodes) const {
+        Eigen::VectorXd out(3 * nodes.rows());
+        for (long v = 0; v < nodes.rows(); ++v)
+            out.segment<3>(3 * v) = root_area_[v] * nodes.row(v).transpose();
+        return out;
+    }
+    double relative(const Trial& trial, std::size_t e) const {
+        return std::sqrt(trial.miss[e].squaredNorm() / expressions_[e].size);
+    }
+    track::Drive drive_of(const Expression& one, const Eigen::VectorXd& z) const {
+        track::Drive drive = one.shape->drive;
+        for (std::size_t i = 0; i < one.unknowns.size(); ++i)
+            app::set_value(one.unknowns[i], z[one.first + static_cast<long>(i)], drive);
+        return drive;
+    }
+
+    Trial attempt(const Eigen::VectorXd& z) const {
+        Trial out;
+        const rig::RigDescription rig =
+            changed(files_.rig, parameters_, z.head(static_cast<long>(parameters_.size())));
+        for (const Expression& one : expressions_) {
+            out.drives.push_back(drive_of(one, z));
+            out.faces.push_back(std::make_unique<sim::Face>(make_face(rig)));
+            sim::Face& face = *out.faces.back();
+            face.settle(out.drives.back().excitation, out.drives.back());
+            out.miss.push_back(weighted(face.skin_nodes() - face.rest_skin_nodes()) - one.goal);
+            out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
+            const Eigen::VectorXd a = z.segment(one.first, one.table.size());
+            out.cost +=
+                one.price.dot(a.cwiseAbs()) + 0.5 * options_.stay * (a - one.table).squaredNorm();
+        }
+        for (std::size_t p = 0; p < parameters_.size(); ++p) {
+            const double off = z[static_cast<long>(p)] / parameters_[p].spread;
+            out.cost += 0.5 * options_.keep * off * off;
+        }
+        return out;
+    }
+
+    static SparseForce difference(const Points& more, const Points& less, double span) {
+        SparseForce out;
+        for (long i = 0; i < more.rows(); ++i) {
+            const Vec3 slope = (more.row(i) - less.row(i)).transpose() / span;
+            if (slope.isZero(0.0)) continue;
+            out.row.push_back(static_cast<int>(i));
+            out.value.push_back(slope.cast<float>());
+        }
+        return out;
+    }
+
+    // The quadratic model about the present unknowns, without its limits.
+    solve::BoxQuadratic linearised(const Trial& now,
+                                   const std::function<void(const std::string&)>& tell) const {
+        const long parameters = static_cast<long>(parameters_.size());
+        const Eigen::VectorXd p = z_.head(parameters);
+        // What each parameter adds to the forces of every expression
+        std::vector<std::vector<SparseForce>> force(expressions_.size());
+        for (long i = 0; i < parameters; ++i) {
+            const double step = parameters_[static_cast<std::size_t>(i)].step;
+            std::vector<Points> more;
+            for (const double side : {+1.0, -1.0}) {
+                Eigen::VectorXd at = p;
+                at[i] += side * step;
+                sim::Face::Variant variant(*now.faces.front(),
+                                           changed(files_.rig, parameters_, at));
+                for (std::size_t e = 0; e < expressions_.size(); ++e) {
+                    Points gradient = variant.static_gradient(
+                        now.faces[e]->nodes(), now.drives[e].excitation, now.drives[e]);
+                    if (side > 0)
+                        more.push_back(std::move(gradient));
+                    else
+                        force[e].push_back(difference(more[e], gradient, 2 * step));
+                }
+            }
+            if (i % 100 == 99) tell("  " + std::to_string(i + 1) + " parameters tried");
+        }
+        solve::BoxQuadratic problem;
+        problem.A = Eigen::MatrixXd::Zero(z_.size(), z_.size());
+        problem.b = Eigen::VectorXd::Zero(z_.size());
+        problem.price = Eigen::VectorXd::Zero(z_.size());
+        const rig::RigDescription rig = changed(files_.rig, parameters_, p);
+        for (std::size_t e = 0; e < expressions_.size(); ++e) {
+            const Expression& one = expressions_[e];
+            const long own = one.table.size();
+            sim::Face& face = *now.faces[e];
+            sim::Face::Variant same(face, rig);
+            const Points nodes = face.nodes();
+            for (long i = 0; i < own; ++i) {
+                const app::ActivationUnknown& unknown = one.unknowns[static_cast<std::size_t>(i)];
+                constexpr double kStep = 1e-3;
+                const auto at = [&](double change) {
+                    track::Drive drive = now.drives[e];
+                    app::set_value(unknown, z_[one.first + i] + change, drive);
+                    return same.static_gradient(nodes, drive.excitation, drive);
+                };
+                force[e].push_back(difference(at(kStep), at(-kStep), 2 * kStep));
+            }
+            Eigen::MatrixXd J(one.goal.size(), parameters + own);
+            Points b = Points::Zero(nodes.rows(), 3);
+            for (long i = 0; i < J.cols(); ++i) {
+                b.setZero();
+                const SparseForce& change = force[e][static_cast<std::size_t>(i)];
+                for (std::size_t k = 0; k < change.row.size(); ++k)
+                    b.row(change.row[k]) = -change.value[k].cast<double>().transpose();
+                const Points moved = face.solve_static(b);
+                Points skin(root_area_.size(), 3);
+                for (long v = 0; v < skin.rows(); ++v)
+                    skin.row(v) = moved.row(sim::node_of(static_cast<int>(v), sim::kSkin));
+                J.col(i) = weighted(skin);
+            }
+            force[e].clear();
+            Eigen::VectorXd at(parameters + own);
+            at << p, z_.segment(one.first, own);
+            const Eigen::MatrixXd A = J.transpose() * J / one.size;
+            const Eigen::VectorXd b_local = J.transpose() * (now.miss[e] - J * at) / one.size;
+            problem.A.topLeftCorner(parameters, parameters) +=
+                A.topLeftCorner(parameters, parameters);
+            problem.A.block(one.first, 0, own, parameters) = A.bottomLeftCorner(own, parameters);
+            problem.A.block(0, one.first, parameters, own) = A.topRightCorner(parameters, own);
+            problem.A.block(one.first, one.first, own, own) = A.bottomRightCorner(own, own);
+            problem.b.head(parameters) += b_local.head(parameters);
+            problem.b.segment(one.first, own) = b_local.tail(own) - options_.stay * one.table;
+            problem.price.segment(one.first, own) = one.price;
+            problem.A.diagonal().segment(one.first, own).array() += options_.stay;
+        }
+        for (long i = 0; i < parameters; ++i) {
+            const double spread = parameters_[static_cast<std::size_t>(i)].spread;
+            problem.A(i, i) += options_.keep / (spread * spread);
+        }
+        return problem;
+    }
+
+    void limit(double reach, solve::BoxQuadratic& problem) const {
+        problem.least = z_;
+        problem.most = z_;
+        for (std::size_t p = 0; p < parameters_.size(); ++p) {
+            const long i = static_cast<long>(p);
+            const double far = reach * 0.7 * parameters_[p].spread, most = parameters_[p].most;
+            problem.least[i] = std::max(-most, z_[i] - far);
+            problem.most[i] = std::min(most, z_[i] + far);
+        }
+        for (const Expression& one : expressions_)
+            for (std::size_t i = 0; i < one.unknowns.size(); ++i) {
+                const long at = one.first + static_cast<long>(i);
+                problem.least[at] = std::max(one.unknowns[i].least, z_[at] - 0.3 * reach);
+                problem.most[at] = std::min(one.unknowns[i].most, z_[at] + 0.3 * reach);
+            }
+    }
+
+    void say(const std::function<void(const std::string&)>& tell, const std::string& what,
+             const Trial& trial) const {
+        double sum = 0;
+        for (std::size_t e = 0; e < expressions_.size(); ++e)
+            sum += relative(trial, e) / static_cast<double>(expressions_.size());
+        char line[160];
+        std::snprintf(line, sizeof line, "%s: cost %.5f, mean relative error %.4f", what.c_str(),
+                      trial.cost, sum);
+        tell(line);
+    }
+
+    const app::RigFiles& files_;
+    const std::vector<Parameter>& parameters_;
+    Options options_;
+    std::vector<Expression> expressions_;
+    Eigen::VectorXd root_area_, z_;
+};
+
+}  // namespace
+
+Result calibrate(const app::RigFiles& files, const std::vector<app::MeasuredShape>& shapes,
+                 const std::vector<Parameter>& parameters, const Options& options,
+                 const std::function<void(const std::string&)>& tell) {
+    return Calibration(files, shapes, parameters, options).run(tell);
+}
+
+}  // namespace risorius::calibrate

@@ -1,0 +1,109 @@
+// Calibrates the standard anatomy on measured expressions of one head: a tool for those who make the tables, not for those who use them.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "app/rig_files.h"
+#include "calibration.h"
+#include "core/error.h"
+#include "rig/head.h"
+#include "sim/face.h"
+#include "tables.h"
+
+namespace {
+
+using namespace risorius;
+
+// Mean length of each muscle's fibres at full activation, by itself.
+std::map<std::string, double> stretches(const app::RigFiles& files, const rig::RigDescription& rig,
+                                        const std::string& quality) {
+    sim::Face face(rig, files.mesh, sim::quality_named(quality), files.place());
+    const track::ChannelTable channels = rig.channels();
+    track::Drive rest;
+    rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    std::map<std::string, double> out;
+    for (const rig::MuscleBand& band : rig.atlas.bands) {
+        if (out.count(band.muscle)) continue;
+        Eigen::VectorXd activation = rest.excitation;
+        for (const Side side : {Side::kLeft, Side::kRight})
+            activation[channels.column(band.muscle, side)] = 1;
+        face.start([&](double) { return rest; });
+        face.settle(activation, rest);
+        out[band.muscle] = face.mean_stretch(band.muscle);
+    }
+    return out;
+}
+
+void print_changes(const std::vector<calibrate::Parameter>& parameters,
+                   const Eigen::VectorXd& values) {
+    std::printf("\nparameters that moved by more than half their spread:\n");
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+        const double off = values[static_cast<long>(p)] / parameters[p].spread;
+        if (std::abs(off) > 0.5)
+            std::printf("  %-60s %+8.3f  (%+.1f)\n", parameters[p].name.c_str(),
+                        values[static_cast<long>(p)], off);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Calibrates the standard anatomy on measured expressions.", "calibrate");
+    std::filesystem::path rig_file, shapes_file, standard;
+    std::vector<std::string> only;
+    calibrate::Options options;
+    double least = 0.03;
+    bool shapes_too = false;
+    app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
+        ->required();
+    app.add_option("--shapes", shapes_file, "Measured displacements")->required();
+    app.add_option("--only", only, "Expressions to calibrate on")->delimiter(',')->required();
+    app.add_option("--standard", standard, "Folder of tables to write into")->required();
+    app.add_option("--rounds", options.rounds)->capture_default_str();
+    app.add_option("--keep", options.keep)->capture_default_str();
+    app.add_option("--stay", options.stay)->capture_default_str();
+    app.add_option("--price", options.price)->capture_default_str();
+    app.add_option("--quality", options.quality)->capture_default_str();
+    app.add_flag("--write-shapes", shapes_too, "Write the activations found into facs.json, too");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        const app::RigFiles files = app::read_rig_files(rig_file);
+        const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+        const std::vector<app::MeasuredShape> shapes =
+            app::read_measured_shapes(shapes_file, {.only = only}, files.rig, head);
+        const std::vector<calibrate::Parameter> parameters =
+            calibrate::anatomy_parameters(files.rig);
+        std::printf("%zu parameters, %zu expressions\n", parameters.size(), shapes.size());
+        const calibrate::Result result =
+            calibrate::calibrate(files, shapes, parameters, options, [](const std::string& line) {
+                std::printf("%s\n", line.c_str());
+                std::fflush(stdout);
+            });
+        print_changes(parameters, result.parameters);
+        const rig::RigDescription found =
+            calibrate::changed(files.rig, parameters, result.parameters);
+        std::printf(
+            "\ntissue: deep %.0f superficial %.0f bulk %.0f lid %.3f lip %.3f modiolus %.2f "
+            "passive %.3f\n",
+            found.tissue.deep_shear_pa, found.tissue.superficial_shear_pa, found.tissue.bulk_pa,
+            found.tissue.lid_shear_ratio, found.tissue.lip_shear_ratio,
+            found.tissue.modiolus_shear_ratio, found.tissue.fibre_passive_strain);
+        std::printf("skin: membrane %.2f bending %.3g lid %.4f\n", found.skin.membrane_n_per_m,
+                    found.skin.bending_n_m, found.skin.lid_membrane_ratio);
+        for (std::size_t e = 0; e < shapes.size(); ++e) {
+            std::printf("%-16s relative error %.3f -> %.3f :", shapes[e].name.c_str(),
+                        result.relative_before[e], result.relative_after[e]);
+            for (std::size_t i = 0; i < result.unknowns[e].size(); ++i)
+                if (std::abs(result.activations[e][static_cast<long>(i)]) >= least)
+                    std::printf(" %s %.2f", result.unknowns[e][i].name.c_str(),
+                                result.activations[e][static_cast<long>(i)]);
+            std::printf("\n");
+        }
+        calibrate::write_tables(found, stretches(files, found, options.quality), standard);
+        if (shapes_too) calibrate::write_shapes(shapes, result, files.rig, least, standard);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "calibrate: %s\n", error.what());
+        return 2;
+    }
+    return 0;
+}

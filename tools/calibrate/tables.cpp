@@ -1,0 +1,131 @@
+#include "tables.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/staged_file.h"
+#include "core/json_cursor.h"
+
+namespace risorius::calibrate {
+
+namespace {
+
+double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+
+// Two significant digits.
+double short_of(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+    return rounded(value, unit);
+}
+
+std::string line_of(const Json& value) {
+    if (value.is_number_float()) return format_number(std::stod(value.dump()));
+    if (!value.is_structured()) return value.dump();
+    std::string out;
+    for (const auto& [key, one] : value.items()) {
+        if (!out.empty()) out += ", ";
+        if (value.is_object()) out += Json(key).dump() + ": ";
+        out += line_of(one);
+    }
+    return value.is_object() ? "{" + out + "}" : "[" + out + "]";
+}
+
+// Objects and arrays down to `depth` over several lines, deeper ones on one.
+std::string text_of(const Json& value, int depth, const std::string& indent = "") {
+    if (!value.is_structured() || depth == 0 || value.empty()) return line_of(value);
+    std::string out = value.is_object() ? "{\n" : "[\n";
+    std::size_t left = value.size();
+    for (const auto& [key, one] : value.items()) {
+        out += indent + "  ";
+        if (value.is_object()) out += Json(key).dump() + ": ";
+        out += text_of(one, depth - 1, indent + "  ");
+        out += --left > 0 ? ",\n" : "\n";
+    }
+    return out + indent + (value.is_object() ? "}" : "]");
+}
+
+Json read(const std::filesystem::path& file) { return JsonCursor::read_file(file).json(); }
+
+}  // namespace
+
+void write_tables(const rig::RigDescription& rig, const std::map<std::string, double>& stretch,
+                  const std::filesystem::path& folder) {
+    Json attachments = read(folder / "attachments.json");
+    for (const rig::AttachmentSample& sample : rig.atlas.attachments)
+        attachments["attachments"][sample.landmark] = {short_of(sample.normal_pa_per_m),
+                                                       short_of(sample.tangential_pa_per_m)};
+    app::write_text(folder / "attachments.json", text_of(attachments, 2) + "\n");
+
+    Json bands = read(folder / "muscle_bands.json");
+    std::size_t b = 0;
+    for (auto& [muscle, list] : bands["muscles"].items())
+        for (Json& band : list) {
+            const rig::MuscleBand& found = rig.atlas.bands.at(b++);
+            band["calibration"] = rounded(found.strength, 0.01);
+            if (const auto length = stretch.find(muscle); length != stretch.end())
+                band["shortens_to"] = rounded(length->second, 0.01);
+            for (std::size_t i = 0; i < found.points.size(); ++i) {
+                for (int k = 0; k < 3; ++k)
+                    band["points"][i]["offset_mm"][static_cast<std::size_t>(k)] =
+                        rounded(1e3 * found.points[i].offset[k], 0.1);
+                if (found.points[i].depth >= 0)
+                    band["points"][i]["depth"] = rounded(found.points[i].depth, 0.01);
+            }
+        }
+    app::write_text(folder / "muscle_bands.json", text_of(bands, 3) + "\n");
+}
+
+void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& result,
+                  const rig::RigDescription& rig, double least,
+                  const std::filesystem::path& folder) {
+    Json facs = read(folder / "facs.json");
+    for (std::size_t e = 0; e < shapes.size(); ++e) {
+        const auto write = [&](const std::string& name, const std::string& side) {
+            Json& shape = facs["arkit"][name];
+            // A shape that is one whole unit teaches the unit
+            Json* target = &shape;
+            std::string ending = side;
+            if (shape.contains("units") && shape["units"].size() == 1 &&
+                !shape.contains("muscles") && shape["units"].begin().value() == 1) {
+                const std::string unit = shape["units"].begin().key();
+                const track::SidedName sided = track::split_side(unit);
+                target =
+                    &facs["action_units"][facs["action_units"].contains(unit) ? unit : sided.id];
+                if (sided.side) ending.clear();
+            }
+            Json muscles = Json::object(), jaw = Json::object();
+            for (std::size_t i = 0; i < result.unknowns[e].size(); ++i) {
+                const app::ActivationUnknown& unknown = result.unknowns[e][i];
+                double value = rounded(result.activations[e][static_cast<long>(i)], 0.01);
+                if (std::abs(value) < least) value = 0;
+                const bool listed = app::value_of(unknown, shapes[e].drive) != 0;
+                if (value == 0 && !(listed && target == &shape)) continue;
+                if (unknown.channels.empty()) {
+                    const bool paired = unknown.columns.size() == 2;
+                    muscles[unknown.name + (paired ? ending : "")] =
+                        !paired && !ending.empty() ? 0.5 * value : value;
+                } else if (unknown.channels.front() == track::Kinematic::kJawOpen) {
+                    jaw["open"] = value;
+                } else if (unknown.channels.front() == track::Kinematic::kJawForward) {
+                    jaw["protrude_mm"] = rounded(value * rig.facs.ranges.jaw_forward_mm, 0.1);
+                } else if (unknown.channels.front() == track::Kinematic::kJawSide) {
+                    jaw["lateral_mm"] = rounded(value * rig.facs.ranges.jaw_side_mm, 0.1);
+                }
+            }
+            (*target)["muscles"] = muscles;
+            Json& moved = shape.contains("jaw") ? shape : *target;
+            moved.erase("jaw");
+            if (!jaw.empty()) moved["jaw"] = jaw;
+        };
+        const std::string& name = shapes[e].name;
+        const Json& arkit = facs["arkit"];
+        const bool whole = arkit.contains(name), left = arkit.contains(name + "Left"),
+                   right = arkit.contains(name + "Right");
+        if (whole) write(name, "");
+        if (left) write(name + "Left", ".l");
+        if (right) write(name + "Right", ".r");
+    }
+    app::write_text(folder / "facs.json", text_of(facs, 2) + "\n");
+}
+
+}  // namespace risorius::calibrate

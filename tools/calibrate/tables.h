@@ -1,0 +1,21 @@
+// Writes what calibration found into the standard tables, keeping their form: one landmark, one band, one shape per line.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "calibration.h"
+
+namespace risorius::calibrate {
+
+/// attachments.json and muscle_bands.json of `folder` get the numbers of `rig`; each muscle of the bands the length it shortened to.
+void write_tables(const rig::RigDescription& rig, const std::map<std::string, double>& stretch,
+                  const std::filesystem::path& folder);
+
+/// facs.json: the ARKit shapes among `shapes`, or the unit that one of them is, get the activations found. Sources under `least` are left out.
+void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& result,
+                  const rig::RigDescription& rig, double least,
+                  const std::filesystem::path& folder);
+
+}  // namespace risorius::calibrate

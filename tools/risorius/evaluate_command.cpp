@@ -1,0 +1,150 @@
+// risorius evaluate RIG --shapes FILE [--fit] [-o DIR]
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/compare_heads.h"
+#include "app/evaluate.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct EvaluateArguments {
+    Common common;
+    app::EvaluateOptions options;
+    std::filesystem::path like;
+    bool no_pictures = false;
+};
+
+void print(const app::HeadComparison& comparison) {
+    std::printf(
+        "%s compared with %s: landmarks of brows, eyes, nose and lips, scaled by head size\n",
+        comparison.rig.c_str(), comparison.like.c_str());
+    std::printf("  %-20s %10s %7s %7s %6s  %s\n", "", "difference", "cosine", "length", "mm",
+                "most at");
+    for (const app::HeadDifference& one : comparison.expressions)
+        std::printf("  %-20s %10.3f %7.3f %7.2f %6.2f  %s\n", one.expression.c_str(),
+                    one.difference, one.cosine, one.length_ratio, one.landmark_mm,
+                    one.worst.c_str());
+    std::printf("  %-20s %10.3f\n", "mean", comparison.mean_difference());
+}
+
+void print_means(const char* what, const app::Evaluation& evaluation,
+                 const std::vector<std::string>& names) {
+    const app::ScoreMeans table = evaluation.means(names, false);
+    const app::ScoreMeans fitted = evaluation.means(names, true);
+    if (table.count == 0) return;
+    std::printf("  %-20s %6.3f %6.3f %6.2f %6s %6.2f", what, table.cosine, table.relative,
+                1e3 * table.rms_m, "", 1e3 * table.landmark_m);
+    if (fitted.count > 0)
+        std::printf("   | %6.3f %6.3f %6.2f %6s %6.2f   least cosine %.3f", fitted.cosine,
+                    fitted.relative, 1e3 * fitted.rms_m, "", 1e3 * fitted.landmark_m,
+                    fitted.least_cosine);
+    std::printf("\n");
+}
+
+void print(const app::Evaluation& evaluation, bool fit) {
+    std::printf("%s, %d nodes, against %s\n", evaluation.rig.c_str(), evaluation.nodes,
+                evaluation.shapes.c_str());
+    std::printf(
+        "  cos: cosine similarity, rel: relative error (1 without motion), rms, max, landmarks in "
+        "mm\n");
+    std::printf("  %-20s %6s %6s %6s %6s %6s%s\n", "by the rig's table", "cos", "rel", "rms", "max",
+                "landm", fit ? "   | fitted: cos, rel, rms, max, landm" : "");
+    std::vector<std::string> all;
+    const auto numbers = [](const app::ExpressionScore& score) {
+        std::printf("%6.3f %6.3f %6.2f %6.1f %6.2f", score.cosine, score.relative,
+                    1e3 * score.rms_m, 1e3 * score.greatest_m, 1e3 * score.landmark_m);
+    };
+    for (const app::EvaluatedExpression& one : evaluation.expressions) {
+        all.push_back(one.name);
+        std::printf("  %-20s ", one.name.c_str());
+        numbers(one.table.score);
+        if (one.fitted) {
+            std::printf("   | ");
+            numbers(one.fitted->score);
+        }
+        if (one.table.inverted_tets > 0)
+            std::printf("  %d tetrahedra inverted", one.table.inverted_tets);
+        if (!one.table.converged) std::printf("  did not come to rest");
+        std::printf("\n");
+    }
+    print_means("mean", evaluation, all);
+    const auto of = [&](const std::vector<std::string>& names) {
+        return evaluation.means(names, false).count == static_cast<int>(names.size());
+    };
+    if (of(app::sixteen_expressions()))
+        print_means("mean of the 16", evaluation, app::sixteen_expressions());
+    if (of(app::twenty_four_expressions()))
+        print_means("mean of the 24", evaluation, app::twenty_four_expressions());
+}
+
+void compare(EvaluateArguments& arguments) {
+    app::HeadComparison comparison;
+    {
+        ProgressBar bar(arguments.common);
+        comparison =
+            app::compare_heads(arguments.options.rig, arguments.like,
+                               arguments.options.only.empty() ? app::twenty_four_expressions()
+                                                              : arguments.options.only,
+                               arguments.options.quality, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", comparison.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(comparison);
+}
+
+void run(EvaluateArguments& arguments) {
+    if (arguments.options.shapes.empty() == arguments.like.empty())
+        throw Error("evaluate", "one of --shapes and --like",
+                    arguments.like.empty() ? "neither" : "both");
+    if (!arguments.like.empty()) return compare(arguments);
+    arguments.options.pictures = !arguments.no_pictures;
+    app::Evaluation evaluation;
+    {
+        ProgressBar bar(arguments.common);
+        evaluation = app::evaluate(arguments.options, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", evaluation.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(evaluation, arguments.options.fit);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("evaluate", "Simulated expressions against measured ones");
+    auto arguments = std::make_shared<EvaluateArguments>();
+    app::EvaluateOptions& options = arguments->options;
+    command->add_option("RIG", options.rig, "The rig whose expressions are tried")->required();
+    command->add_option(
+        "--shapes", options.shapes,
+        "Measured displacements of the same mesh's vertices, JSON beside raw numbers");
+    command->add_option("--like", arguments->like,
+                        "Another rig, instead: do both heads make the same expressions?");
+    command->add_option("-o,--out", options.out, "A folder for the report");
+    command->add_option("--only", options.only, "Names of expressions; all when not given")
+        ->delimiter(',');
+    command->add_flag(
+        "--fit", options.fit,
+        "Search the activations that come nearest, too; the rig's tables are where it begins");
+    command->add_flag("--apart", options.apart, "Left and right shapes by themselves");
+    command
+        ->add_option("--quality", options.quality,
+                     "\"preview\", \"video\" or \"fine\": how fine a mesh")
+        ->capture_default_str();
+    command->add_flag("--no-pictures", arguments->no_pictures, "Numbers only");
+    add_common(*command, arguments->common);
+    command->footer(
+        "Example:\n  risorius evaluate anna/rig.json --shapes anna/expressions.json --fit -o "
+        "out/anna");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
