@@ -127,16 +127,12 @@ struct Face::Impl {
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
         before = now;
-<<<<<<< HEAD
-=======
-        velocity = Points::Zero(now.x.rows(), 3);
         statics.emplace(
             tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
                 return pose_of({x, a, d, {}}, Folds::kLeftOut).vertices;
             },
             channels.column_min());
->>>>>>> main
     }
 
     LidPose lid_pose(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const {
@@ -241,41 +237,36 @@ struct Face::Impl {
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
         return {mandible(now.jaw.q, drive),
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                drive.at(track::Kinematic::kMouthPressure)};
+                drive.at(track::Kinematic::kMouthPressure),
+                gravity_at(drive) - JawDynamics::upright_gravity()};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
         tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
-<<<<<<< HEAD
-        tissue.prescribe({mandible(now.jaw.q, drive),
-                          {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                          drive.at(track::Kinematic::kMouthPressure),
-                          gravity_at(drive) - JawDynamics::upright_gravity()});
-=======
         prescribe(activation, drive);
     }
     void prescribe(const Eigen::VectorXd& activation, const track::Drive& drive) {
         tissue.prescribe(prescribed(activation, drive));
->>>>>>> main
     }
 
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
                        int iterations) {
         Points x = now.x;
         prescribe(x, activation, drive);
-        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, iterations, x)
+        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, drive, iterations, x)
                                                  : statics->settle(activation, iterations, x);
         now.x = x;
         now.activation = activation;
         now.drive = drive;
-        velocity.setZero();
+        motion.start(now.x, head_motion(head, drive));
         before = now;
         return figures;
     }
 
     // Tissue and jaw come to rest together, in long steps of time.
-    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, int iterations, Points& x) {
+    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, const track::Drive& drive,
+                                int iterations, Points& x) {
         StepFigures figures;
         while (figures.iterations < iterations) {
             tissue.find_contacts(x);
@@ -302,14 +293,6 @@ struct Face::Impl {
                 break;
             }
         }
-<<<<<<< HEAD
-        now.x = x;
-        now.activation = activation;
-        now.drive = drive;
-        motion.start(now.x, head_motion(head, drive));
-        before = now;
-=======
->>>>>>> main
         return figures;
     }
 
@@ -343,12 +326,8 @@ struct Face::Impl {
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
                                                   x);
         tissue.fibres().end_step();
-<<<<<<< HEAD
         motion.end(x);
-=======
         statics->moved();
-        velocity = (x - now.x) / kStep_s;
->>>>>>> main
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -467,16 +446,14 @@ struct Face::Impl {
         binding->apply(displacement, moved, out.vertices);
         if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
-<<<<<<< HEAD
-        follow->apply({moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
-                       drive.at(track::Kinematic::kTongueUp), out.head},
-                      out.vertices);
-=======
-        const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
+        const FollowDrive follow_drive{moved,
+                                       gaze,
+                                       lid,
+                                       drive.at(track::Kinematic::kTongueOut),
+                                       drive.at(track::Kinematic::kTongueUp),
                                        out.head};
         if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
         follow->apply(follow_drive, out.vertices);
->>>>>>> main
         for (int side = 0; side < 2; ++side)
             out.eye_rotation[side] = out.head.linear() * gaze[side];
         return out;
@@ -520,12 +497,8 @@ void Face::start(const DriveAt& drive) {
     impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};
-<<<<<<< HEAD
     impl_->motion.start(impl_->now.x, head_motion(impl_->head, first));
-=======
-    impl_->velocity.setZero();
     impl_->statics->forget();
->>>>>>> main
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;

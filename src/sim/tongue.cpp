@@ -174,7 +174,8 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
             flattest = std::min(flattest, std::clamp(0.9 * gap / thickness_m_, kFlattest, 1.0));
             const double half = std::min(0.5 * gap, 0.5 * flattest * thickness_m_);
             const double y = line.point[static_cast<std::size_t>(k)].y();
-            const double by = std::clamp(y, gate.lower_y + half, gate.upper_y - half) - y;
+            // Shut lips or teeth: over the lower ones
+            const double by = std::max(gate.lower_y + half, std::min(gate.upper_y - half, y)) - y;
             for (int i = 0; i <= kSamples; ++i) {
                 const auto j = static_cast<std::size_t>(i);
                 const double share = smoothstep(from, std::max(from + 1, 1.0 * k), i);
