@@ -9,7 +9,7 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr int kSamples = 24;          // of the middle line, less one
+constexpr int kPieces = 24;          // of the middle line, less one
 constexpr double kTipUp_rad = 1.1;    // how far the blade curls
 constexpr double kOverLip_rad = 0.6;  // by which it hangs over the lower lip when it is all out
 constexpr double kFlattest = 0.35;    // of its thickness at rest, between teeth
@@ -20,8 +20,8 @@ double forward_angle(const Vec3& tangent) { return std::atan2(tangent.y(), tange
 }  // namespace
 
 Vec3 Tongue::Line::at(double along) const {
-    const double place = std::clamp(along, 0.0, 1.0) * kSamples;
-    const int k = std::min(kSamples - 1, static_cast<int>(place));
+    const double place = std::clamp(along, 0.0, 1.0) * kPieces;
+    const int k = std::min(kPieces - 1, static_cast<int>(place));
     const double t = place - k;
     return (1 - t) * point[static_cast<std::size_t>(k)] +
            t * point[static_cast<std::size_t>(k + 1)];
@@ -47,21 +47,21 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     length_m_ = std::max(1e-6, front - back);
 
     // Middle line: heights of slices, smoothed; jaw share of the same
-    std::vector<double> height(kSamples + 1), weight(kSamples + 1);
-    over_jaw_.assign(kSamples + 1, 0);
-    for (int k = 0; k <= kSamples; ++k)
+    std::vector<double> height(kPieces + 1), weight(kPieces + 1);
+    over_jaw_.assign(kPieces + 1, 0);
+    for (int k = 0; k <= kPieces; ++k)
         for (int v : vertices) {
             const double off =
-                (head.vertices(v, 2) - back) / length_m_ * kSamples - static_cast<double>(k);
+                (head.vertices(v, 2) - back) / length_m_ * kPieces - static_cast<double>(k);
             const double w = std::exp(-0.5 * off * off / 4) + 1e-12;
             weight[static_cast<std::size_t>(k)] += w;
             height[static_cast<std::size_t>(k)] += w * head.vertices(v, 1);
             over_jaw_[static_cast<std::size_t>(k)] +=
                 w * head.jaw_share[static_cast<std::size_t>(v)];
         }
-    for (int k = 0; k <= kSamples; ++k) {
+    for (int k = 0; k <= kPieces; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        const double along = static_cast<double>(k) / kSamples;
+        const double along = static_cast<double>(k) / kPieces;
         rest_.point.push_back({0, height[i] / weight[i], back + along * length_m_});
         over_jaw_[i] *= (0.55 + 0.4 * smoothstep(0.0, 0.7, along)) / weight[i];
     }
@@ -135,10 +135,10 @@ double Tongue::room(const TongueDrive& drive) const {
 Tongue::Line Tongue::bent(const TongueDrive& drive, double out) const {
     Line line;
     line.point.push_back(rest_.point.front());
-    for (int k = 0; k < kSamples; ++k) {
+    for (int k = 0; k < kPieces; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const Vec3 piece = rest_.point[i + 1] - rest_.point[i];
-        const double along = (k + 0.5) / kSamples;
+        const double along = (k + 0.5) / kPieces;
         const double stretch = 1 + out * range_m_ / length_m_ * 3 * along * along;
         const double bend = kTipUp_rad * drive.up * smoothstep(0.45, 1.0, along) -
                             kOverLip_rad * out * smoothstep(0.6, 1.0, along);
@@ -155,7 +155,7 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
     if (empty()) return;
     const double out = drive.out * (drive.out > 0 ? room(drive) : 1.0);
     Line line = bent(drive, out);
-    std::vector<double> flat(kSamples + 1, 1.0);
+    std::vector<double> flat(kPieces + 1, 1.0);
     if (out > 0) {
         // Through the gates, teeth then lips: shifted to fit between, and as flat as they are apart
         const double engaged = smoothstep(0, kEngaged, out);
@@ -164,19 +164,19 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
             lips = {vertices(lower_lip_.front(), 1), vertices(upper_lip_.front(), 1),
                     0.5 * (vertices(lower_lip_.front(), 2) + vertices(upper_lip_.front(), 2))};
         double from_y = 0, from = 0;
-        std::vector<double> shift(kSamples + 1, 0.0);
+        std::vector<double> shift(kPieces + 1, 0.0);
         double flattest = 1;
         for (const Gate& gate : {teeth(drive.mandible), lips}) {
             int k = 0;
-            while (k <= kSamples && line.point[static_cast<std::size_t>(k)].z() < gate.z) ++k;
-            if (k > kSamples) break;  // the tip is not there yet
+            while (k <= kPieces && line.point[static_cast<std::size_t>(k)].z() < gate.z) ++k;
+            if (k > kPieces) break;  // the tip is not there yet
             const double gap = std::max(0.0, gate.upper_y - gate.lower_y);
             flattest = std::min(flattest, std::clamp(0.9 * gap / thickness_m_, kFlattest, 1.0));
             const double half = std::min(0.5 * gap, 0.5 * flattest * thickness_m_);
             const double y = line.point[static_cast<std::size_t>(k)].y();
             // Shut lips or teeth: over the lower ones
             const double by = std::max(gate.lower_y + half, std::min(gate.upper_y - half, y)) - y;
-            for (int i = 0; i <= kSamples; ++i) {
+            for (int i = 0; i <= kPieces; ++i) {
                 const auto j = static_cast<std::size_t>(i);
                 const double share = smoothstep(from, std::max(from + 1, 1.0 * k), i);
                 if (i > from) shift[j] = from_y + share * (by - from_y);
@@ -191,8 +191,8 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
         }
     }
     for (const Member& m : members_) {
-        const double place = m.along * kSamples;
-        const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, kSamples - 1.0));
+        const double place = m.along * kPieces;
+        const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, kPieces - 1.0));
         const double t = place - static_cast<double>(k);
         const double thin = (1 - t) * flat[k] + t * flat[k + 1];
         const Vec3 ahead = line.tangent(m.along), up(0, ahead.z(), -ahead.y());
