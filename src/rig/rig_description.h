@@ -63,7 +63,7 @@ struct TissueDescription {
     double superficial_shear_pa = 3000;
     double bulk_pa = 30000;
     double density_kg_m3 = 1000;
-    double damping_s = 0.02;        ///< stiffness-proportional damping
+    double damping_s = 0.008;       ///< stiffness-proportional damping
     double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
     double lid_shear_ratio = 0.2;   ///< lid tissue against the rest
     double lip_shear_ratio =

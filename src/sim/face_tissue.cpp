@@ -200,6 +200,10 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     std::vector<tissue::DeadLoads::Load> loads;
     if (pressure != 0)
         for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
+    if (!prescribed.weight_m_s2.isZero(0.0))
+        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
+            if (!fixed_[static_cast<std::size_t>(i)])
+                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
     air_.set(loads);
 }
 

@@ -62,6 +62,8 @@ struct Prescribed {
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
     std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
+    Vec3 weight_m_s2 =
+        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
 };
 
 /// A jaw that its muscles move within a step of the tissue.
@@ -187,7 +189,7 @@ class FaceTissue {
     mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;
+    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
     std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
     std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest

@@ -16,8 +16,11 @@ constexpr double kNotKept = -1.0;  // m; no lid lies this far inside its eye
 
 Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
                const std::array<EyeLids, 2>& lids, SkinBinding& binding)
-    : head_(head), lids_(lids), rest_(head.vertices) {
-    tongue_range_m_ = 1e-3 * rig.facs.ranges.tongue_out_mm * head.size;
+    : head_(head),
+      neck_(head),
+      lids_(lids),
+      rest_(head.vertices),
+      tongue_(head, 1e-3 * rig.facs.ranges.tongue_out_mm * head.size) {
     const long count = head.vertices.rows();
     const std::vector<char> moving = binding.moving();
 
@@ -66,21 +69,8 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
         if (nearest >= 0) binding.follow(v, nearest);
     }
 
-    // Tongue: its root stays behind, the rest goes with the mandible, the tip comes out
-    double back = 1e300, front = -1e300;
-    for (long v = 0; v < count; ++v)
-        if (head.carrier[v] == rig::Carrier::kTongue) {
-            back = std::min(back, head.vertices(v, 2));
-            front = std::max(front, head.vertices(v, 2));
-        }
     for (long v = 0; v < count; ++v) {
         switch (head.carrier[v]) {
-            case rig::Carrier::kTongue: {
-                const double along = (head.vertices(v, 2) - back) / std::max(1e-6, front - back);
-                tongue_.push_back({static_cast<int>(v), along * along,
-                                   head.jaw_share[v] * (0.55 + 0.4 * smoothstep(0.0, 0.7, along))});
-                break;
-            }
             case rig::Carrier::kSkull:
             case rig::Carrier::kMandible:
                 if (head.jaw_share[v] > 0)
@@ -97,39 +87,19 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
         }
     }
 
-    // The head turns above the jaw line; the neck gives way down to its base
-    neck_top_m_ = head.mm(-70);
-    neck_base_m_ = std::max(head.vertices.col(1).minCoeff() + head.mm(10), head.mm(-190));
     head_share_.resize(static_cast<std::size_t>(count));
     for (long v = 0; v < count; ++v)
         head_share_[v] =
             head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
-                ? head_share(head.vertices.row(v).transpose())
+                ? neck_.share(head.vertices.row(v).transpose())
                 : 1.0;
-}
-
-double Follow::head_share(const Vec3& rest) const {
-    // Behind the jaw the neck begins higher up than under the chin.
-    const double under_chin = smoothstep(head_.mm(10), head_.mm(60), rest.z());
-    const double start = neck_top_m_ - head_.mm(30) * under_chin;
-    return smoothstep(neck_base_m_, start, rest.y());
-}
-
-Vec3 Follow::turned(const Rigid& head, double share, const Vec3& p) const {
-    if (share <= 0) return p;
-    if (share >= 1) return head * p;
-    // Part of the turn about the same pivot
-    const Vec3 pivot(0, head_.mm(-30), head_.mm(-10));
-    const Vec3 moved_pivot = head * pivot;
-    const Eigen::Quaterniond part =
-        Eigen::Quaterniond::Identity().slerp(share, Eigen::Quaterniond(head.linear()));
-    return part * (p - pivot) + pivot + share * (moved_pivot - pivot);
 }
 
 void Follow::turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
     if (head.isApprox(Rigid::Identity(), 0.0)) return;
     for (long p = 0; p < points.rows(); ++p)
-        points.row(p) = turned(head, head_share(rest.row(p).transpose()), points.row(p).transpose())
+        points.row(p) = (neck_.part(head, neck_.share(rest.row(p).transpose())) *
+                         Vec3(points.row(p).transpose()))
                             .transpose();
 }
 
@@ -162,16 +132,12 @@ void Follow::apply(const FollowDrive& drive, Points& vertices) const {
         const Vec3 rest = rest_.row(v).transpose();
         vertices.row(v) = (rest + share * (drive.mandible * rest - rest)).transpose();
     }
-    for (const TongueVertex& t : tongue_) {
-        const Vec3 rest = rest_.row(t.vertex).transpose();
-        const Vec3 out = drive.tongue_out * tongue_range_m_ * t.tip * Vec3(0, -0.12, 1.0);
-        vertices.row(t.vertex) =
-            (rest + out + t.over_jaw * (drive.mandible * (rest + out) - (rest + out))).transpose();
-    }
+    tongue_.place({drive.tongue_out, drive.tongue_up, drive.mandible}, vertices);
     if (drive.head.isApprox(Rigid::Identity(), 0.0)) return;
     for (long v = 0; v < vertices.rows(); ++v)
         vertices.row(v) =
-            turned(drive.head, head_share_[v], vertices.row(v).transpose()).transpose();
+            (neck_.part(drive.head, head_share_[v]) * Vec3(vertices.row(v).transpose()))
+                .transpose();
 }
 
 }  // namespace risorius::sim
