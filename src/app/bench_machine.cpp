@@ -12,6 +12,7 @@
 
 #include "app/animate.h"
 #include "app/bench_solids.h"
+#include "app/bench_steps.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/staged_file.h"
@@ -228,8 +229,12 @@ struct Bench {
     }
 };
 
-Json bench_rig(const fs::path& rig_file, const Watch& watch) {
+Json bench_rig(const fs::path& rig_file, bool only_steps, const Watch& watch) {
     RigFiles files = read_rig_files(rig_file);
+    if (only_steps)
+        return {{"rig", rig_file.generic_string()},
+                {"name", files.rig.name},
+                {"steps", bench_steps(files, usual_step_benches(), watch)}};
     const track::ChannelTable channels = files.rig.channels();
     const auto script = track::read_script(
         JsonCursor::from_json(bench_script(rig_file.generic_string(), kTrack_s), "bench"), channels,
@@ -248,6 +253,7 @@ Json bench_rig(const fs::path& rig_file, const Watch& watch) {
     out["fine"] = bench.simulate("fine", nullptr);
     out["fine_volume_muscles"] = bench.compare_solids();
     const rig::Head head = rig::place_head(bench.files.rig, bench.files.mesh, bench.files.place());
+    out["steps"] = bench_steps(bench.files, usual_step_benches(), watch);
     out["draw_512"] = bench.draw(512, head, poses, nullptr);
     out["draw_1024"] = bench.draw(1024, head, poses, &pictures);
     out["encode_1024_fps"] = bench.encode_fps(pictures, scratch / "encoded.mp4");
@@ -312,8 +318,10 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
                 watch.progress((static_cast<double>(i) + share) / parts,
                                rigs[i].string() + ", " + what);
             };
-        out["rigs"].push_back(bench_rig(rigs[i], one));
+        out["rigs"].push_back(bench_rig(rigs[i], options.only_steps, one));
     }
+    out["solids"] = Json::array();
+    if (options.only_steps) return out;
     Watch solids = watch;
     if (watch.progress)
         solids.progress = [&](double share, const std::string& what) {

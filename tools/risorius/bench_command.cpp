@@ -1,4 +1,4 @@
-// risorius bench [--rig RIG]... [--solids] [-o FILE]
+// risorius bench [--rig RIG]... [--solids | --steps] [-o FILE]
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +49,18 @@ void print_stress(const Json& one) {
                 one["left_at_rest_mm"].get<double>());
 }
 
+void print_steps(const Json& cases) {
+    std::printf(
+        "  steps of 1/60 s: smile, sneer, jaw, pucker every half second; error of the skin\n"
+        "                      nodes  iterations  ms, median   mean  RMS mm  largest mm\n");
+    for (const Json& one : cases)
+        std::printf("    %-16s %8d  %10.1f  %10.2f  %5.2f  %6.3f  %10.2f\n",
+                    one["quality"].get<std::string>().c_str(), one["nodes"].get<int>(),
+                    one["iterations"].get<double>(), one["step_ms"].get<double>(),
+                    one["mean_step_ms"].get<double>(), one["rms_mm"].get<double>(),
+                    one["largest_mm"].get<double>());
+}
+
 void print(const Json& report) {
     std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
                 report["machine"]["cores"].get<int>());
@@ -59,6 +71,8 @@ void print(const Json& report) {
     for (const Json& solids : report["solids"]) print_solids(solids);
     for (const Json& rig : report["rigs"]) {
         std::printf("%s\n", rig["rig"].get<std::string>().c_str());
+        print_steps(rig["steps"]);
+        if (!rig.contains("preview")) continue;
         for (const char* quality : {"preview", "video", "fine"})
             std::printf("  %-8s %6d nodes  %7.2f ms per step of 1/60 s  (built in %.2f s)\n",
                         quality, rig[quality]["nodes"].get<int>(),
@@ -101,6 +115,10 @@ void add_bench(CLI::App& app) {
         ->add_flag("--solids", arguments->only_solids,
                    "Only deformable solids of 13^3, 22^3 and 46^3 nodes, no face")
         ->excludes("--rig");
+    command
+        ->add_flag("--steps", arguments->options.only_steps,
+                   "Only how long the steps of the rigs take and how true they are")
+        ->excludes("--solids");
     command
         ->add_option("--stress", arguments->options.stress_steps,
                      "Only drive the face at random for so many steps, and say what comes of it")

@@ -1,0 +1,155 @@
+#include "app/bench_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "app/stopwatch.h"
+#include "track/timeline.h"
+
+namespace risorius::app {
+
+namespace {
+
+constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kPose_s = 0.5, kSwitch_s = 0.02, kJaw_hz = 2;
+constexpr int kPoses = 4;
+// Until an iteration moves the nodes by less than 0.02 micrometres, RMS: what is left is far below any figure reported.
+constexpr double kConverged_m = 2e-8;
+constexpr int kConvergedIterations = 400;
+
+// Keys of a unit that is on in one of the poses.
+Json pose_keys(int pose, double value) {
+    Json keys = Json::array();
+    if (pose > 0) keys.push_back({0.0, 0.0});
+    for (double on = pose * kPose_s; on < kStepTrack_s; on += kPoses * kPose_s) {
+        keys.push_back({on, 0.0});
+        keys.push_back({on + kSwitch_s, value});
+        keys.push_back({on + kPose_s, value});
+        if (on + kPose_s + kSwitch_s < kStepTrack_s)
+            keys.push_back({on + kPose_s + kSwitch_s, 0.0});
+    }
+    return {{"keys", keys}, {"interpolation", "linear"}};
+}
+
+// It opens by three quarters in its own pose, by a quarter in the others.
+Json jaw_keys() {
+    Json keys = Json::array();
+    for (int k = 0; k <= static_cast<int>(std::lround(kStepTrack_s * 30)); ++k) {
+        const double t = k / 30.0;
+        const bool own = static_cast<int>(t / kPose_s + 1e-9) % kPoses == 2;
+        keys.push_back({t, (own ? 0.375 : 0.125) * (1 - std::cos(kTurn * kJaw_hz * t))});
+    }
+    return {{"keys", keys}};
+}
+
+using SkinTrack = std::vector<Points>;  // skin nodes after every step
+
+struct StepRun {
+    SkinTrack skin;
+    std::vector<double> step_ms;
+    int nodes = 0, tets = 0;
+    double iterations = 0;  // mean
+};
+
+StepRun play(const RigFiles& files, const sim::DriveAt& drive, const StepBench& one,
+             const Watch& watch) {
+    sim::Face face(files.rig, files.mesh, one.quality, files.place());
+    face.start(drive);
+    StepRun out;
+    out.nodes = face.node_count();
+    out.tets = face.tet_count();
+    for (int step = 0; step < one.steps; ++step) {
+        if (step % 20 == 0)
+            watch.tell(static_cast<double>(step) / one.steps, "steps, " + one.quality.name);
+        const CoreStopwatch stopwatch;
+        out.iterations += face.step(drive).iterations / static_cast<double>(one.steps);
+        out.step_ms.push_back(1e3 * stopwatch.seconds());
+        out.skin.push_back(face.skin_nodes());
+    }
+    return out;
+}
+
+double median_of_steps(std::vector<double> values) {
+    const auto half = values.begin() + static_cast<long>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+}
+
+}  // namespace
+
+track::ScriptDescription step_track(const RigFiles& files) {
+    Json blinks = Json::array();
+    for (const double t : {0.7, 2.2, 3.3})
+        blinks.push_back({{"blink", Json::object()}, {"start_s", t}});
+    const Json script{{"format", "risorius-script"},
+                      {"version", 1},
+                      {"rig", files.place()},
+                      {"fps", 60},
+                      {"duration_s", kStepTrack_s},
+                      {"seed", 1},
+                      {"channels",
+                       {{"AU12", pose_keys(0, 1.0)},
+                        {"AU6", pose_keys(0, 0.7)},
+                        {"AU9", pose_keys(1, 1.0)},
+                        {"AU10", pose_keys(1, 0.7)},
+                        {"AU25", pose_keys(2, 0.6)},
+                        {"AU18", pose_keys(3, 1.0)},
+                        {"jaw_open", jaw_keys()}}},
+                      {"events", blinks}};
+    return track::read_script(JsonCursor::from_json(script, "bench"), files.rig.channels(),
+                              files.rig.facs, files.rig.expressions);
+}
+
+std::vector<StepBench> usual_step_benches() {
+    std::vector<StepBench> out;
+    for (const char* name : {"preview", "video", "fine"}) out.push_back({sim::quality_named(name)});
+    for (const int vertices : {3300, 6600}) {
+        sim::Quality quality = sim::quality_named("fine");
+        quality.name = std::to_string(vertices) + " skin nodes";
+        quality.shell_vertices = vertices;
+        out.push_back({quality, 60});
+    }
+    return out;
+}
+
+Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases, const Watch& watch) {
+    const track::Timeline timeline(step_track(files), files.rig.channels());
+    const sim::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
+    std::map<std::pair<int, int>, SkinTrack> converged;  // by size of the shell and steps
+    Json out = Json::array();
+    for (const StepBench& one : cases) {
+        const auto key = std::pair(one.quality.shell_vertices, one.steps);
+        if (!converged.contains(key)) {
+            const sim::Quality exact{"converged", one.quality.shell_vertices, kConvergedIterations,
+                                     0, kConverged_m};
+            converged[key] = play(files, drive, {exact, one.steps}, watch).skin;
+        }
+        const StepRun quick = play(files, drive, one, watch);
+        double squares = 0, largest = 0;
+        long count = 0;
+        for (std::size_t step = 0; step < quick.skin.size(); ++step) {
+            const Points off = quick.skin[step] - converged[key][step];
+            squares += off.squaredNorm();
+            largest = std::max(largest, off.rowwise().norm().maxCoeff());
+            count += off.rows();
+        }
+        out.push_back(
+            {{"quality", one.quality.name},
+             {"nodes", quick.nodes},
+             {"tets", quick.tets},
+             {"steps", one.steps},
+             {"iterations", quick.iterations},
+             {"step_ms", median_of_steps(quick.step_ms)},
+             {"mean_step_ms", std::accumulate(quick.step_ms.begin(), quick.step_ms.end(), 0.0) /
+                                  static_cast<double>(quick.step_ms.size())},
+             {"rms_mm", 1e3 * std::sqrt(squares / static_cast<double>(count))},
+             {"largest_mm", 1e3 * largest}});
+    }
+    return out;
+}
+
+}  // namespace risorius::app
