@@ -156,23 +156,34 @@ class Cut {
                 next[b].insert(a);
             }
         if (next.empty()) return {};
-        // Corners of a triangle whose two sides lie on the line make a loop: the shorter ways win by going left always
-        int at = next.begin()->first;
-        for (const auto& [v, others] : next)
-            if (position_[static_cast<std::size_t>(v)].x() <
-                position_[static_cast<std::size_t>(at)].x())
-                at = v;
-        std::vector<int> out{at};
-        for (;;) {
-            int best = -1;
-            for (int w : next.at(at)) {
-                const double x = position_[static_cast<std::size_t>(w)].x();
-                if (x <= position_[static_cast<std::size_t>(at)].x()) continue;
-                if (best < 0 || x < position_[static_cast<std::size_t>(best)].x()) best = w;
+        const auto nearest_to = [&](const Vec3& corner) {
+            int best = next.begin()->first;
+            for (const auto& [v, others] : next)
+                if ((position(v) - corner).norm() < (position(best) - corner).norm()) best = v;
+            return best;
+        };
+        const int start = nearest_to(head_.landmark("ch_r"));
+        const int goal = nearest_to(head_.landmark("ch_l"));
+        // Shortest way, as a vertex beside the line may count as on it
+        std::map<int, std::pair<double, int>> way{{start, {0.0, -1}}};
+        std::set<std::pair<double, int>> open{{0.0, start}};
+        while (!open.empty()) {
+            const auto [length, v] = *open.begin();
+            open.erase(open.begin());
+            if (v == goal) break;
+            for (int w : next.at(v)) {
+                const double longer = length + (position(v) - position(w)).norm();
+                const auto known = way.find(w);
+                if (known != way.end() && known->second.first <= longer) continue;
+                if (known != way.end()) open.erase({known->second.first, w});
+                way[w] = {longer, v};
+                open.insert({longer, w});
             }
-            if (best < 0) return out;
-            out.push_back(at = best);
         }
+        std::vector<int> out;
+        if (way.count(goal))
+            for (int v = goal; v >= 0; v = way.at(v).second) out.insert(out.begin(), v);
+        return out;
     }
 
     /// Gives the lower lip its own vertices along the path; returns them, without the corners.
@@ -184,17 +195,39 @@ class Cut {
             out.push_back(static_cast<int>(position_.size()));
             position_.push_back(position_[static_cast<std::size_t>(path[i])]);
         }
-        for (Polygon& polygon : polygons_) {
-            double height = 0;
-            bool touches = false;
-            for (int v : polygon.vertex) {
-                touches = touches || below.count(v) > 0;
-                if (!on_line_.count(v)) height += height_of(v);
+        // The skin is wound as seen from outside, so below the path it runs against it; from there on through shared sides
+        std::set<Edge> cut;
+        for (std::size_t i = 0; i + 1 < path.size(); ++i) cut.insert({path[i + 1], path[i]});
+        std::map<Edge, std::size_t> beside;  // directed sides of the polygons that touch the path
+        std::vector<std::size_t> open;
+        for (std::size_t f = 0; f < polygons_.size(); ++f) {
+            const std::vector<int>& vertex = polygons_[f].vertex;
+            if (std::none_of(vertex.begin(), vertex.end(),
+                             [&](int v) { return below.count(v) > 0; }))
+                continue;
+            for (std::size_t k = 0; k < vertex.size(); ++k) {
+                const Edge side{vertex[k], vertex[(k + 1) % vertex.size()]};
+                beside[side] = f;
+                if (cut.count(side)) open.push_back(f);
             }
-            if (!touches || height >= 0) continue;
-            for (int& v : polygon.vertex)
-                if (const auto lower = below.find(v); lower != below.end()) v = lower->second;
         }
+        std::set<std::size_t> lower;
+        while (!open.empty()) {
+            const std::size_t f = open.back();
+            open.pop_back();
+            if (!lower.insert(f).second) continue;
+            const std::vector<int>& vertex = polygons_[f].vertex;
+            for (std::size_t k = 0; k < vertex.size(); ++k) {
+                const Edge side{vertex[k], vertex[(k + 1) % vertex.size()]};
+                const auto across = beside.find({side.second, side.first});
+                const bool at_path = below.count(side.first) || below.count(side.second);
+                if (at_path && !cut.count(side) && across != beside.end())
+                    open.push_back(across->second);
+            }
+        }
+        for (const std::size_t f : lower)
+            for (int& v : polygons_[f].vertex)
+                if (const auto own = below.find(v); own != below.end()) v = own->second;
         return out;
     }
 
@@ -222,8 +255,7 @@ class Cut {
                 below[r + 1].push_back(r + 1 < kRows.size() ? add(back - gap)
                                                             : above[r + 1].back());
             }
-        // Wound against the skin at the edge they share
-        const bool leftwards = has_directed_edge(path[0], path[1]);
+        // Wound against the skin at the edges they share
         for (std::size_t r = 0; r < kRows.size(); ++r)
             for (std::size_t i = 0; i <= n; ++i) {
                 const auto at = [&](const std::vector<int>& row, std::size_t k) {
@@ -231,10 +263,10 @@ class Cut {
                 };
                 add_face({at(above[r], i + 1), at(above[r], i), at(above[r + 1], i),
                           at(above[r + 1], i + 1)},
-                         !leftwards, group);
+                         group);
                 add_face({at(below[r], i), at(below[r], i + 1), at(below[r + 1], i + 1),
                           at(below[r + 1], i)},
-                         !leftwards, group);
+                         group);
             }
     }
 
@@ -283,7 +315,9 @@ class Cut {
         return p.y() - line_.at(p.x()).y();
     }
     bool may_be_cut(const Vec3& p) const {
-        return line_.spans(p.x()) && (p - line_.at(p.x())).norm() < head_.size * kFromLine_m;
+        const Vec3 off = p - line_.at(p.x());
+        // A furrow may be deep
+        return line_.spans(p.x()) && std::hypot(off.y(), 0.5 * off.z()) < head_.size * kFromLine_m;
     }
     double share_of_edge(int a, int b) const {
         const double at_a = height_of(a), at_b = height_of(b);
@@ -294,16 +328,22 @@ class Cut {
         for (std::size_t f = 0; f < polygons_.size(); ++f) {
             if (!is_skin_[f]) continue;
             const std::vector<int>& vertex = polygons_[f].vertex;
-            // Diagonals of polygons are crossed as their sides are
-            for (std::size_t i = 0; i < vertex.size(); ++i)
-                for (std::size_t j = 0; j < i; ++j) {
-                    const int a = vertex[i], b = vertex[j];
-                    if (height_of(a) * height_of(b) > 0) continue;
-                    const double t = share_of_edge(a, b);
-                    if (t < kDegenerate && may_be_cut(position(a))) on_line_.insert(a);
-                    if (t > 1 - kDegenerate && may_be_cut(position(b))) on_line_.insert(b);
-                }
+            for (const auto& [a, b] : edges_of(vertex)) {
+                if (height_of(a) * height_of(b) > 0) continue;
+                const double t = share_of_edge(a, b);
+                if (t < kDegenerate && may_be_cut(position(a))) on_line_.insert(a);
+                if (t > 1 - kDegenerate && may_be_cut(position(b))) on_line_.insert(b);
+            }
         }
+    }
+
+    /// Sides, and the diagonals that cut it into a fan.
+    static std::vector<Edge> edges_of(const std::vector<int>& vertex) {
+        std::vector<Edge> out;
+        for (std::size_t k = 0; k < vertex.size(); ++k)
+            out.push_back({vertex[k], vertex[(k + 1) % vertex.size()]});
+        for (std::size_t k = 2; k + 1 < vertex.size(); ++k) out.push_back({vertex[0], vertex[k]});
+        return out;
     }
 
     /// The vertex of the cut on an edge, -1 when it is not crossed.
@@ -322,9 +362,8 @@ class Cut {
 
     bool is_crossed(const Polygon& polygon) {
         bool crossed = false;
-        for (std::size_t i = 0; i < polygon.vertex.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                crossed = crossed || crossing(polygon.vertex[i], polygon.vertex[j]) >= 0;
+        for (const auto& [a, b] : edges_of(polygon.vertex))
+            crossed = crossing(a, b) >= 0 || crossed;
         // Between two opposite vertices on the line runs a diagonal
         int on_line = 0;
         for (int v : polygon.vertex) on_line += on_line_.count(v) > 0;
@@ -372,26 +411,12 @@ class Cut {
         position_.push_back(p);
         return static_cast<int>(position_.size()) - 1;
     }
-    bool has_directed_edge(int a, int b) const {
-        for (const Polygon& polygon : polygons_)
-            for (std::size_t k = 0; k < polygon.vertex.size(); ++k)
-                if (polygon.vertex[k] == a &&
-                    polygon.vertex[(k + 1) % polygon.vertex.size()] == b && upper(polygon))
-                    return true;
-        return false;
-    }
-    bool upper(const Polygon& polygon) const {
-        double height = 0;
-        for (int v : polygon.vertex) height += height_of(v);
-        return height > 0;
-    }
     /// A quad, or what is left of it where corners coincide.
-    void add_face(std::vector<int> vertex, bool reversed, int group) {
+    void add_face(const std::vector<int>& vertex, int group) {
         std::vector<int> own;
         for (int v : vertex)
             if (std::find(own.begin(), own.end(), v) == own.end()) own.push_back(v);
         if (own.size() < 3) return;
-        if (reversed) std::reverse(own.begin(), own.end());
         polygons_.push_back({own, {}, group});
     }
 

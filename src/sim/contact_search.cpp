@@ -38,10 +38,7 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     lip_reach_m_ = head.mm(9);
     lip_aside_m_ = head.mm(3.5);
     stick_m_ = head.mm(0.5);
-    for (int side = 0; side < 2; ++side) {
-        eye_centre_[side] = head.eyes[side].centre;
-        eye_radius_[side] = head.eyes[side].radius_m;
-    }
+    eyes_ = head.eyes;
     for (int v = 0; v < count; ++v) {
         const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
@@ -82,7 +79,7 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         }
         for (int side = 0; side < 2; ++side) {
             if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
-            const double gap = (deep - eye_centre_[side]).norm() - eye_radius_[side];
+            const double gap = eyes_[side].distance(deep, eyes_[side].forward);
             lid_.push_back({node_of(v, kDeep), side, stiffness, std::min(0.0, gap)});
             touching.push_back({node_of(v, kDeep), stiffness});
         }
@@ -98,8 +95,8 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     }
 }
 
-std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
-                                                           const Rigid& mandible) const {
+std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible,
+                                                           const std::array<Mat3, 2>& gaze) const {
     std::vector<tissue::Contacts::Contact> out;
     const Rigid to_mandible = mandible.inverse();
 
@@ -203,17 +200,18 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
             for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
             contact.normal.normalize();
             rest_normal.normalize();
-            const auto beside = [&](const Vec3& d, const Vec3& normal) {
-                return 1.0 - smoothstep(lip_aside_m_, 2 * lip_aside_m_,
+            const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
+                return 1.0 - smoothstep(from_m, from_m + lip_aside_m_,
                                         (d - d.dot(normal) * normal).norm());
             };
             off /= weights;
             rest_off /= weights;
-            inside *= beside(off, contact.normal);
+            inside *= beside(off, contact.normal, lip_aside_m_);
             if (inside <= 0) continue;
             contact.count = kLipNeighbours;
-            contact.rest_gap_m =
-                beside(rest_off, rest_normal) * std::min(0.0, rest_off.dot(rest_normal));
+            // Whole for all that are inside at rest, or rest would not be free of force
+            contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) *
+                                 std::min(0.0, rest_off.dot(rest_normal));
             if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) continue;
             // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
             contact.stiffness_n_per_m =
@@ -233,16 +231,17 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
     against_lip(upper_, lower_, lower_facing, first_upper);
     against_lip(lower_, upper_, upper_facing, first_lower);
 
-    // Lids: the tangent plane of the globe below the node
+    // Lids: a plane across the way out of the eye, where its surface lies below the node
     for (std::size_t n = 0; n < lid_.size(); ++n) {
         const LidNode& node = lid_[n];
-        const Vec3 r = Vec3(x.row(node.node).transpose()) - eye_centre_[node.side];
-        const double distance = r.norm();
-        if (distance - eye_radius_[node.side] > kFarEnough_m) continue;
+        const rig::EyeGeometry& eye = eyes_[node.side];
+        const Vec3 p = x.row(node.node).transpose();
+        const double gap = eye.distance(p, gaze[node.side] * eye.forward);
+        if (gap > kFarEnough_m) continue;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
-        contact.normal = r / distance;
-        contact.point = eye_centre_[node.side] + eye_radius_[node.side] * contact.normal;
+        contact.normal = (p - eye.centre).normalized();
+        contact.point = p - gap * contact.normal;
         contact.rest_gap_m = node.rest_gap;
         contact.stiffness_n_per_m = node.stiffness;
         contact.body = kGlobeBody;

@@ -29,7 +29,9 @@ class ContactSearch {
                   const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
 
     /// Pairs for node positions x with the mandible moved.
-    std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible) const;
+    /// `gaze`: turn of each eye, whose cornea bulges.
+    std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible,
+                                                const std::array<Mat3, 2>& gaze) const;
 
     /// Nodes that may ever touch something and the greatest stiffness they may see, for the constant metric.
     const std::vector<int>& nodes() const { return nodes_; }
@@ -66,8 +68,7 @@ class ContactSearch {
     std::vector<DeepNode> deep_;
     std::vector<LipNode> upper_, lower_;
     std::vector<LidNode> lid_;
-    std::array<Vec3, 2> eye_centre_;
-    std::array<double, 2> eye_radius_;
+    std::array<rig::EyeGeometry, 2> eyes_;
     double lip_reach_m_, lip_aside_m_, stick_m_;
     std::vector<int> nodes_;
     std::vector<double> node_stiffness_;

@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
+// Share of its contact stiffness that the metric gives every node that may ever touch. Few touch at a time, and those along
+// one direction only: half of it in steps of motion leaves twice the error in the same iterations, a thirtieth overshoots.
+constexpr double kContactShare = 0.1, kSettlingContactShare = 0.5;
+
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -116,12 +120,12 @@ void FaceTissue::build_tethers() {
         const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
         for (int side = 0; side < 2; ++side) {
             if ((p - lids_[side].centre()).norm() > lids_[side].zone_m() + head_.mm(3)) continue;
-            const LidMember member =
-                lids_[side].classify(p, head_.mm(2.0), head_.mm(4.0), head_.mm(2.8));
-            if (member.weight < 1e-3) continue;
+            const LidMember member = lids_[side].member(p);
+            const double firmness = EyeLids::firmness(member, 0.4, 1.15, 0.2, 0.65);
+            if (firmness < 1e-3) continue;
             for (Layer layer : {kDeep, kMiddle, kSkin}) {
                 const int node = node_of(static_cast<int>(v), layer);
-                const double k = member.weight * kLidTether_pa_per_m * mesh_.area_m2[v];
+                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
                 held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
                 lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
             }
@@ -161,8 +165,9 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     fibres_->add_metric(builder, h < kSettling_s ? h : 0);
     solids_->add_metric(builder);
     lip_drive_->add_metric(builder);
+    const double contact_share = h < kSettling_s ? kContactShare : kSettlingContactShare;
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);
+        builder.add_diagonal(search_.nodes()[i], contact_share * search_.node_stiffness()[i]);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
         {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}))});
@@ -172,6 +177,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
 void FaceTissue::prescribe(const Prescribed& prescribed) {
     const Rigid& moved = prescribed.mandible;
     mandible_ = moved;
+    gaze_ = prescribed.gaze;
     std::vector<tissue::Tethers::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Attachment& a = attachments_[i];
@@ -184,8 +190,7 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
         const LidTether& t = lid_tethers_[i];
         held[attachments_.size() + i].target =
-            t.rest +
-            lids_[t.side].ride(t.rest, t.member.upper, t.member.place, prescribed.lid[t.side]);
+            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
@@ -195,6 +200,10 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     std::vector<tissue::DeadLoads::Load> loads;
     if (pressure != 0)
         for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
+    if (!prescribed.weight_m_s2.isZero(0.0))
+        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
+            if (!fixed_[static_cast<std::size_t>(i)])
+                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
     air_.set(loads);
 }
 
@@ -210,7 +219,7 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
 }
 
 void FaceTissue::find_contacts(const Points& x) {
-    contacts_.set(search_.find(x, mandible_));
+    contacts_.set(search_.find(x, mandible_, gaze_));
     note_contacts();
 }
 
@@ -257,14 +266,15 @@ double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
 
 StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
                                       const Eigen::VectorXd& activation,
-                                      const solve::QuasiNewtonOptions& options, Points& x) {
+                                      const solve::QuasiNewtonOptions& options, Points& x,
+                                      std::span<const Points> likely) {
     const auto energy = [&](const Points& at, Points& gradient) {
         return step_energy(h, start, aim, activation, at, gradient);
     };
     solids_->begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
-    return end_step(newton_.minimise(energy, solve, x, options), x);
+    return end_step(newton_.minimise(energy, solve, x, options, likely), x);
 }
 
 void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,9 @@ struct Prescribed {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
+    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
+    Vec3 weight_m_s2 =
+        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
 };
 
 /// A jaw that its muscles move within a step of the tissue.
@@ -87,10 +91,12 @@ class FaceTissue {
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends.
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// tried first.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x);
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {});
 
     /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
@@ -183,8 +189,9 @@ class FaceTissue {
     mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;
+    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
+    std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
     std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<LidTether> lid_tethers_;

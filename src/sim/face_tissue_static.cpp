@@ -40,7 +40,7 @@ void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& acti
 }
 
 void FaceTissue::find_rest_contacts(const Points& x) {
-    contacts_.set_firm(search_.find(x, mandible_), kFirmer);
+    contacts_.set_firm(search_.find(x, mandible_, gaze_), kFirmer);
     note_contacts();
 }
 

@@ -18,7 +18,8 @@ inline geom::PolygonMesh scan_of(const Head& head, const geom::PolygonMesh& mesh
                                  int columns) {
     std::vector<int> groups;
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g)
-        if (head.role_of_group[g] == "skin" || head.role_of_group[g].starts_with("eye_"))
+        if (head.role_of_group[g] == "skin" || head.role_of_group[g] == "mouth" ||
+            head.role_of_group[g].starts_with("eye_"))
             groups.push_back(static_cast<int>(g));
     const geom::SurfaceTree surface(head.vertices, geom::triangulate(mesh, groups));
     const Vec3 inside(0, head.mm(-12), head.mm(15));
@@ -28,7 +29,7 @@ inline geom::PolygonMesh scan_of(const Head& head, const geom::PolygonMesh& mesh
     constexpr double kPi = 3.14159265358979323846, kLowest = -1.0, kHighest = 1.5;
     for (int r = 0; r < rows; ++r)
         for (int c = 0; c < columns; ++c) {
-            const double u = 2.0 * c / columns - 1;  // -1 .. 1 around, 0 in front
+            const double u = (2.0 * c + 1) / columns - 1;  // -1 .. 1 around, 0 in front
             const double around = kPi * (0.45 * u + 0.55 * u * u * u);
             const double up = kLowest + (kHighest - kLowest) * r / (rows - 1);
             const Vec3 out(std::cos(up) * std::sin(around), std::sin(up),

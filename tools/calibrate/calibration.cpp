@@ -56,8 +56,13 @@ class Calibration {
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 one.table[static_cast<long>(i)] = app::value_of(one.unknowns[i], shape.drive);
+            // A lid goes where its table says: the face around it is to be found
+            for (app::ActivationUnknown& unknown : one.unknowns)
+                if (unknown.name.starts_with("levator_palpebrae") ||
+                    unknown.name.starts_with("superior_tarsal"))
+                    unknown.least = unknown.most = app::value_of(unknown, shape.drive);
             one.price = one.table.unaryExpr(
-                [&](double value) { return options.price * (value != 0 ? 0.5 : 3.0); });
+                [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 if (!one.unknowns[i].channels.empty()) one.price[static_cast<long>(i)] *= 2;
             Points measured(static_cast<long>(shell.vertex.size()), 3);
