@@ -20,6 +20,9 @@ constexpr std::array<double, 2> kAxisInside_mm{11, 9};  // from the rim, upper a
 constexpr double kTurnFades_mm = 9;                     // below the red lip
 constexpr double kPushFades_mm = 12;
 
+// Share of its greatest way that a muscle pushes at p: weak ones thicken most per activation.
+double filled(double p) { return 1 - (1 - p) * (1 - p) * (1 - p); }
+
 }  // namespace
 
 LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
@@ -138,8 +141,8 @@ Vec3 LipDrive::pull(const Turned& member, const Points& x) const {
 }
 
 Vec3 LipDrive::pull(const Pushed& member, const Points& x) const {
-    const double ahead =
-        (x.row(member.node).transpose() - member.target).dot(member.normal) - member.way;
+    const double ahead = (x.row(member.node).transpose() - member.target).dot(member.normal) -
+                         filled(push_[member.lip]) * member.way;
     return push_[member.lip] * member.stiffness * std::min(0.0, ahead) * member.normal;
 }
 

@@ -6,7 +6,7 @@
 //
 // Each lip by its own activations. In the plane across the lip, with X turned by r w theta about an axis on the teeth and
 // flattened against them to the target t, n outwards, and d the way that the thickened muscle fills:
-//   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - d)^2
+//   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - (1 - (1 - p)^3) d)^2
 // Targets go with the mandible as far as the tissue there does. Sources: Blair & Smith 1986 (marginal against peripheral
 // part); angles and ways as measured on expression scans.
 #pragma once

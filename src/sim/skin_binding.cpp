@@ -3,6 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <queue>
 #include <set>
 
 #include "geom/closest_point.h"
@@ -51,6 +53,32 @@ struct Terms {
             for (auto& [node, w] : nodes) w *= all / left;
     }
 };
+
+// Shortest ways along the edges of a surface; infinite where there is none.
+std::vector<double> surface_ways(const std::vector<int>& from,
+                                 const std::vector<std::set<int>>& neighbours,
+                                 const Points& vertices) {
+    std::vector<double> way(neighbours.size(), std::numeric_limits<double>::infinity());
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
+        open;
+    for (int v : from) {
+        way[static_cast<std::size_t>(v)] = 0;
+        open.push({0.0, v});
+    }
+    while (!open.empty()) {
+        const auto [distance, v] = open.top();
+        open.pop();
+        if (distance > way[static_cast<std::size_t>(v)]) continue;
+        for (int w : neighbours[static_cast<std::size_t>(v)]) {
+            const double longer = distance + (vertices.row(v) - vertices.row(w)).norm();
+            if (longer < way[static_cast<std::size_t>(w)]) {
+                way[static_cast<std::size_t>(w)] = longer;
+                open.push({longer, w});
+            }
+        }
+    }
+    return way;
+}
 
 }  // namespace
 
@@ -131,6 +159,15 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
 
     // Which of them is held, and by what
     const std::vector<Vec3> lips = lip_line(head);
+    const auto near_rim = [&](bool upper) {
+        std::vector<int> from;
+        for (long v = 0; v < count; ++v)
+            if (on_shell[v] && (shell.over_bite_m[shell.collapsed_to[v]] >= 0) == upper &&
+                distance_to_polyline(at(static_cast<int>(v)), lips) < head.mm(6))
+                from.push_back(static_cast<int>(v));
+        return surface_ways(from, neighbours, head.vertices);
+    };
+    const std::vector<double> way_up = near_rim(true), way_down = near_rim(false);
     std::vector<char> held(static_cast<std::size_t>(count), 0);
     std::vector<double> pull(static_cast<std::size_t>(count),
                              0.0);  // towards terms, beside the neighbours
@@ -149,24 +186,28 @@ SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& she
                     held[v] = held[v] || p.z() < eye.centre.z() + 0.3 * eye.radius_m;
         } else if (from_lips > head.mm(16) && p.z() < lips[2].z() - head.mm(16)) {
             held[v] = 1;
-            terms[v].jaw = 1.0 - smoothstep(-head.mm(4), head.mm(4), jaw.height_over_bite(p));
+            terms[v].jaw = 1.0 - smoothstep(-head.mm(8), head.mm(8), jaw.height_over_bite(p));
             terms[v].jaw_point = terms[v].jaw * p;
         } else if (from_lips > head.mm(4) && from_lips < head.mm(40) &&
                    p.y() < head.landmark("sn").y() && p.z() < lips[2].z()) {
-            // The lining of lips and cheeks goes with the skin in front of it, or it would come through
-            const double side = jaw.height_over_bite(p);
+            // The lining of lips and cheeks goes with the skin in front of it, or it would come through; that of the upper lip
+            // with the upper lip however near the bite it lies, or a dropping jaw would draw it out from behind the lip
+            const double up = way_up[static_cast<std::size_t>(v)],
+                         down = way_down[static_cast<std::size_t>(v)];
+            if (!std::isfinite(up + down)) continue;
+            const double side = (down - up) / (down + up + 1e-9);
             int nearest = -1;
             double least = head.mm(16) * head.mm(16);
             for (long w = 0; w < count; ++w) {
                 if (!on_shell[w]) continue;
                 const double squared = (head.vertices.row(w) - head.vertices.row(v)).squaredNorm();
-                if (squared < least && side * jaw.height_over_bite(at(static_cast<int>(w))) >= 0) {
+                if (squared < least && side * shell.over_bite_m[shell.collapsed_to[w]] >= 0) {
                     least = squared;
                     nearest = static_cast<int>(w);
                 }
             }
             if (nearest >= 0) {
-                pull[v] = smoothstep(head.mm(6), head.mm(12), std::abs(side));
+                pull[v] = smoothstep(0.1, 0.5, std::abs(side));
                 terms[v] = terms[nearest];
             }
         }

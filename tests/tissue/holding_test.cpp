@@ -106,6 +106,56 @@ TEST(Contacts, ForcesAreTheSlopeOfTheEnergyWhilePressed) {
     EXPECT_GE(contacts.max_penetration(x), 2e-3 - 1e-12);
 }
 
+// One node held down by a spring k over a plane at 0, pulled by a force f: steps of "solve, remember" press it out.
+TEST(Contacts, WhatIsLeftOfAPenetrationIsPushedOutStepByStep) {
+    Contacts::Contact contact;
+    contact.stiffness_n_per_m = 50;
+    contact.slot = 3;
+    const double k = 40, f = -0.02;
+    Points x = Points::Zero(1, 3);
+    Contacts contacts;
+    std::vector<double> depth;
+    for (int step = 0; step < 8; ++step) {
+        contacts.set({contact});
+        // k z + kc (z - s) = f while it presses
+        const double s = contacts.list()[0].shift_m;
+        x(0, 2) = (f + contact.stiffness_n_per_m * s) / (k + contact.stiffness_n_per_m);
+        depth.push_back(contacts.max_penetration(x));
+        contacts.remember(x);
+    }
+    EXPECT_NEAR(depth[0], 0.02 / 90, 1e-12);
+    for (std::size_t i = 1; i < depth.size(); ++i) EXPECT_LT(depth[i], 0.5 * depth[i - 1]);
+    contacts.forget();
+    contacts.set({contact});
+    EXPECT_EQ(contacts.list()[0].shift_m, 0.0);
+}
+
+TEST(Contacts, WhatWasPressedSticksALittleAndThenLetsGo) {
+    Contacts::Contact contact;
+    contact.stiffness_n_per_m = 50;
+    contact.slot = 0;
+    contact.stick_n = 1e-3;
+    contact.stick_m = 6e-4;
+    Points x = Points::Zero(1, 3);
+    Contacts contacts;
+    const auto pull_at = [&](double height) {
+        x(0, 2) = height;
+        contacts.set({contact});
+        const double pull = Contacts::pull_n(contacts.list()[0], x);
+        contacts.remember(x);
+        return pull;
+    };
+    EXPECT_EQ(pull_at(2e-4), 0.0);   // never pressed
+    EXPECT_LT(pull_at(-1e-4), 0.0);  // pressed
+    contacts.set({contact});
+    x(0, 2) = 1.5e-4;
+    expect_gradient_is_exact(contacts, x);
+    EXPECT_NEAR(pull_at(1e-4), 1e-3, 1e-9);  // a third of the way from where it was let go
+    EXPECT_GT(pull_at(3e-4), 0.0);
+    EXPECT_EQ(pull_at(6e-4), 0.0);  // torn
+    EXPECT_EQ(pull_at(1e-4), 0.0);
+}
+
 TEST(Contacts, BetweenTissueAndTissuePushBothAlike) {
     Points x = kHeldBlock.rest;
     x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
