@@ -162,7 +162,8 @@ TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
 TEST(Tissue, RestIsFreeOfContactForces) {
     const ContactSearch search(adult().head, adult().jaw, adult().shell, adult().mesh, adult().lids,
                                5e6);
-    const auto pairs = search.find(adult().mesh.nodes, Rigid::Identity());
+    const auto pairs =
+        search.find(adult().mesh.nodes, Rigid::Identity(), {Mat3::Identity(), Mat3::Identity()});
     EXPECT_LT(ContactSearch::deepest(pairs, adult().mesh.nodes), 1e-9);
     tissue::Contacts contacts;
     contacts.set(pairs);
