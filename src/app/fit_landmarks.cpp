@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "geom/closest_point.h"
 
@@ -18,14 +19,14 @@ constexpr double kRefusedRatio = 4.5,
                  kRefused_mm = 12;      // required ones reach 2.5 on heads of two sigma
 constexpr double kMovingFrom_m = 8e-3;  // z; nothing behind it moves
 
-// "(1.2, -3.45, 8.7)", as many digits as landmarks are good for.
+// "(1.2, -3.45, 8.7)", to a thousandth of the largest: what landmarks are good for.
 std::string point_text(const Vec3& p) {
     const double scale = std::max(1e-9, p.cwiseAbs().maxCoeff());
-    const double step = std::pow(10, std::floor(std::log10(scale)) - 2);
-    std::string out;
-    for (int k = 0; k < 3; ++k)
-        out += (k ? ", " : "(") + format_number(std::round(p[k] / step) * step + 0.0);
-    return out + ")";
+    const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(scale))));
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.*f, %.*f, %.*f)", decimals, p.x(), decimals, p.y(),
+                  decimals, p.z());
+    return text;
 }
 
 std::string millimetres(double value_m, double size) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/fit_landmarks.h"
@@ -39,9 +40,9 @@ rig::RigDescription standard_rig(const fs::path& folder) {
 }
 
 void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
-    const double step = std::pow(10, std::floor(std::log10(frame.size)) - 1);  // two digits
-    const std::string found =
-        format_number(std::round(frame.size / step) * step) + " times the average adult";
+    char size[32];
+    std::snprintf(size, sizeof size, "%.2g", frame.size);
+    const std::string found = format_number(std::stod(size)) + " times the average adult";
     if (!(frame.size > kSmallestHead && frame.size < kLargestHead)) {
         if (options.metres_per_unit)
             throw Error("--metres-per-unit", "a unit that makes a head of this mesh",

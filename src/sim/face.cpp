@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "muscle/activation.h"
@@ -62,7 +63,7 @@ double exact_step(double t_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 6, 6, 0.0};
+    if (name == "preview") return {"preview", 800, 7, 7, 0.0};
     if (name == "video") return {"video", 800, 80, 6, 0.005e-3};
     if (name == "fine") return {"fine", 1700, 120, 6, 0.005e-3};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
@@ -96,6 +97,8 @@ struct Face::Impl {
     std::optional<JawSynergies> jaw_synergies;
     JawJoint jaw_joint;
     Points velocity;
+    std::vector<Points>
+        moves;  // of x within the last steps against what rides on bone, the latest first; two at most
     long steps = 0;
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
@@ -134,7 +137,7 @@ struct Face::Impl {
         statics.emplace(
             tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
-                return pose_of({x, a, d, {}}, Folds::kLeftOut).vertices;
+                return pose_of({x, a, d, {}}).vertices;
             },
             channels.column_min());
     }
@@ -228,8 +231,10 @@ struct Face::Impl {
     // One step of the tissue, and of the jaw if muscles move it.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x) {
-        if (!jaw_dynamics) return tissue.implicit_step(h, start, aim, activation, options, x);
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {}) {
+        if (!jaw_dynamics)
+            return tissue.implicit_step(h, start, aim, activation, options, x, likely);
         JawInStep jaw_step{*jaw_dynamics, jaw_dynamics->begin(h, now.jaw, activation), now.jaw.q};
         const StepFigures figures =
             tissue.implicit_step(h, start, aim, activation, options, x, jaw_step);
@@ -263,6 +268,7 @@ struct Face::Impl {
         now.activation = activation;
         now.drive = drive;
         velocity.setZero();
+        moves.clear();
         before = now;
         return figures;
     }
@@ -316,14 +322,20 @@ struct Face::Impl {
         tissue.fibres().begin_step(x, kStep_s);
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
-        const Points aim = now.x + kStep_s * velocity;
+        const Points aim = now.x + kStep_s * velocity, carried = x;
+        // What changed in the step before, and all of it, are likely to go on: their curvatures are the first the search knows.
+        std::vector<Points> likely;
+        if (moves.size() == 2) likely.push_back(moves[0] - moves[1]);
+        if (!moves.empty()) likely.push_back(moves[0]);
         const StepFigures figures = implicit_step(kStep_s, now.x, aim, activation,
                                                   {.iterations = quality.iterations,
                                                    .least_iterations = quality.least_iterations,
                                                    .memory = kMemory,
                                                    .step_cap_m = kStepCap_m,
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
-                                                  x);
+                                                  x, likely);
+        moves.insert(moves.begin(), x - carried);
+        moves.resize(std::min<std::size_t>(moves.size(), 2));
         tissue.fibres().end_step();
         statics->moved();
         velocity = (x - now.x) / kStep_s;
@@ -417,7 +429,7 @@ struct Face::Impl {
         return {now.x, now.activation, now.drive};
     }
 
-    /// What the skin's own layer adds to what the tissue does: no part of slopes.
+    /// What the skin's own layer adds to what the tissue does: no part of what is pulled back.
     enum class Folds { kFormed, kLeftOut };
     /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
     FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
@@ -487,6 +499,7 @@ void Face::start(const DriveAt& drive) {
     impl_->now.jaw = {};
     impl_->velocity.setZero();
     impl_->statics->forget();
+    impl_->moves.clear();
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;

@@ -33,7 +33,7 @@ struct Quality {
     double tolerance_rms_m =
         0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
 };
-/// "preview": six iterations, real time. "video": until an iteration changes the step by less than 0.005 mm RMS, after six at least
+/// "preview": seven iterations, real time. "video": until an iteration changes the step by less than 0.005 mm RMS, after six at least
 /// (0.05 mm RMS of lag is left; stopping at 0.05 mm leaves 0.6 mm).
 /// "fine": as video, with 1,700 skin vertices.
 Quality quality_named(const std::string& name);
@@ -90,11 +90,12 @@ class Face {
     /// H^-1 b, H = dg/d(nodes). With b the slope of a number L by the nodes and p anything g hangs on, also a number of the rig:
     /// dL/dp = - sum solve_static(b) * dg/dp.
     Points solve_static(const Points& b);
-    /// Derivatives of all vertices without the skin's folds, V x 3 each, m per unit: by activations of columns (the lids
+    /// Derivatives of all vertices, V x 3 each, m per unit: by activations of columns (the lids
     /// they move included), then by kinematic channels. At the kink of a lid's levator the mean of both sides.
     std::vector<Points> sensitivities(std::span<const int> columns,
                                       std::span<const track::Kinematic> channels);
-    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held.
+    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held;
+    /// without the folds of the skin.
     Points pull_back(const Points& vertex_gradient) const;
 
     FacePose pose() const;  ///< after the last step

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -88,10 +89,12 @@ class FaceTissue {
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends.
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// tried first.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x);
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {});
 
     /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
