@@ -139,6 +139,9 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     watch.tell(0, "building the face");
     sim::Face face(files.rig, files.mesh, quality, files.place());
     face.drive_jaw_by(script.header.jaw);
+    face.set_gravity(script.header.gravity_m_s2);
+    face.move(script.header.motion == track::Motion::kDynamic ? sim::Motion::kDynamic
+                                                              : sim::Motion::kQuasiStatic);
     const track::Timeline timeline(script, channels);
     render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
     add_wrinkles(face.wrinkle_lines(), scene);
@@ -165,7 +168,8 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
         const Stopwatch stage;
         const double t_s = shot.time_s(frame);
         if (frame == 0) face.start(drive);
-        while (face.time_s() + 2 * sim::kStep_s < t_s) {  // what leads up to a still
+        while (script.header.motion == track::Motion::kDynamic &&
+               face.time_s() + 2 * face.step_s() < t_s) {  // what leads up to a still
             watch.tell(face.time_s() / t_s, "simulating");
             face.step(drive);
         }

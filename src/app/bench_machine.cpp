@@ -19,6 +19,7 @@
 #include "app/version.h"
 #include "media/video_writer.h"
 #include "render/offscreen_view.h"
+#include "sim/stress.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -255,6 +256,28 @@ Json bench_rig(const fs::path& rig_file, const Watch& watch) {
     return out;
 }
 
+Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
+    const RigFiles files = read_rig_files(rig_file);
+    sim::Face face(files.rig, files.mesh, sim::quality_named(options.quality), files.place());
+    const Stopwatch stopwatch;
+    const sim::StressReport report = sim::stress(
+        face, files.rig.channels(), {.steps = options.stress_steps, .seed = options.seed});
+    return {{"rig", rig_file.generic_string()},
+            {"quality", options.quality},
+            {"seed", options.seed},
+            {"tets", face.tet_count()},
+            {"steps", report.steps},
+            {"broken_steps", report.broken_steps},
+            {"most_inverted_tets", report.most_inverted_tets},
+            {"mean_inverted_tets", report.mean_inverted_tets},
+            {"longest_inverted_steps", report.longest_inverted_steps},
+            {"furthest_mm", 1e3 * report.furthest_m},
+            {"deepest_contact_mm", 1e3 * report.deepest_contact_m},
+            {"inverted_at_rest", report.inverted_at_rest},
+            {"left_at_rest_mm", 1e3 * report.left_at_rest_m},
+            {"step_ms", 1e3 * stopwatch.seconds() / std::max(1, report.steps)}};
+}
+
 }  // namespace
 
 Json bench_machine(const BenchOptions& options, const Watch& watch) {
@@ -268,6 +291,16 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
     out["machine"] = describe_machine();
     for (const fs::path& rig : rigs)
         read_rig_files(rig);  // what is wrong is told before anything is measured
+
+    if (options.stress_steps > 0) {
+        out["stress"] = Json::array();
+        for (std::size_t i = 0; i < rigs.size(); ++i) {
+            watch.tell(static_cast<double>(i) / static_cast<double>(rigs.size()),
+                       rigs[i].string() + ", random drive");
+            out["stress"].push_back(stress_rig(rigs[i], options));
+        }
+        return out;
+    }
 
     // Solids take about as long as one rig. They come last, since they raise the peak of the memory.
     const double parts = 1 + static_cast<double>(rigs.size());

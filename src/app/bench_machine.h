@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/watch.h"
@@ -12,6 +13,9 @@ namespace risorius::app {
 struct BenchOptions {
     std::vector<std::filesystem::path> rigs;  ///< empty: the adult of this toolkit
     bool faces = true;                        ///< or only solids
+    int stress_steps = 0;  ///< > 0: only drive the faces at random for so many steps (sim/stress.h)
+    int seed = 1;          ///< of that
+    std::string quality = "preview";  ///< of that
 };
 
 /// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality, ms per

@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/evaluation_page.h"
+#include "app/evaluation_pictures.h"
+#include "app/expression_drive.h"
 #include "app/fit_activations.h"
 #include "app/landmark_points.h"
 #include "app/measured_shapes.h"
@@ -11,6 +14,7 @@
 #include "app/staged_file.h"
 #include "app/staged_folder.h"
 #include "core/error.h"
+#include "rig/calibration.h"
 #include "sim/face.h"
 
 namespace risorius::app {
@@ -55,6 +59,34 @@ Json means_json(const ScoreMeans& means) {
             {"rms_mm", 1e3 * means.rms_m},        {"landmark_mm", 1e3 * means.landmark_m}};
 }
 
+// Of the time a run takes, about: the rest draws pictures.
+double share_of_settling(const EvaluateOptions& options) {
+    if (options.out.empty() || !options.pictures) return 1;
+    return options.fit ? 0.8 : 0.1;
+}
+
+void write_report(const Evaluation& evaluation, const RigFiles& files, const rig::Head& head,
+                  const Eigen::VectorXd& area, const EvaluateOptions& options,
+                  const std::filesystem::path& folder, const Watch& watch) {
+    std::optional<EvaluationPictures> pictures;
+    std::vector<std::string> written{"index.html", "results.json", "scores.tsv"};
+    if (options.pictures) {
+        const double before = share_of_settling(options);
+        Watch drawing = watch;
+        if (watch.progress)
+            drawing.progress = [&](double share, const std::string& what) {
+                watch.progress(before + (1 - before) * share, what);
+            };
+        pictures = draw_evaluation(evaluation, files.rig, files.mesh, head, area, folder, drawing);
+        for (const std::string& file : pictures->files()) written.push_back(file);
+    }
+    write_text(folder / "index.html", evaluation_page(evaluation, pictures ? &*pictures : nullptr));
+    write_text(folder / "scores.tsv", evaluation_table(evaluation));
+    Json json = evaluation.json();
+    json[kFilesKey] = written;
+    write_text(folder / "results.json", json.dump(2) + "\n");
+}
+
 }  // namespace
 
 const std::vector<std::string>& sixteen_expressions() {
@@ -95,29 +127,54 @@ ScoreMeans Evaluation::means(const std::vector<std::string>& names, bool fitted)
     return out;
 }
 
-Json Evaluation::json() const {
-    Json list = Json::array();
-    std::vector<std::string> all;
+bool Evaluation::is_calibrated_on(const std::string& expression) const {
+    const auto has = [&](const std::string& wanted) {
+        return std::find(calibrated_on.begin(), calibrated_on.end(), wanted) != calibrated_on.end();
+    };
+    return has(expression) || has(split_shape(expression).base);  // one side of it
+}
+
+std::vector<ExpressionGroup> Evaluation::groups() const {
+    std::vector<std::string> all, tuned, others;
     for (const EvaluatedExpression& one : expressions) {
         all.push_back(one.name);
+        (is_calibrated_on(one.name) ? tuned : others).push_back(one.name);
+    }
+    std::vector<ExpressionGroup> out{{"all", "all", all}};
+    const auto add_whole = [&](const char* key, const char* title,
+                               const std::vector<std::string>& names) {
+        if (means(names, false).count == static_cast<int>(names.size()))
+            out.push_back({key, title, names});
+    };
+    add_whole("sixteen", "the 16", sixteen_expressions());
+    add_whole("twenty_four", "the 24", twenty_four_expressions());
+    if (!tuned.empty()) {
+        out.push_back({"calibrated_on", "those calibrated on", tuned});
+        if (!others.empty()) out.push_back({"others", "the others", others});
+    }
+    return out;
+}
+
+Json Evaluation::json() const {
+    Json list = Json::array();
+    for (const EvaluatedExpression& one : expressions) {
         Json entry{{"name", one.name}, {"table", attempt_json(one.table, channels)}};
         if (one.fitted) entry["fitted"] = attempt_json(*one.fitted, channels);
         list.push_back(entry);
     }
     Json sums = Json::object();
-    for (const auto& [key, names] : {std::pair<std::string, std::vector<std::string>>{"all", all},
-                                     {"sixteen", sixteen_expressions()},
-                                     {"twenty_four", twenty_four_expressions()}}) {
-        const ScoreMeans by_table = means(names, false), by_fit = means(names, true);
-        if (by_table.count == 0) continue;
-        sums[key] = {{"table", means_json(by_table)}};
-        if (by_fit.count > 0) sums[key]["fitted"] = means_json(by_fit);
+    for (const ExpressionGroup& group : groups()) {
+        const ScoreMeans by_fit = means(group.names, true);
+        sums[group.key] = {{"table", means_json(means(group.names, false))}};
+        if (by_fit.count > 0) sums[group.key]["fitted"] = means_json(by_fit);
     }
     return {{"format", "risorius-evaluation"},
             {"version", 1},
+            {"name", name},
             {"rig", rig},
             {"shapes", shapes},
             {"nodes", nodes},
+            {"calibrated_on", calibrated_on},
             {"means", sums},
             {"expressions", list}};
 }
@@ -135,15 +192,19 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
         inner_landmarks(files.rig, LandmarkPoints(face.head(), files.rig), area);
 
     Evaluation out;
+    out.name = files.rig.name;
+    out.calibrated_on = rig::calibrated_on(options.rig);
     out.rig = options.rig.generic_string();
     out.shapes = options.shapes.generic_string();
     out.nodes = face.node_count();
     out.channels = files.rig.channels();
+    const double settling = share_of_settling(options);
     track::Drive at_rest;
     at_rest.excitation = Eigen::VectorXd::Zero(out.channels.column_count());
     for (std::size_t s = 0; s < shapes.size(); ++s) {
         const MeasuredShape& shape = shapes[s];
-        watch.tell(static_cast<double>(s) / static_cast<double>(shapes.size()), shape.name);
+        watch.tell(settling * static_cast<double>(s) / static_cast<double>(shapes.size()),
+                   shape.name);
         EvaluatedExpression one;
         one.name = shape.name;
         one.measured = shape.displacement;
@@ -164,9 +225,7 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
         out.expressions.push_back(std::move(one));
     }
     if (folder) {
-        Json json = out.json();
-        json[kFilesKey] = {"results.json"};
-        write_text(folder->partial() / "results.json", json.dump(2) + "\n");
+        write_report(out, files, face.head(), area, options, folder->partial(), watch);
         folder->commit();
     }
     return out;

@@ -46,13 +46,24 @@ struct ScoreMeans {
     double cosine = 0, least_cosine = 1, relative = 0, rms_m = 0, landmark_m = 0;
 };
 
+/// Expressions that a mean is given for.
+struct ExpressionGroup {
+    std::string key, title;
+    std::vector<std::string> names;
+};
+
 struct Evaluation {
+    std::string name;         ///< of the rig
     std::string rig, shapes;  ///< files
+    std::vector<std::string> calibrated_on;
     track::ChannelTable channels;
     std::vector<EvaluatedExpression> expressions;
     int nodes = 0;
 
     ScoreMeans means(const std::vector<std::string>& names, bool fitted) const;
+    /// All; the sixteen and the twenty-four when every one is there; those the rig was calibrated on, and the others.
+    std::vector<ExpressionGroup> groups() const;
+    bool is_calibrated_on(const std::string& expression) const;
     Json json() const;
 };
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExpected =
-    "a new folder, an empty one, or one with nothing but results of risorius figure";
+    "a new folder, an empty one, or one with nothing but results of an earlier run";
 
 /// What results.json says is there; nothing when there is no such file.
 std::set<std::string> listed_files(const fs::path& folder) {

@@ -75,19 +75,22 @@ double FibreSet::length(int segment) const {
     return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-void FibreSet::begin_step(const Points& x, double h) {
+void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     assert(h > 0);
-    place_points(x);
     step_s_ = h;
     start_length_m_.assign(points_.size(), 0);
     start_force_.assign(points_.size(), 0);
-    for (const Fibre& fibre : fibres_)
-        for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
-            const auto segment = static_cast<std::size_t>(p);
-            start_length_m_[segment] = length(p);
-            start_force_[segment] =
-                curves_.active(start_length_m_[segment] / optimal_length_m_[segment]).force;
-        }
+    const auto each_segment = [&](const auto& visit) {
+        for (const Fibre& fibre : fibres_)
+            for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p)
+                visit(p, static_cast<std::size_t>(p));
+    };
+    place_points(x);
+    each_segment([&](int p, std::size_t segment) { start_length_m_[segment] = length(p); });
+    if (&expected != &x) place_points(expected);
+    each_segment([&](int p, std::size_t segment) {
+        start_force_[segment] = curves_.active(length(p) / optimal_length_m_[segment]).force;
+    });
 }
 
 LengthCurves::Value FibreSet::active(const Fibre& fibre, int segment, double l) const {

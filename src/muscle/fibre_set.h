@@ -60,8 +60,10 @@ class FibreSet {
     /// FibrePoint::body.
     void set_body_positions(std::span<const Rigid> bodies);
 
-    /// From here on E is that of a step of length h from x, bodies where they are now; until end_step().
-    void begin_step(const Points& x, double h);
+    /// From here on E is that of a step of length h from x, bodies where they are now; until end_step(). Force goes with the
+    /// length at `expected`, the likely end of the step.
+    void begin_step(const Points& x, const Points& expected, double h);
+    void begin_step(const Points& x, double h) { begin_step(x, x, h); }
     /// From here on E is that at rest.
     void end_step() { step_s_ = 0; }
 

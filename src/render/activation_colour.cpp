@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/detail/cie_colour.h"
+
 namespace risorius::render {
 namespace {
 
@@ -12,25 +14,14 @@ constexpr double kRestLightness = 24, kActiveLightness = 88;
 constexpr double kRestHue_deg = 32, kActiveHue_deg = 90;
 constexpr double kRestChroma = 34, kMoreChroma = 42;  ///< of the middle, where orange is strongest
 
-double uncompressed(double f) {
-    constexpr double kKnee = 6.0 / 29.0;
-    return f > kKnee ? f * f * f : 3 * kKnee * kKnee * (f - 4.0 / 29.0);
-}
-
 }  // namespace
 
 Vec3 activation_colour(double activation) {
     const double a = std::clamp(activation, 0.0, 1.0);
     const double lightness = kRestLightness + a * (kActiveLightness - kRestLightness);
-    const double hue = (kRestHue_deg + std::pow(a, 1.2) * (kActiveHue_deg - kRestHue_deg)) *
-                       std::numbers::pi / 180;
+    const double hue_deg = kRestHue_deg + std::pow(a, 1.2) * (kActiveHue_deg - kRestHue_deg);
     const double chroma = kRestChroma + kMoreChroma * std::sin(0.62 * std::numbers::pi * a);
-    const double fy = (lightness + 16) / 116;
-    const Vec3 xyz(0.95047 * uncompressed(fy + chroma * std::cos(hue) / 500), uncompressed(fy),
-                   1.08883 * uncompressed(fy - chroma * std::sin(hue) / 200));
-    Mat3 rgb_of_xyz;  // IEC 61966-2-1
-    rgb_of_xyz << 3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570;
-    return (rgb_of_xyz * xyz).cwiseMax(0.0).cwiseMin(1.0);
+    return linear_of_lch(lightness, chroma, hue_deg);
 }
 
 }  // namespace risorius::render

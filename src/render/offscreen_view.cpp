@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "render/detail/activation_scale.h"
 #include "render/detail/camera.h"
+#include "render/detail/colour_scale.h"
 #include "render/detail/framebuffer.h"
 #include "render/detail/gl_context.h"
 #include "render/detail/lights.h"
@@ -19,6 +19,7 @@
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
 #include "render/detail/skin_paint.h"
+#include "render/value_colour.h"
 
 namespace risorius::render {
 namespace {
@@ -55,6 +56,17 @@ Box skin_box(const Scene& scene) {
 Scene without_hair(Scene scene) {
     scene.look.scalp_hair = 0;
     return scene;
+}
+
+std::vector<float> colours_of(const SkinValues& values) {
+    std::vector<float> rgb;
+    rgb.reserve(3 * values.at.size());
+    for (const double value : values.at) {
+        const Vec3 colour =
+            std::isfinite(value) ? value_colour(value, values.from, values.to) : no_value_colour();
+        for (int k = 0; k < 3; ++k) rgb.push_back(static_cast<float>(colour[k]));
+    }
+    return rgb;
 }
 
 constexpr const char* kShowNames[] = {"skin", "muscles"};  // in the order of Show
@@ -189,11 +201,15 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.fold_depth.rows() != 0 && pose.fold_depth.rows() != view.vertex_count)
         throw Error("pose/fold_depth", std::to_string(view.vertex_count) + " rows, or none",
                     std::to_string(pose.fold_depth.rows()));
+    if (pose.values && static_cast<Eigen::Index>(pose.values->at.size()) != view.vertex_count)
+        throw Error("pose/values", std::to_string(view.vertex_count) + " values",
+                    std::to_string(pose.values->at.size()));
     const GlContext::Current current(view.context);
 
     // What moved
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);
+    if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
 
     // Shadow of the key light
@@ -207,7 +223,10 @@ Image OffscreenView::draw(const Pose& pose) {
     // The picture, tile by tile
     Image image(view.options.width_px, view.options.height_px);
     for (const Tile& tile : view.picture.tiles()) view.draw_tile(tile, pose, frame, image);
-    if (view.muscles) draw_activation_scale(view.look, view.options.background, image);
+    if (pose.values)
+        draw_colour_scale(values_scale(*pose.values), view.options.background, image);
+    else if (view.muscles)
+        draw_colour_scale(activation_scale(view.look), view.options.background, image);
     return image;
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,13 @@ struct Scene {
     Muscles muscles;  ///< none unless they are shown
 };
 
+/// A quantity on the skin, shown as colour in place of the skin's own, with a scale in the upper left corner.
+struct SkinValues {
+    std::string name, unit;   ///< "error", "mm"
+    double from = 0, to = 1;  ///< beyond, the colours are those of the ends; see value_colour.h
+    std::vector<double> at;   ///< V; grey where it is not a number
+};
+
 /// What changes from frame to frame.
 struct Pose {
     Points positions;  ///< V x 3, m, world = head frame at rest
@@ -76,6 +84,7 @@ struct Pose {
     Points fold_depth;                ///< V x 3, m, of the wrinkles along fold_phase; no rows: none
     Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
     std::vector<double> activations;  ///< per muscle of the scene, ratio
+    std::optional<SkinValues> values;  ///< of this frame; any view shows them
 };
 
 }  // namespace risorius::render

@@ -212,6 +212,11 @@ double EyeGeometry::profile_at(double angle_rad) const {
     return (1 - t) * profile_m[bin] + t * profile_m[bin + 1];
 }
 
+double EyeGeometry::distance(const Vec3& p, const Vec3& looks) const {
+    const Vec3 r = p - centre;
+    return r.norm() - profile_at(std::atan2(r.cross(looks).norm(), r.dot(looks)));
+}
+
 const std::vector<std::string>& required_landmarks() {
     static const std::vector<std::string> kRequired{
         "n",    "prn",  "sn",   "ls",   "sto",  "li",   "pg",   "me",   "t_l",  "t_r",

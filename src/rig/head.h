@@ -34,6 +34,8 @@ struct EyeGeometry {
     /// Greatest distance of the eye's surface from its centre per degree from the optical axis, 0..90.
     std::vector<double> profile_m;
     double profile_at(double angle_rad) const;
+    /// Of p from the surface of the eye when it looks along `looks`, unit; negative inside.
+    double distance(const Vec3& p, const Vec3& looks) const;
 };
 
 struct Head {

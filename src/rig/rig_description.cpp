@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "rig/calibration.h"
+
 namespace risorius::rig {
 
 namespace {
@@ -27,6 +29,7 @@ void visit_fields(EyesDescription& eyes, Visit visit) {
     visit("upper_lid_per_gaze_up", eyes.upper_lid_per_gaze_up, Range{0, 2});
     visit("lower_lid_per_gaze_down", eyes.lower_lid_per_gaze_down, Range{0, 2});
     visit("lower_lid_per_gaze_up", eyes.lower_lid_per_gaze_up, Range{0, 2});
+    visit("lids_per_gaze_aside", eyes.lids_per_gaze_aside, Range{0, 1});
     visit("wide_deg", eyes.wide_deg, Range{0, 45});
     visit("lid_closed_share", eyes.lid_closed_share, Range{0.5, 1});
 }
@@ -173,7 +176,7 @@ std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file
 RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
-                     "facs", "expressions", "look"});
+                     "facs", "expressions", "look", "calibrated_on"});
     json.at("format").one_of({"risorius-rig"});
     json.at("version").integer(1, 1);
     RigDescription rig;
@@ -228,6 +231,11 @@ RigDescription read_rig(const std::filesystem::path& file) {
                                      : "a landmark of the atlas (did you mean \"" + near + "\"?)",
                         "\"" + id + "\"");
         }
+
+    if (const auto calibrated = json.find("calibrated_on")) {
+        read_calibration(*calibrated);
+        if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
+    }
 
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
@@ -290,6 +298,11 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["facs"] = table("facs.json");
     json["expressions"] = table("expressions.json");
     json["look"] = fields_of(rig.look);
+    if (const auto source = options.standard_folder / kCalibrationFile;
+        std::filesystem::exists(source))
+        json["calibrated_on"] = options.inline_tables
+                                    ? Json(read_calibration(JsonCursor::read_file(source)))
+                                    : Json(relative(source));
 
     const std::filesystem::path partial = file.string() + ".part";
     {

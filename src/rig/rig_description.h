@@ -45,6 +45,7 @@ struct EyesDescription {
     double upper_lid_per_gaze_up = 0.48;
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
+    double lids_per_gaze_aside = 0.25;
     double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
     double lid_closed_share =
         0.96;  ///< share of the fissure the upper lid travels, the lower does the rest
@@ -62,7 +63,7 @@ struct TissueDescription {
     double superficial_shear_pa = 3000;
     double bulk_pa = 30000;
     double density_kg_m3 = 1000;
-    double damping_s = 0.02;        ///< stiffness-proportional damping
+    double damping_s = 0.008;       ///< stiffness-proportional damping
     double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
     double lid_shear_ratio = 0.2;   ///< lid tissue against the rest
     double lip_shear_ratio =

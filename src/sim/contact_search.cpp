@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/muscle_placement.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -14,6 +13,7 @@ constexpr int kCandidates = 40;
 constexpr int kLipNeighbours = 3;
 constexpr double kFarEnough_m = 3e-3;
 constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
+constexpr double kStick_pa = 150;  // saliva between lips, of each lip: a bridge some 0.5 mm wide
 
 std::vector<int> nearest(const Vec3& p, const auto& points) {
     std::vector<std::pair<double, int>> order;
@@ -35,12 +35,10 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     const std::vector<Vec3> lips = lip_line(head);
     const int count = static_cast<int>(shell.vertex.size());
     std::vector<std::pair<int, double>> touching;
-    lip_gap_m_ = std::max(0.0, (head.landmark("stos") - head.landmark("stoi")).y());
     lip_reach_m_ = head.mm(9);
-    for (int side = 0; side < 2; ++side) {
-        eye_centre_[side] = head.eyes[side].centre;
-        eye_radius_[side] = head.eyes[side].radius_m;
-    }
+    lip_aside_m_ = head.mm(3.5);
+    stick_m_ = head.mm(0.5);
+    eyes_ = head.eyes;
     for (int v = 0; v < count; ++v) {
         const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
@@ -66,13 +64,22 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
             deep_.push_back(node);
             touching.push_back({node.node, stiffness});
         }
-        if (from_mouth < head.mm(7)) {
-            (shell.over_bite_m[v] >= 0 ? upper_ : lower_).push_back({node_of(v, kSkin), stiffness});
+        if (from_mouth < head.mm(10)) {
+            const bool upper = shell.over_bite_m[v] >= 0;
+            const double rim = 1.0 - smoothstep(head.mm(1), head.mm(6), from_mouth);
+            const Vec3 to_other = upper ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitY());
+            const Vec3 normal = (rim * to_other + (1 - rim) * mesh.direction[v]).normalized();
+            (upper ? upper_ : lower_)
+                .push_back({node_of(v, kSkin), node_of(v, kDeep), stiffness,
+                            kStick_pa * mesh.area_m2[v], normal, (skin - deep).normalized()});
+            deep_.push_back({node_of(v, kSkin), stiffness,
+                             std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v])),
+                             nearest(skin, skull_), nearest(skin, mandible_)});
             touching.push_back({node_of(v, kSkin), kLipStiffness * stiffness});
         }
         for (int side = 0; side < 2; ++side) {
             if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
-            const double gap = (deep - eye_centre_[side]).norm() - eye_radius_[side];
+            const double gap = eyes_[side].distance(deep, eyes_[side].forward);
             lid_.push_back({node_of(v, kDeep), side, stiffness, std::min(0.0, gap)});
             touching.push_back({node_of(v, kDeep), stiffness});
         }
@@ -88,15 +95,16 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     }
 }
 
-std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
-                                                           const Rigid& mandible) const {
+std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible,
+                                                           const std::array<Mat3, 2>& gaze) const {
     std::vector<tissue::Contacts::Contact> out;
     const Rigid to_mandible = mandible.inverse();
 
     // Bone and teeth: the plane blended from the bone points around, fading out beyond the bone's edge, where its plane
     // means nothing (a chin that has dropped is not below the upper teeth)
     const auto against_bone = [&](const DeepNode& node, const std::vector<int>& candidates,
-                                  const std::vector<BonePoint>& bone, const Rigid* carried) {
+                                  const std::vector<BonePoint>& bone, const Rigid* carried,
+                                  int slot) {
         if (candidates.empty()) return;
         Vec3 p = x.row(node.node).transpose();
         if (carried) p = to_mandible * p;
@@ -132,21 +140,30 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
         contact.rest_gap_m = rest_gap;
         contact.body = carried ? kMandibleBody : kSkullBody;
         contact.stiffness_n_per_m = inside * node.stiffness;
+        contact.share = inside;
+        contact.slot = slot;
         out.push_back(contact);
     };
-    for (const DeepNode& node : deep_) {
-        against_bone(node, node.skull, skull_, nullptr);
-        against_bone(node, node.mandible, mandible_, &mandible);
+    for (std::size_t n = 0; n < deep_.size(); ++n) {
+        const int slot = 2 * static_cast<int>(n);
+        against_bone(deep_[n], deep_[n].skull, skull_, nullptr, slot);
+        against_bone(deep_[n], deep_[n].mandible, mandible_, &mandible, slot + 1);
     }
 
-    // Lips: each node against the nearest of the other lip, along the bite's normal half-way between the jaws
-    const Eigen::Quaterniond half =
-        Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(mandible.linear()));
-    const Vec3 up = half * Vec3::UnitY();
-    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
-                                 double sign) {
-        if (other.size() <= kLipNeighbours) return;
+    // Lips: each node against the planes of the nearest of the other lip
+    const auto normals = [&](const std::vector<LipNode>& lip) {
+        std::vector<Vec3> turned;
         for (const LipNode& node : lip) {
+            const Vec3 column = (x.row(node.node) - x.row(node.deep)).transpose();
+            turned.push_back(Eigen::Quaterniond::FromTwoVectors(node.column, column) * node.normal);
+        }
+        return turned;
+    };
+    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
+                                 const std::vector<Vec3>& facing, int first_slot) {
+        if (other.size() <= kLipNeighbours) return;
+        for (std::size_t n = 0; n < lip.size(); ++n) {
+            const LipNode& node = lip[n];
             const Vec3 p = x.row(node.node).transpose();
             // The nearest few, weighted so that the weight of one that is about to be replaced is zero
             std::array<std::pair<double, int>, kLipNeighbours + 1> nearest_few;
@@ -159,13 +176,14 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
                      k > 0 && nearest_few[k] < nearest_few[k - 1]; --k)
                     std::swap(nearest_few[k], nearest_few[k - 1]);
             }
-            const double inside =
+            double inside =
                 1.0 - smoothstep(0.7 * lip_reach_m_, lip_reach_m_, std::sqrt(nearest_few[0].first));
             if (inside <= 0) continue;
             tissue::Contacts::Contact contact;
             contact.node = node.node;
-            contact.normal = sign * up;
-            double weights = 0, height = 0, stiffness = 0;
+            contact.normal.setZero();
+            Vec3 off = Vec3::Zero(), rest_off = Vec3::Zero(), rest_normal = Vec3::Zero();
+            double weights = 0, stiffness = 0;
             for (std::size_t k = 0; k < kLipNeighbours; ++k) {
                 const LipNode& o = other[nearest_few[k].second];
                 const double share = 1.0 - nearest_few[k].first / nearest_few[kLipNeighbours].first;
@@ -173,43 +191,72 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x,
                 contact.others[k] = o.node;
                 contact.weights[k] = w;
                 weights += w;
-                height += w * sign *
-                          (rest_.row(node.node) - rest_.row(o.node)).dot(Vec3::UnitY().transpose());
+                off += w * (p - x.row(o.node).transpose());
+                rest_off += w * (rest_.row(node.node) - rest_.row(o.node)).transpose();
+                contact.normal += w * facing[nearest_few[k].second];
+                rest_normal += w * o.normal;
                 stiffness += w * o.stiffness;
             }
             for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
+            contact.normal.normalize();
+            rest_normal.normalize();
+            const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
+                return 1.0 - smoothstep(from_m, from_m + lip_aside_m_,
+                                        (d - d.dot(normal) * normal).norm());
+            };
+            off /= weights;
+            rest_off /= weights;
+            inside *= beside(off, contact.normal, lip_aside_m_);
+            if (inside <= 0) continue;
             contact.count = kLipNeighbours;
-            contact.rest_gap_m = height / weights - lip_gap_m_;
+            // Whole for all that are inside at rest, or rest would not be free of force
+            contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) *
+                                 std::min(0.0, rest_off.dot(rest_normal));
+            if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) continue;
             // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
             contact.stiffness_n_per_m =
                 inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
+            contact.share = inside;
+            contact.stick_n = inside * node.stick;
+            contact.stick_m = stick_m_;
+            contact.body = kLipBody;
+            contact.slot = first_slot + static_cast<int>(n);
             out.push_back(contact);
         }
     };
-    against_lip(upper_, lower_, 1.0);
-    against_lip(lower_, upper_, -1.0);
+    const int first_upper = 2 * static_cast<int>(deep_.size());
+    const int first_lower = first_upper + static_cast<int>(upper_.size());
+    const int first_lid = first_lower + static_cast<int>(lower_.size());
+    const std::vector<Vec3> upper_facing = normals(upper_), lower_facing = normals(lower_);
+    against_lip(upper_, lower_, lower_facing, first_upper);
+    against_lip(lower_, upper_, upper_facing, first_lower);
 
-    // Lids: the tangent plane of the globe below the node
-    for (const LidNode& node : lid_) {
-        const Vec3 r = Vec3(x.row(node.node).transpose()) - eye_centre_[node.side];
-        const double distance = r.norm();
-        if (distance - eye_radius_[node.side] > kFarEnough_m) continue;
+    // Lids: a plane across the way out of the eye, where its surface lies below the node
+    for (std::size_t n = 0; n < lid_.size(); ++n) {
+        const LidNode& node = lid_[n];
+        const rig::EyeGeometry& eye = eyes_[node.side];
+        const Vec3 p = x.row(node.node).transpose();
+        const double gap = eye.distance(p, gaze[node.side] * eye.forward);
+        if (gap > kFarEnough_m) continue;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
-        contact.normal = r / distance;
-        contact.point = eye_centre_[node.side] + eye_radius_[node.side] * contact.normal;
+        contact.normal = (p - eye.centre).normalized();
+        contact.point = p - gap * contact.normal;
         contact.rest_gap_m = node.rest_gap;
         contact.stiffness_n_per_m = node.stiffness;
+        contact.body = kGlobeBody;
+        contact.slot = first_lid + static_cast<int>(n);
         out.push_back(contact);
     }
     return out;
 }
 
-double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs,
-                              const Points& x) {
+double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,
+                              int first, int last) {
     double deepest = 0;
     for (const auto& pair : pairs)
-        deepest = std::max(deepest, pair.rest_gap_m - tissue::Contacts::gap(pair, x));
+        if (pair.body >= first && pair.body <= last)
+            deepest = std::max(deepest, tissue::Contacts::depth(pair, x));
     return deepest;
 }
 

@@ -1,8 +1,10 @@
-// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue against bone and teeth (skull and
-// mandible apart), upper lip against lower, lids against the eyeball.
+// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue and lips against bone and teeth
+// (skull and mandible apart), upper lip against lower, lids against the eyeball.
 //
 // The penetration every pair has at rest is subtracted, so that rest is free of force. Planes are blended from the points
 // around, so that they move smoothly as tissue slides over them: taking the nearest alone makes held poses tremble.
+// The lips' planes turn with the lips: a rim faces the other rim, red lip faces forward. A plane stands for what lies in
+// front of it only, so that a lip may tuck in behind the other.
 #pragma once
 
 #include <array>
@@ -12,10 +14,14 @@
 #include "sim/attachments.h"
 #include "sim/jaw.h"
 #include "sim/lids.h"
+#include "sim/muscle_placement.h"
 #include "sim/tissue_mesh.h"
 #include "tissue/contacts.h"
 
 namespace risorius::sim {
+
+/// Contact::body of contacts that no bone carries.
+enum ContactBody { kGlobeBody = kBodies, kLipBody };
 
 class ContactSearch {
   public:
@@ -23,14 +29,17 @@ class ContactSearch {
                   const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
 
     /// Pairs for node positions x with the mandible moved.
-    std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible) const;
+    /// `gaze`: turn of each eye, whose cornea bulges.
+    std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible,
+                                                const std::array<Mat3, 2>& gaze) const;
 
     /// Nodes that may ever touch something and the greatest stiffness they may see, for the constant metric.
     const std::vector<int>& nodes() const { return nodes_; }
     const std::vector<double>& node_stiffness() const { return node_stiffness_; }
 
-    /// Deepest lip and teeth penetration of the pairs, m.
-    static double deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x);
+    /// Deepest penetration of the pairs, m; of those with the bodies from `first` to `last` only.
+    static double deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,
+                          int first = 0, int last = kLipBody);
 
   private:
     struct BonePoint {
@@ -39,12 +48,13 @@ class ContactSearch {
     struct DeepNode {
         int node;
         double stiffness;
-        double reach;  // how far a plane stands for the bone around it, m
+        double reach;                      // how far a plane stands for the bone around it, m
         std::vector<int> skull, mandible;  // nearest bone points at rest
     };
     struct LipNode {
-        int node;
-        double stiffness;
+        int node, deep;  // the ends of its column
+        double stiffness, stick;
+        Vec3 normal, column;  // at rest
     };
     struct LidNode {
         int node;
@@ -58,10 +68,8 @@ class ContactSearch {
     std::vector<DeepNode> deep_;
     std::vector<LipNode> upper_, lower_;
     std::vector<LidNode> lid_;
-    std::array<Vec3, 2> eye_centre_;
-    std::array<double, 2> eye_radius_;
-    double lip_gap_m_;  // opening between the lips at rest
-    double lip_reach_m_;
+    std::array<rig::EyeGeometry, 2> eyes_;
+    double lip_reach_m_, lip_aside_m_, stick_m_;
     std::vector<int> nodes_;
     std::vector<double> node_stiffness_;
 };

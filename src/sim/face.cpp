@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "muscle/activation.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
 #include "sim/follow.h"
+#include "sim/head_motion.h"
 #include "sim/jaw.h"
 #include "sim/jaw_dynamics.h"
 #include "sim/jaw_synergies.h"
@@ -19,6 +21,7 @@
 #include "sim/skin_binding.h"
 #include "sim/skin_layer.h"
 #include "sim/tissue_mesh.h"
+#include "sim/tissue_motion.h"
 #include "track/channels.h"
 
 namespace risorius::sim {
@@ -28,6 +31,7 @@ namespace {
 constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equilibrium
 constexpr int kMemory = 8;
 constexpr double kStepCap_m = 6e-3;
+constexpr int kSettleIterations = 400;
 constexpr int kContactRefresh = 20;  // iterations between searches while settling
 
 Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
@@ -37,24 +41,9 @@ Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
         .toRotationMatrix();
 }
 
-Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
-    constexpr double kDegree = 3.14159265358979323846 / 180.0;
-    const Vec3 pivot(0, head.mm(-30), head.mm(-10));  // atlanto-occipital joint
-    Rigid motion = Rigid::Identity();
-    motion.translate(pivot + Vec3(0, 0, head.mm(drive.at(track::Kinematic::kHeadForward))));
-    motion.rotate(Eigen::AngleAxisd(drive.at(track::Kinematic::kHeadYaw) * kDegree, Vec3::UnitY()));
-    motion.rotate(
-        Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadPitch) * kDegree, Vec3::UnitX()));
-    // Tilting to the left lowers the left ear: a turn about the forward axis from left to down.
-    motion.rotate(
-        Eigen::AngleAxisd(-drive.at(track::Kinematic::kHeadRoll) * kDegree, Vec3::UnitZ()));
-    motion.translate(-pivot);
-    return motion;
-}
-
 // A frame that falls on a step shows that step, whatever rounding made of its time.
-double exact_step(double t_s) {
-    const double place = t_s / kStep_s;
+double exact_step(double t_s, double step_s) {
+    const double place = t_s / step_s;
     const double nearest = std::round(place);
     return std::abs(place - nearest) < 1e-6 ? nearest : place;
 }
@@ -62,15 +51,17 @@ double exact_step(double t_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 6, 6, 0.0};
-    if (name == "video") return {"video", 800, 80, 6, 0.005e-3};
-    if (name == "fine") return {"fine", 1700, 120, 6, 0.005e-3};
+    if (name == "preview") return {"preview", 800, 7, 7, 0.0};
+    if (name == "video") return {"video", 800, 80, 4, 0.0025e-3, kStep_s, kStep_s / 2};
+    if (name == "fine") return {"fine", 1700, 120, 4, 0.0025e-3, kStep_s, kStep_s / 2};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
 }
 
 struct Face::Impl {
     rig::RigDescription rig;
     Quality quality;
+    int pieces;      // of a step
+    double piece_s;  // what is solved at once
     double build_s = 0;
     rig::Head head;
     std::array<EyeLids, 2> lids;
@@ -95,8 +86,13 @@ struct Face::Impl {
     std::optional<JawDynamics> jaw_dynamics;  // the same
     std::optional<JawSynergies> jaw_synergies;
     JawJoint jaw_joint;
-    Points velocity;
-    long steps = 0;
+    std::vector<Points> past_moves;  // of x within the last pieces against what rides on bone, the
+                                     // latest first; two at most
+    Neck neck;
+    TissueMotion motion;
+    std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
+    Motion how = Motion::kDynamic;
+    long done = 0;  // pieces
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
@@ -107,6 +103,8 @@ struct Face::Impl {
          const Quality& q, const std::string& place)
         : rig(rig_description),
           quality(q),
+          pieces(std::max(1, static_cast<int>(std::ceil(q.step_s / q.longest_piece_s - 1e-6)))),
+          piece_s(q.step_s / pieces),
           head(rig::place_head(rig, polygon_mesh, place)),
           lids{EyeLids(head, 0, rig.eyes.lid_closed_share),
                EyeLids(head, 1, rig.eyes.lid_closed_share)},
@@ -115,8 +113,10 @@ struct Face::Impl {
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
           jaw_joint(head, rig.jaw),
+          neck(head),
+          motion(neck, tissue.rest(), piece_s),
           channels(rig.channels()) {
-        tissue.prepare(kStep_s);
+        tissue.prepare(motion.effective_step_s());
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
         skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
@@ -130,7 +130,6 @@ struct Face::Impl {
         now.activation = Eigen::VectorXd::Zero(channels.column_count());
         now.drive.excitation = now.activation;
         before = now;
-        velocity = Points::Zero(now.x.rows(), 3);
         statics.emplace(
             tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
@@ -151,7 +150,10 @@ struct Face::Impl {
         const double lower = of("orbicularis_oculi_palpebral_lower");
         LidPose pose;
         pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
-        pose.lower_closure = (1.0 - pose.upper_closure) * 4.0 * lower + pose.upper_closure;
+        pose.lower_closure = pose.upper_closure;
+        pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
+        // Orbicularis draws both lids towards the inner canthus it springs from.
+        pose.inward = pose.upper_closure * (0.5 + 0.5 * std::min(1.0, upper));
         constexpr double kDegree = 3.14159265358979323846 / 180.0;
         const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft
                                                 : track::Kinematic::kGazePitchRight);
@@ -162,9 +164,22 @@ struct Face::Impl {
         pose.lower_gaze_rad =
             -open * kDegree *
             (pitch > 0 ? rig.eyes.lower_lid_per_gaze_up : rig.eyes.lower_lid_per_gaze_down) * pitch;
+        pose.aside_rad =
+            open * kDegree * rig.eyes.lids_per_gaze_aside *
+            drive.at(side == 0 ? track::Kinematic::kGazeYawLeft : track::Kinematic::kGazeYawRight);
         pose.upper_gaze_rad -= kDegree * rig.eyes.wide_deg *
                                (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
         return pose;
+    }
+
+    std::array<Mat3, 2> gaze(const track::Drive& drive) const {
+        const auto of = [&](track::Kinematic channel) {
+            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
+        };
+        return {
+            gaze_rotation(of(track::Kinematic::kGazeYawLeft), of(track::Kinematic::kGazePitchLeft)),
+            gaze_rotation(of(track::Kinematic::kGazeYawRight),
+                          of(track::Kinematic::kGazePitchRight))};
     }
 
     Rigid mandible(const track::Drive& drive) const {
@@ -181,7 +196,8 @@ struct Face::Impl {
             std::set<std::string> solids;  // they pull for themselves
             for (const rig::SolidMuscle& solid : rig.solids) solids.insert(solid.muscle);
             jaw_dynamics.emplace(head, rig, solids);
-            for (const double h : {kStep_s, kStaticStep_s}) tissue.prepare(h, *jaw_dynamics);
+            for (const double h : {motion.effective_step_s(), kStaticStep_s})
+                tissue.prepare(h, *jaw_dynamics);
             const auto reach = [&](double open, double forward, double side) {
                 return jaw_joint.place(jaw.motion(open, forward, side));
             };
@@ -201,6 +217,14 @@ struct Face::Impl {
             drive.at(track::Kinematic::kJawSide)));
     }
 
+    // What activation comes to if the drive lasts.
+    Eigen::VectorXd steady_activation(const track::Drive& drive) const {
+        Eigen::VectorXd activation = with_jaw(drive.excitation, drive);
+        for (long i = 0; i < drive.activation.size(); ++i)
+            if (!std::isnan(drive.activation[i])) activation[i] = drive.activation[i];
+        return activation;
+    }
+
     // Where it is, or where the drive wants it.
     Rigid mandible(const JawVector& q, const track::Drive& drive) const {
         return jaw_dynamics ? jaw_joint.pose(q).motion : mandible(drive);
@@ -209,12 +233,22 @@ struct Face::Impl {
         return (1 - share) * before.jaw.q + share * now.jaw.q;
     }
 
-    // One step of the tissue, and of the jaw if muscles move it.
-    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+    // In the frame of the head; what rest bears if weight is not to turn.
+    Vec3 gravity_at(const track::Drive& drive) const {
+        if (!gravity) return JawDynamics::upright_gravity();
+        return head_motion(head, drive).linear().transpose() * *gravity;
+    }
+
+    // One step of the tissue, and of the jaw if muscles move it; `jaw_h` is the jaw's own.
+    StepFigures implicit_step(double h, double jaw_h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x) {
-        if (!jaw_dynamics) return tissue.implicit_step(h, start, aim, activation, options, x);
-        JawInStep jaw_step{*jaw_dynamics, jaw_dynamics->begin(h, now.jaw, activation), now.jaw.q};
+                              const JawDynamics::Carriage& carriage,
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {}) {
+        if (!jaw_dynamics)
+            return tissue.implicit_step(h, start, aim, activation, options, x, likely);
+        JawInStep jaw_step{*jaw_dynamics, jaw_dynamics->begin(jaw_h, now.jaw, activation, carriage),
+                           now.jaw.q};
         const StepFigures figures =
             tissue.implicit_step(h, start, aim, activation, options, x, jaw_step);
         now.jaw = jaw_dynamics->end(jaw_step.step, jaw_step.q);
@@ -224,7 +258,8 @@ struct Face::Impl {
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
         return {mandible(now.jaw.q, drive),
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                drive.at(track::Kinematic::kMouthPressure)};
+                drive.at(track::Kinematic::kMouthPressure),
+                gaze(drive), gravity_at(drive) - JawDynamics::upright_gravity()};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
@@ -240,24 +275,27 @@ struct Face::Impl {
                        int iterations) {
         Points x = now.x;
         prescribe(x, activation, drive);
-        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, iterations, x)
+        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, drive, iterations, x)
                                                  : statics->settle(activation, iterations, x);
         now.x = x;
         now.activation = activation;
         now.drive = drive;
-        velocity.setZero();
+        past_moves.clear();
+        motion.start(now.x, head_motion(head, drive));
         before = now;
         return figures;
     }
 
     // Tissue and jaw come to rest together, in long steps of time.
-    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, int iterations, Points& x) {
+    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, const track::Drive& drive,
+                                int iterations, Points& x) {
         StepFigures figures;
         while (figures.iterations < iterations) {
             tissue.find_contacts(x);
             const Points start = x;
             now.jaw.velocity = JawDynamics::still();
-            const StepFigures part = implicit_step(kStaticStep_s, start, start, activation,
+            const StepFigures part = implicit_step(kStaticStep_s, kStaticStep_s, start, start,
+                                                   activation, {.gravity_m_s2 = gravity_at(drive)},
                                                    {.iterations = kContactRefresh,
                                                     .memory = kMemory,
                                                     .step_cap_m = kStepCap_m,
@@ -266,6 +304,8 @@ struct Face::Impl {
             figures.iterations += std::max(1, part.iterations);
             figures.evaluations += part.evaluations;
             figures.contact_depth_m = part.contact_depth_m;
+            figures.lip_depth_m = part.lip_depth_m;
+            figures.bone_depth_m = part.bone_depth_m;
             figures.muscle_volume_error = part.muscle_volume_error;
             const double moved =
                 std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
@@ -278,9 +318,9 @@ struct Face::Impl {
         return figures;
     }
 
-    StepFigures step(const DriveAt& drive_at) {
-        const double from = static_cast<double>(steps) * kStep_s,
-                     to = static_cast<double>(steps + 1) * kStep_s;
+    StepFigures piece(const DriveAt& drive_at) {
+        const double from = static_cast<double>(done) * piece_s,
+                     to = static_cast<double>(done + 1) * piece_s;
         const track::Drive drive = drive_at(to);
         Eigen::VectorXd excitation;
         dynamics->advance(
@@ -294,24 +334,33 @@ struct Face::Impl {
 
         before = now;
         Points x = now.x;
-        tissue.fibres().begin_step(x, kStep_s);
+        const TissueMotion::Step& moves = motion.begin(head_motion(head, drive));
+        const double h = motion.effective_step_s();
+        tissue.fibres().begin_step(moves.start, moves.expected, h);
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
-        const Points aim = now.x + kStep_s * velocity;
-        const StepFigures figures = implicit_step(kStep_s, now.x, aim, activation,
+        const Points carried = x;
+        // What changed in the piece before, and all of it, are likely to go on: their curvatures are the first the search knows.
+        std::vector<Points> likely;
+        if (past_moves.size() == 2) likely.push_back(past_moves[0] - past_moves[1]);
+        if (!past_moves.empty()) likely.push_back(past_moves[0]);
+        const StepFigures figures = implicit_step(h, piece_s, moves.start, moves.aim, activation,
+                                                  {moves.moved, gravity_at(drive)},
                                                   {.iterations = quality.iterations,
                                                    .least_iterations = quality.least_iterations,
                                                    .memory = kMemory,
                                                    .step_cap_m = kStepCap_m,
                                                    .tolerance_rms_m = quality.tolerance_rms_m},
-                                                  x);
+                                                  x, likely);
+        past_moves.insert(past_moves.begin(), x - carried);
+        past_moves.resize(std::min<std::size_t>(past_moves.size(), 2));
         tissue.fibres().end_step();
+        motion.end(x);
         statics->moved();
-        velocity = (x - now.x) / kStep_s;
         now.x = x;
         now.activation = activation;
         now.drive = drive;
-        ++steps;
+        ++done;
         history.push_back(figures);
         return figures;
     }
@@ -327,7 +376,8 @@ struct Face::Impl {
 
     // Where t lies between the last two steps, 0..1
     double share_of_step(double t_s) const {
-        return 1.0 - (static_cast<double>(steps) - exact_step(t_s));
+        if (how == Motion::kQuasiStatic) return 1.0;
+        return 1.0 - (static_cast<double>(done) - exact_step(t_s, piece_s));
     }
 
     void make_surfaces() {
@@ -367,11 +417,12 @@ struct Face::Impl {
     }
 
     // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
-    Points pull_through(const FollowDrive& drive, const Points& skin, const Points& slope) const {
+    Points pull_through(const FollowDrive& drive, const Points& surface,
+                        const Points& slope) const {
         constexpr double kDifference_m = 1e-6;
         Points out(slope.rows(), 3);
         for (int k = 0; k < 3; ++k) {
-            Points above = skin, below = skin;
+            Points above = surface, below = surface;
             above.col(k).array() += kDifference_m;
             below.col(k).array() -= kDifference_m;
             follow->apply(drive, above);
@@ -383,7 +434,7 @@ struct Face::Impl {
 
     Points pull_back(const Points& slope) const {
         Points by_skin = slope;
-        pose_of(now, &by_skin);
+        pose_of(now, Folds::kLeftOut, &by_skin);
         const Points by_shell = binding->pull_back(by_skin, static_cast<long>(shell.vertex.size()));
         Points out = Points::Zero(now.x.rows(), 3);
         for (long v = 0; v < by_shell.rows(); ++v)
@@ -397,8 +448,11 @@ struct Face::Impl {
         return {now.x, now.activation, now.drive};
     }
 
+    /// What the skin's own layer adds to what the tissue does: no part of what is pulled back.
+    enum class Folds { kFormed, kLeftOut };
     /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
-    FacePose pose_of(const State& state, Points* pulled = nullptr) const {
+    FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
+                     Points* pulled = nullptr) const {
         const track::Drive& drive = state.drive;
         const Points displacement = skin_displacement(state.x);
         FacePose out;
@@ -408,25 +462,23 @@ struct Face::Impl {
         if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
                                     : drive.at(track::Kinematic::kJawOpen);
-        const auto gaze_of = [&](track::Kinematic channel) {
-            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
-        };
-        const std::array<Mat3, 2> gaze{gaze_rotation(gaze_of(track::Kinematic::kGazeYawLeft),
-                                                     gaze_of(track::Kinematic::kGazePitchLeft)),
-                                       gaze_rotation(gaze_of(track::Kinematic::kGazeYawRight),
-                                                     gaze_of(track::Kinematic::kGazePitchRight))};
+        const std::array<Mat3, 2> turned = gaze(drive);
         const std::array<LidPose, 2> lid{lid_pose(0, state.activation, drive),
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
-        out.fold_depth = skin->apply(out.vertices);
+        if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
         out.head = head_motion(head, drive);
-        const FollowDrive follow_drive{moved, gaze, lid, drive.at(track::Kinematic::kTongueOut),
+        const FollowDrive follow_drive{moved,
+                                       turned,
+                                       lid,
+                                       drive.at(track::Kinematic::kTongueOut),
+                                       drive.at(track::Kinematic::kTongueUp),
                                        out.head};
         if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
         follow->apply(follow_drive, out.vertices);
         for (int side = 0; side < 2; ++side)
-            out.eye_rotation[side] = out.head.linear() * gaze[side];
+            out.eye_rotation[side] = out.head.linear() * turned[side];
         return out;
     }
 };
@@ -442,6 +494,8 @@ Face::~Face() = default;
 Face::Face(Face&&) noexcept = default;
 
 void Face::drive_jaw_by(track::JawDrive by) { impl_->drive_jaw_by(by); }
+void Face::move(Motion how) { impl_->how = how; }
+void Face::set_gravity(const std::optional<Vec3>& gravity_m_s2) { impl_->gravity = gravity_m_s2; }
 void Face::set_bite_block(double height_m) {
     if (!impl_->jaw_dynamics) throw std::logic_error("a bite block in a jaw that channels place");
     impl_->jaw_dynamics->joint().set_bite_block(height_m);
@@ -454,21 +508,21 @@ track::Drive Face::driven(track::Drive drive) const {
 
 void Face::start(const DriveAt& drive) {
     const track::Drive first = drive(0.0);
-    Eigen::VectorXd activation = impl_->with_jaw(first.excitation, first);
-    for (long i = 0; i < activation.size(); ++i)
-        if (first.activation.size() > 0 && !std::isnan(first.activation[i]))
-            activation[i] = first.activation[i];
-    impl_->steps = 0;
+    const Eigen::VectorXd activation = impl_->steady_activation(first);
+    impl_->done = 0;
     impl_->history.clear();
+    impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
     const bool at_rest = activation.isZero(0.0) &&
                          impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
-                         first.at(track::Kinematic::kMouthPressure) == 0.0;
+                         first.at(track::Kinematic::kMouthPressure) == 0.0 &&
+                         impl_->gravity_at(first) == JawDynamics::upright_gravity();
     impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};
-    impl_->velocity.setZero();
+    impl_->motion.start(impl_->now.x, head_motion(impl_->head, first));
     impl_->statics->forget();
+    impl_->past_moves.clear();
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;
@@ -476,14 +530,31 @@ void Face::start(const DriveAt& drive) {
         impl_->prescribe(x, activation, first);
         impl_->before = impl_->now;
     } else {
-        impl_->settle(activation, first, 400);
+        impl_->settle(activation, first, kSettleIterations);
     }
 }
 
-StepFigures Face::step(const DriveAt& drive) { return impl_->step(drive); }
+StepFigures Face::step(const DriveAt& drive) {
+    StepFigures sum = impl_->piece(drive);
+    for (int i = 1; i < impl_->pieces; ++i) {
+        const StepFigures next = impl_->piece(drive);
+        const StepFigures before = sum;
+        sum = next;
+        sum.iterations += before.iterations;
+        sum.evaluations += before.evaluations;
+        sum.converged = before.converged && next.converged;
+    }
+    return sum;
+}
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
-    while (static_cast<double>(impl_->steps) < exact_step(t_s)) impl_->step(drive);
+    if (impl_->how == Motion::kQuasiStatic) {
+        const track::Drive now = drive(t_s);
+        impl_->history.push_back(
+            impl_->settle(impl_->steady_activation(now), now, kSettleIterations));
+        return impl_->pose(1.0);
+    }
+    while (static_cast<double>(impl_->done) < exact_step(t_s, impl_->piece_s)) impl_->piece(drive);
     return impl_->pose(impl_->share_of_step(t_s));
 }
 
@@ -521,7 +592,8 @@ Points Face::pull_back(const Points& vertex_gradient) const {
 }
 
 FacePose Face::pose() const { return impl_->pose(1.0); }
-double Face::time_s() const { return static_cast<double>(impl_->steps) * kStep_s; }
+double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
+double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
 int Face::node_count() const { return impl_->tissue.nodes(); }
 int Face::tet_count() const { return static_cast<int>(impl_->mesh.tets.rows()); }
@@ -591,9 +663,10 @@ double Face::tissue_volume_m3() const {
     return six / 6;
 }
 double Face::kinetic_energy_j() const {
+    const Points velocity = impl_->motion.velocity();
     double sum = 0;
-    for (long i = 0; i < impl_->velocity.rows(); ++i)
-        sum += 0.5 * impl_->tissue.mass()[i] * impl_->velocity.row(i).squaredNorm();
+    for (long i = 0; i < velocity.rows(); ++i)
+        sum += 0.5 * impl_->tissue.mass()[i] * velocity.row(i).squaredNorm();
     return sum;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,21 +23,27 @@
 
 namespace risorius::sim {
 
-/// Steps are fixed, independent of the frame rate of a video.
+/// Steps are fixed, independent of the frame rate of a video. The usual one; Quality may ask for another.
 inline constexpr double kStep_s = 1.0 / 60.0;
 
 struct Quality {
     std::string name;
     int shell_vertices = 800;  ///< three nodes each
-    int iterations = 6;        ///< per step, at most
-    int least_iterations = 0;  ///< before the tolerance may stop a step
+    int iterations = 6;        ///< per piece of a step, at most
+    int least_iterations = 0;  ///< before the tolerance may stop a piece
     double tolerance_rms_m =
         0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
+    double step_s = kStep_s;
+    double longest_piece_s =
+        kStep_s;  ///< a step is solved in so many equal pieces that none is longer
 };
-/// "preview": six iterations, real time. "video": until an iteration changes the step by less than 0.005 mm RMS, after six at least
-/// (0.05 mm RMS of lag is left; stopping at 0.05 mm leaves 0.6 mm).
+/// "preview": seven iterations, real time. "video": two pieces a step, each until an iteration moves the nodes by less than 0.0025 mm
+/// RMS, after four at least.
 /// "fine": as video, with 1,700 skin vertices.
 Quality quality_named(const std::string& name);
+
+/// With inertia, damping and time for muscles to act; or every pose in equilibrium with its drive, excitation taken as activation.
+enum class Motion { kDynamic, kQuasiStatic };
 
 /// The drive at any time, s.
 using DriveAt = std::function<track::Drive(double t_s)>;
@@ -62,6 +69,11 @@ class Face {
 
     /// What moves the jaw, from the next start() or settle() on. At first its channels do.
     void drive_jaw_by(track::JawDrive by);
+    /// Of pose_at(); dynamic at first. A quasi-static pose is sought from the one before.
+    void move(Motion how);
+    /// Which way weight pulls in the space the head turns in, m/s^2; at first downwards at 9.81. The rest shape is what an upright
+    /// head has; nothing: that of a tilted head too, whose tissue then weighs nothing but its inertia is still felt.
+    void set_gravity(const std::optional<Vec3>& gravity_m_s2);
     /// A rigid block between the incisors, as high as it holds them apart; 0 takes it away. Only for a jaw driven by muscles, and
     /// to be put in while it is open.
     void set_bite_block(double height_m);
@@ -71,7 +83,7 @@ class Face {
     /// Time 0: activation and tissue in equilibrium with the drive, at rest.
     void start(const DriveAt& drive);
 
-    /// One step of kStep_s.
+    /// One step of the quality's length.
     StepFigures step(const DriveAt& drive);
 
     /// Steps until t, and the pose at t: between steps it is interpolated, so that frame rates share their common times.
@@ -90,15 +102,17 @@ class Face {
     /// H^-1 b, H = dg/d(nodes). With b the slope of a number L by the nodes and p anything g hangs on, also a number of the rig:
     /// dL/dp = - sum solve_static(b) * dg/dp.
     Points solve_static(const Points& b);
-    /// Derivatives of all vertices, V x 3 each, m per unit: by activations of columns (the lids they move included), then by
-    /// kinematic channels. At the kink of a lid's levator the mean of both sides.
+    /// Derivatives of all vertices, V x 3 each, m per unit: by activations of columns (the lids
+    /// they move included), then by kinematic channels. At the kink of a lid's levator the mean of both sides.
     std::vector<Points> sensitivities(std::span<const int> columns,
                                       std::span<const track::Kinematic> channels);
-    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held.
+    /// The slope by the nodes of a number whose slope by the vertices is given, V x 3, where bones and lids are held;
+    /// without the folds of the skin.
     Points pull_back(const Points& vertex_gradient) const;
 
     FacePose pose() const;  ///< after the last step
     double time_s() const;
+    double step_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
     Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
 
@@ -120,7 +134,7 @@ class Face {
     /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
     const Triangles& simulated_skin() const;
     const Shell& shell() const;
-    const std::vector<StepFigures>& history() const;  ///< of every step since start()
+    const std::vector<StepFigures>& history() const;  ///< of every piece since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
     void scale_muscle(const std::string& muscle, double factor);

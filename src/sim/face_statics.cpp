@@ -9,6 +9,9 @@ namespace risorius::sim {
 namespace {
 
 constexpr double kDifference = 2e-4;  // of a parameter's range
+constexpr int kCorrections = 4;
+constexpr double kGain = 0.7,
+                 kEnough = 0.01;  // of a correction: share of the last, share of the slope
 
 }  // namespace
 
@@ -28,7 +31,7 @@ StepFigures FaceStatics::settle(const Eigen::VectorXd& activation, int iteration
 void FaceStatics::prepare(const Pose& pose) {
     prescribe_(pose.activation, pose.drive);
     tissue_.begin_rest(pose.x);
-    tissue_.find_contacts(pose.x);
+    tissue_.find_rest_contacts(pose.x);
     if (!factored_) solver_.factorise(pose.x, pose.activation, solve::Curvature::kExact);
     factored_ = true;
 }
@@ -37,11 +40,11 @@ Points FaceStatics::gradient(const Pose& pose, const Points& nodes,
                              const Eigen::VectorXd& activation, const track::Drive& drive) {
     prescribe_(activation, drive);
     tissue_.begin_rest(nodes);
-    tissue_.find_contacts(nodes);
+    tissue_.find_rest_contacts(nodes);
     Points g;
     tissue_.static_energy(nodes, activation, g);
     prescribe_(pose.activation, pose.drive);
-    tissue_.find_contacts(pose.x);
+    tissue_.find_rest_contacts(pose.x);
     return g;
 }
 
@@ -82,7 +85,7 @@ std::vector<Points> FaceStatics::sensitivities(const Pose& pose, std::span<const
 
     const std::size_t count = columns.size() + channels.size();
     std::vector<Points> out(count);
-    Points g, by_nodes;
+    Points g, by_nodes, change;
     for (std::size_t p = 0; p < count; ++p) {
         const Nearby less = nearby(p, -1), more = nearby(p, 1);
         const double apart = more.away - less.away;
@@ -94,6 +97,25 @@ std::vector<Points> FaceStatics::sensitivities(const Pose& pose, std::span<const
         };
         const Points above = gradient_at(more), below = gradient_at(less);
         solver_.solve((below - above) / apart, by_nodes);
+
+        // Planes of contact turn as tissue slides over them: what is left of the slope with contacts found anew
+        double before = by_nodes.norm();
+        for (int correction = 0; correction < kCorrections; ++correction) {
+            const auto found_anew = [&](const Nearby& there) {
+                prescribe_(there.activation, there.drive);
+                const Points x = pose.x + there.away * by_nodes;
+                tissue_.find_rest_contacts(x);
+                tissue_.static_energy(x, there.activation, g);
+                return g;
+            };
+            const Points left = (found_anew(more) - found_anew(less)) / apart;
+            solver_.solve(left, change);
+            const double length = change.norm();
+            if (!(length < kGain * before)) break;
+            by_nodes -= change;
+            before = length;
+            if (length < kEnough * by_nodes.norm()) break;
+        }
         out[p] = (vertices_(pose.x + more.away * by_nodes, more.activation, more.drive) -
                   vertices_(pose.x + less.away * by_nodes, less.activation, less.drive)) /
                  apart;

@@ -4,7 +4,8 @@
 //   dx/dp = - H^-1 dg/dp          v(x, p) vertices of the mesh, dv/dp = v_x dx/dp + v_p
 //   of a number L(x) with slope b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp, whatever p is
 //
-// One factor of H serves them all. Contact pairs and their planes are those of the pose, and ride on their bone.
+// One factor of H serves them all. In H contact planes are those of the pose; that they turn as tissue slides over them is put
+// right in dx/dp by a few more solves with the same factor.
 #pragma once
 
 #include <functional>

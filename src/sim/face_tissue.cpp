@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
+// Share of its contact stiffness that the metric gives every node that may ever touch. Few touch at a time, and those along
+// one direction only: half of it in steps of motion leaves twice the error in the same iterations, a thirtieth overshoots.
+constexpr double kContactShare = 0.1, kSettlingContactShare = 0.5;
+
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -44,7 +48,8 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     hill.passive_strain = rig_.tissue.fibre_passive_strain;
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
-    find_cheeks();
+    lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
+    find_cheeks(jaw);
     mass_.resize(rest_.rows());
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
     solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
@@ -115,12 +120,12 @@ void FaceTissue::build_tethers() {
         const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
         for (int side = 0; side < 2; ++side) {
             if ((p - lids_[side].centre()).norm() > lids_[side].zone_m() + head_.mm(3)) continue;
-            const LidMember member =
-                lids_[side].classify(p, head_.mm(2.0), head_.mm(4.0), head_.mm(2.8));
-            if (member.weight < 1e-3) continue;
+            const LidMember member = lids_[side].member(p);
+            const double firmness = EyeLids::firmness(member, 0.4, 1.15, 0.2, 0.65);
+            if (firmness < 1e-3) continue;
             for (Layer layer : {kDeep, kMiddle, kSkin}) {
                 const int node = node_of(static_cast<int>(v), layer);
-                const double k = member.weight * kLidTether_pa_per_m * mesh_.area_m2[v];
+                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
                 held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
                 lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
             }
@@ -129,18 +134,23 @@ void FaceTissue::build_tethers() {
     tethers_.emplace(held);
 }
 
-void FaceTissue::find_cheeks() {
-    // Air presses where the deep tissue is free: the cheeks
+void FaceTissue::find_cheeks(const Jaw& jaw) {
+    // Air fills the vestibule: behind cheeks and lips, from the fold under the nose down to that above the mandible's border, and
+    // back to the masseter. Lips that are shut are pushed forwards as one, which does not open them.
+    const double fold_y = head_.landmark("sn").y();
     for (const Attachment& a : attachments_) {
-        const double log_stiffness = std::log10(a.normal_n_per_m / mesh_.area_m2[a.shell_vertex]);
         const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
-        // Lips that hold the air_ in are not blown open by it.
-        const double sealed = smoothstep(head_.mm(8), head_.mm(20), distance_to_polyline(p, lips_));
-        const double open = sealed * (1.0 - smoothstep(3.5, 4.7, log_stiffness));
-        if (open > 0 && lid_share(p) == 0 && p.y() < head_.landmark("sn").y())
+        const double near =
+            1.0 - smoothstep(head_.mm(38), head_.mm(52), distance_to_polyline(p, lips_));
+        const double below = smoothstep(head_.mm(-2), head_.mm(8), fold_y - p.y());
+        const double above = smoothstep(head_.mm(6), head_.mm(20), jaw.height_over_border(p));
+        const double rim =
+            0.4 + 0.6 * smoothstep(head_.mm(2), head_.mm(10), distance_to_polyline(p, lips_));
+        const double share = near * below * above * rim;
+        if (share > 0 && lid_share(p) == 0)
             cheeks_.push_back(
                 {node_of(a.shell_vertex, kDeep),
-                 open * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+                 share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
     }
 }
 
@@ -154,8 +164,10 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     tethers_->add_metric(builder);
     fibres_->add_metric(builder, h < kSettling_s ? h : 0);
     solids_->add_metric(builder);
+    lip_drive_->add_metric(builder);
+    const double contact_share = h < kSettling_s ? kContactShare : kSettlingContactShare;
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        builder.add_diagonal(search_.nodes()[i], 0.5 * search_.node_stiffness()[i]);
+        builder.add_diagonal(search_.nodes()[i], contact_share * search_.node_stiffness()[i]);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
         {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}))});
@@ -165,6 +177,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
 void FaceTissue::prescribe(const Prescribed& prescribed) {
     const Rigid& moved = prescribed.mandible;
     mandible_ = moved;
+    gaze_ = prescribed.gaze;
     std::vector<tissue::Tethers::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Attachment& a = attachments_[i];
@@ -177,16 +190,20 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
         const LidTether& t = lid_tethers_[i];
         held[attachments_.size() + i].target =
-            t.rest +
-            lids_[t.side].ride(t.rest, t.member.upper, t.member.place, prescribed.lid[t.side]);
+            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
     solids_->set_bodies(bodies);
+    lip_drive_->set_mandible(moved);
     const double pressure = prescribed.mouth_pressure_pa;
     std::vector<tissue::DeadLoads::Load> loads;
     if (pressure != 0)
         for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
+    if (!prescribed.weight_m_s2.isZero(0.0))
+        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
+            if (!fixed_[static_cast<std::size_t>(i)])
+                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
     air_.set(loads);
 }
 
@@ -202,7 +219,11 @@ void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) 
 }
 
 void FaceTissue::find_contacts(const Points& x) {
-    contacts_.set(search_.find(x, mandible_));
+    contacts_.set(search_.find(x, mandible_, gaze_));
+    note_contacts();
+}
+
+void FaceTissue::note_contacts() {
     contact_on_mandible_.clear();
     const Rigid to_rest = mandible_.inverse();
     for (const tissue::Contacts::Contact& contact : contacts_.list())
@@ -219,6 +240,8 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
     energy += contacts_.add_energy(x, gradient);
     energy += air_.add_energy(x, gradient);
+    lip_drive_->drive(activation);
+    energy += lip_drive_->add_energy(x, gradient);
     return energy;
 }
 
@@ -243,23 +266,31 @@ double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
 
 StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
                                       const Eigen::VectorXd& activation,
-                                      const solve::QuasiNewtonOptions& options, Points& x) {
+                                      const solve::QuasiNewtonOptions& options, Points& x,
+                                      std::span<const Points> likely) {
     const auto energy = [&](const Points& at, Points& gradient) {
         return step_energy(h, start, aim, activation, at, gradient);
     };
     solids_->begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
-    return figures(newton_.minimise(energy, solve, x, options), x);
+    return end_step(newton_.minimise(energy, solve, x, options, likely), x);
 }
 
-StepFigures FaceTissue::figures(const solve::StepReport& report, const Points& x) const {
+void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
+    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
+    figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
+}
+
+StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
     StepFigures figures;
     figures.iterations = report.iterations;
     figures.evaluations = report.evaluations;
     figures.last_step_rms_m = report.last_step_rms_m;
     figures.converged = report.converged;
-    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    put_depths(x, figures);
+    contacts_.remember(x);
     figures.muscle_volume_error = solids_->greatest_volume_error(x);
     return figures;
 }

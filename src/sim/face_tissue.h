@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "sim/jaw.h"
 #include "sim/jaw_dynamics.h"
 #include "sim/lids.h"
+#include "sim/lip_drive.h"
 #include "sim/muscle_placement.h"
 #include "sim/muscle_solids.h"
 #include "sim/shell.h"
@@ -48,6 +50,8 @@ struct StepFigures {
     int evaluations = 0;
     double last_step_rms_m = 0;
     double contact_depth_m = 0;      ///< deepest penetration left
+    double lip_depth_m = 0;          ///< the same, of lip by lip
+    double bone_depth_m = 0;         ///< the same, of bone and teeth
     double muscle_volume_error = 0;  ///< greatest of the volume muscles, ratio
     bool converged = false;
 };
@@ -57,6 +61,9 @@ struct Prescribed {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
+    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
+    Vec3 weight_m_s2 =
+        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
 };
 
 /// A jaw that its muscles move within a step of the tissue.
@@ -80,13 +87,16 @@ class FaceTissue {
     /// Moves nodes with their bone, as far as they follow the mandible.
     void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
 
-    /// Finds the contact pairs at x; they hold until the next call.
+    /// Finds the contact pairs at x; they hold until the next call. What steps learn about how hard they press is kept.
     void find_contacts(const Points& x);
+    void forget_contacts() { contacts_.forget(); }
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends.
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// tried first.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x);
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {});
 
     /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
@@ -98,6 +108,10 @@ class FaceTissue {
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
     const tissue::Contacts& contacts() const { return contacts_; }
+    /// The same as find_contacts() for equilibria: contacts are firmer and remember nothing.
+    void find_rest_contacts(const Points& x);
+    /// After coming to rest at x: depths and volumes, and steps from here press as hard.
+    StepFigures end_rest(const Points& x);
     /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
     const Rigid& mandible() const { return mandible_; }
@@ -141,12 +155,14 @@ class FaceTissue {
     void build_tissue();
     void build_skin();
     void build_tethers();
-    void find_cheeks();
+    void find_cheeks(const Jaw& jaw);
     const solve::SparseCholesky& metric(double h);
     /// E and its gradient by the nodes.
     double step_energy(double h, const Points& start, const Points& aim,
                        const Eigen::VectorXd& activation, const Points& at, Points& gradient);
-    StepFigures figures(const solve::StepReport& report, const Points& x) const;
+    void note_contacts();
+    void put_depths(const Points& x, StepFigures& figures) const;
+    StepFigures end_step(const solve::StepReport& report, const Points& x);
     /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
     void move_mandible(const Rigid& moved);
     /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
@@ -170,10 +186,12 @@ class FaceTissue {
     MusclePlacement muscles_;
     bool solids_relaxed_ = false;  // riding is measured on what gives way at once
     std::optional<muscle::FibreSet> fibres_;
+    mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;
+    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
+    std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
     std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<LidTether> lid_tethers_;

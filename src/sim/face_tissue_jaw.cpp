@@ -42,6 +42,7 @@ void FaceTissue::move_mandible(const Rigid& moved) {
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
     solids_->move_bodies(bodies);
+    lip_drive_->move_mandible(moved);
     for (std::size_t c = 0; c < contacts_.list().size(); ++c)
         if (contacts_.list()[c].body == kMandibleBody)
             contacts_.list()[c].point = moved * contact_on_mandible_[c];
@@ -72,9 +73,9 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
     }
     for (const tissue::Contacts::Contact& contact : contacts_.list()) {
         if (contact.body != kMandibleBody) continue;
-        const double depth = tissue::Contacts::gap(contact, x) - contact.rest_gap_m;
-        if (depth < 0) sum.add(-contact.stiffness_n_per_m * depth * contact.normal, contact.point);
+        sum.add(-tissue::Contacts::pull_n(contact, x) * contact.normal, contact.point);
     }
+    lip_drive_->add_mandible_gradient(x, sum);
     solids_->add_riding(mandible_, gradient, sum);
     sum.force_n -= solids_pull_[kMandibleBody].force_n;
     sum.torque_nm -= solids_pull_[kMandibleBody].torque_nm;
@@ -174,7 +175,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     move_mandible(to);
     x = unknowns.topRows(rows);
     carry_with_bone(x, from, to);
-    return figures(report, x);
+    return end_step(report, x);
 }
 
 }  // namespace risorius::sim

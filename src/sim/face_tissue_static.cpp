@@ -4,6 +4,12 @@
 
 namespace risorius::sim {
 
+namespace {
+
+constexpr double kFirmer = 6;  // contacts at rest / those of a step, which learn how hard to press
+
+}  // namespace
+
 double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activation,
                                  Points& gradient) const {
     gradient.setZero(x.rows(), 3);
@@ -27,13 +33,28 @@ void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& acti
     tethers_->add_hessian(hessian);
     fibres_->add_hessian(x, activation, curvature, hessian);
     solids_->add_hessian(x, activation, curvature, hessian);
+    lip_drive_->drive(activation);
+    lip_drive_->add_hessian(x, hessian);
     contacts_.add_hessian(x,
                           hessian);  // last: their pairs change, the order of the others does not
 }
 
+void FaceTissue::find_rest_contacts(const Points& x) {
+    contacts_.set_firm(search_.find(x, mandible_, gaze_), kFirmer);
+    note_contacts();
+}
+
+StepFigures FaceTissue::end_rest(const Points& x) {
+    StepFigures figures;
+    put_depths(x, figures);
+    figures.muscle_volume_error = solids_->greatest_volume_error(x);
+    contacts_.remember_firm(x, kFirmer);
+    return figures;
+}
+
 void FaceTissue::ride_contacts(const std::vector<tissue::Contacts::Contact>& found,
                                const Rigid& from) {
-    contacts_.set(found);
+    contacts_.list() = found;
     const Rigid moved = mandible_ * from.inverse();
     for (tissue::Contacts::Contact& contact : contacts_.list())
         if (contact.body == kMandibleBody) {

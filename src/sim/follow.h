@@ -8,8 +8,10 @@
 #include "core/types.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
+#include "sim/head_motion.h"
 #include "sim/lids.h"
 #include "sim/skin_binding.h"
+#include "sim/tongue.h"
 
 namespace risorius::sim {
 
@@ -17,7 +19,7 @@ struct FollowDrive {
     Rigid mandible = Rigid::Identity();
     std::array<Mat3, 2> gaze;
     std::array<LidPose, 2> lid;
-    double tongue_out = 0;
+    double tongue_out = 0, tongue_up = 0;
     Rigid head = Rigid::Identity();
 };
 
@@ -35,29 +37,23 @@ class Follow {
 
   private:
     struct LidVertex {
+        int vertex;
         int side;
         LidMember member;
+        double weight;     ///< 1 on the tarsal plate, 0 where tissue alone moves it
         double clearance;  ///< kept from the eye's surface, m
     };
-    struct TongueVertex {
-        int vertex;
-        double tip;       ///< 0 at the root, 1 at the tip
-        double over_jaw;  ///< share of the mandible's motion
-    };
     void apply_lids(const FollowDrive& drive, Points& vertices) const;
-    double head_share(const Vec3& rest) const;
-    Vec3 turned(const Rigid& head, double share, const Vec3& p) const;
 
     const rig::Head& head_;
+    Neck neck_;
     const std::array<EyeLids, 2>& lids_;
     Points rest_;
     std::vector<LidVertex> lid_vertices_;
-    std::vector<TongueVertex> tongue_;
+    Tongue tongue_;
     std::vector<std::pair<int, double>> on_jaw_;  // vertex, share of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
     std::vector<double> head_share_;  ///< V, of the head's turn
-    double neck_top_m_, neck_base_m_;
-    double tongue_range_m_;
 };
 
 }  // namespace risorius::sim

@@ -9,7 +9,6 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kMass_kg = 0.2;  // with its teeth and what moves with it: Hannam et al. 2008
 // About the centre of mass, kg m^2, transverse, upright and forward axis. Products of inertia, less than a tenth, are left out.
 const Vec3 kInertia_kg_m2(182.2e-6, 125.2e-6, 92.19e-6);
@@ -93,13 +92,18 @@ Eigen::VectorXd JawDynamics::with_tone(const Eigen::VectorXd& activation) const 
 }
 
 JawDynamics::Step JawDynamics::begin(double h, const State& state,
-                                     const Eigen::VectorXd& activation) const {
+                                     const Eigen::VectorXd& activation,
+                                     const Carriage& carriage) const {
     Step step;
     step.h = h;
     step.start = state.q;
     const JawPose pose = joint_.pose(state.q);
     step.from = mass_points(pose, state.q);
-    for (int i = 0; i < kMassPoints; ++i) step.aim[i] = step.from[i] + h * state.velocity[i];
+    for (int i = 0; i < kMassPoints; ++i) {
+        step.from[i] = carriage.moved * step.from[i];
+        step.aim[i] = step.from[i] + h * (carriage.moved.linear() * state.velocity[i]);
+    }
+    step.gravity_m_s2 = carriage.gravity_m_s2;
     step.drive = muscles_.drive(pose, state.q.segment<3>(kHyoid), with_tone(activation));
     const double opened = state.q[kOpen] / joint_.lever_m() / kFullTurn_rad;
     step.sling = std::clamp(opened, 0.0, 1.0) * hyoid_at_full_opening_;
@@ -119,8 +123,8 @@ double JawDynamics::energy(const Step& step, const JawVector& q, JawVector& grad
     for (int i = 0; i + 1 < kMassPoints; ++i) {
         const double inertia = mass_[i] / (step.h * step.h);
         const Vec3 off = points[i] - step.aim[i];
-        sum += 0.5 * inertia * off.squaredNorm() + mass_[i] * kGravity_m_s2 * points[i].y();
-        const Vec3 force = inertia * off + mass_[i] * kGravity_m_s2 * Vec3::UnitY();
+        sum += 0.5 * inertia * off.squaredNorm() - mass_[i] * step.gravity_m_s2.dot(points[i]);
+        const Vec3 force = inertia * off - mass_[i] * step.gravity_m_s2;
         Eigen::Matrix<double, 3, kMandibleCoordinates> moves;
         for (int k = 0; k < kMandibleCoordinates; ++k) moves.col(k) = pose.velocity(k, points[i]);
         gradient.head<kMandibleCoordinates>() += moves.transpose() * force;

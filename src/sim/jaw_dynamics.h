@@ -26,6 +26,8 @@
 
 namespace risorius::sim {
 
+inline constexpr double kGravity_m_s2 = 9.81;
+
 /// A quadratic energy of the jaw about `at`: what else acts on it.
 struct JawLoad {
     JawVector at = JawVector::Zero();
@@ -43,20 +45,32 @@ class JawDynamics {
     using MassPoints = std::array<Vec3, kMassPoints>;
     struct State {
         JawVector q = JawVector::Zero();
-        MassPoints velocity = still();  ///< m/s
+        MassPoints velocity = still();  ///< through space, in the frame of the head, m/s
     };
     static MassPoints still();
+
+    /// What the head does to it: motion of what rests in space as seen from the step's end, and gravity in the head's frame.
+    struct Carriage {
+        Rigid moved = Rigid::Identity();
+        Vec3 gravity_m_s2 = upright_gravity();
+    };
+    static Vec3 upright_gravity() { return {0, -kGravity_m_s2, 0}; }
 
     /// What a step holds fixed.
     struct Step {
         double h = 0;
         JawVector start = JawVector::Zero();
-        MassPoints from, aim;  ///< p_i(q_n), a_i
+        MassPoints from, aim;  ///< p_i(q_n) carried into the frame of the step's end, a_i
+        Vec3 gravity_m_s2 = upright_gravity();
         std::vector<JawMuscles::Drive> drive;
         Vec3 sling = Vec3::Zero();  ///< where the hyoid is drawn to, from rest
     };
     /// `activation` per column of the rig.
-    Step begin(double h, const State& state, const Eigen::VectorXd& activation) const;
+    Step begin(double h, const State& state, const Eigen::VectorXd& activation,
+               const Carriage& carriage) const;
+    Step begin(double h, const State& state, const Eigen::VectorXd& activation) const {
+        return begin(h, state, activation, Carriage{});
+    }
 
     /// E(q); writes its gradient and a positive second derivative.
     double energy(const Step& step, const JawVector& q, JawVector& gradient,

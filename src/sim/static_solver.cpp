@@ -6,7 +6,7 @@
 
 #include "solve/force_term.h"
 #include "solve/point_sums.h"
-#include "solve/symmetric_factor.h"
+#include "solve/supernodal_cholesky.h"
 
 namespace risorius::sim {
 
@@ -17,7 +17,9 @@ constexpr double kLoose_n_per_m = 1e-6;
 // Farther from equilibrium the exact curvature is hardly ever positive.
 constexpr double kFar_m = 0.5e-3;
 constexpr double kGain = 0.2;  // a round that leaves more than this share of |B g| has B made anew
-constexpr int kMixed = 5;      // rounds that Anderson's mixing looks back
+constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
+constexpr int kRoughRound = 20, kRoughRounds = 6;
+constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
 
 /// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
 /// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
@@ -68,7 +70,7 @@ class FixedPoint {
 
 struct StaticSolver::Linear {
     solve::HessianBuilder hessian;
-    solve::SymmetricFactor factor;
+    solve::SupernodalCholesky factor;
     explicit Linear(const FaceTissue& tissue)
         : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {}
 };
@@ -100,8 +102,7 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
             linear_->hessian.add_diagonal(i, kLoose_n_per_m);
         for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
         ++factors_;
-        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3) ==
-                              solve::Definiteness::kPositive;
+        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
         if (positive || curvature == solve::Curvature::kPositive) break;
     }
     known_ = true;
@@ -111,12 +112,42 @@ void StaticSolver::solve(const Points& b, Points& y) const {
     y = b;
     for (long i = 0; i < y.rows(); ++i)
         if (tissue_.fixed()[static_cast<std::size_t>(i)]) y.row(i).setZero();
-    linear_->factor.solve(y.data(), y.data(), 1);
+    linear_->factor.solve(y.data(), y.data());
+}
+
+// Far from equilibrium iterations with the constant scalar metric of long steps get as far as those with a factor, for a
+// hundredth of its price.
+void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptions& options,
+                            Points& x, StepFigures& figures) {
+    if (known_) {
+        tissue_.begin_rest(x);
+        tissue_.find_rest_contacts(x);
+        energy(x, activation, gradient_);
+        solve(gradient_, move_);
+        if (solve::longest_row(move_) < kFar_m) return;
+    }
+    for (int round = 0; round < kRoughRounds && figures.iterations < options.iterations; ++round) {
+        tissue_.find_rest_contacts(x);
+        const Points start = x;
+        const StepFigures part = tissue_.implicit_step(
+            kRoughStep_s, start, start, activation,
+            {.iterations = std::min(kRoughRound, options.iterations - figures.iterations),
+             .memory = options.memory,
+             .step_cap_m = options.step_cap_m,
+             .tolerance_rms_m = 1e-6},
+            x);
+        figures.iterations += std::max(1, part.iterations);
+        figures.evaluations += part.evaluations;
+        move_ = x - start;
+        if (solve::longest_row(move_) < kFar_m) break;
+    }
+    known_ = false;
 }
 
 StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
                                  Points& x) {
     StepFigures figures;
+    approach(activation, options, x, figures);
     tissue_.begin_rest(x);
     const auto energy_at = [&](const Points& at, Points& gradient) {
         return energy(at, activation, gradient);
@@ -135,7 +166,7 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         return solve::longest_row(move_);
     };
     while (true) {
-        tissue_.find_contacts(where);
+        tissue_.find_rest_contacts(where);
         if (!known_ || !solved) factorise(x, activation, curvature);
         const double left = left_at();
         figures.last_step_rms_m =
@@ -158,8 +189,11 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         if (!solved) fixed_point.forget();
         where = fixed_point.next(where, x);
     }
-    figures.contact_depth_m = ContactSearch::deepest(tissue_.contacts().list(), x);
-    figures.muscle_volume_error = tissue_.solids().greatest_volume_error(x);
+    const StepFigures last = tissue_.end_rest(x);
+    figures.contact_depth_m = last.contact_depth_m;
+    figures.lip_depth_m = last.lip_depth_m;
+    figures.bone_depth_m = last.bone_depth_m;
+    figures.muscle_volume_error = last.muscle_volume_error;
     return figures;
 }
 

@@ -46,6 +46,9 @@ class StaticSolver {
 
   private:
     struct Linear;
+    /// Moves x near the equilibrium, unless it is there.
+    void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
+                  StepFigures& figures);
     double energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient);
 
     FaceTissue& tissue_;

@@ -85,7 +85,9 @@ double folded_share(double compression) {
     const double over = compression - kOnset;
     if (over <= -kSoftness) return 0;
     if (over >= kSoftness) return over;
-    return (over + kSoftness) * (over + kSoftness) / (4 * kSoftness);
+    // As the depth goes with its root, it has to begin with a fourth power for wrinkles to come without a jerk
+    const double t = (over + kSoftness) / (2 * kSoftness);
+    return kSoftness * t * t * t * t * (3 - 2 * t);
 }
 
 Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Points& rest,

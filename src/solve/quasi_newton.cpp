@@ -28,6 +28,26 @@ void QuasiNewton::direction(const InverseMetric& metric) {
     direction_ = -direction_;
 }
 
+// The pair of a step from gradient_ to trial_gradient_, if it shows positive curvature.
+void QuasiNewton::remember(double step_length, const Points& step) {
+    if (pairs_.empty()) return;
+    const int ring = static_cast<int>(pairs_.size());
+    const int next = kept_ == 0 ? 0 : (newest_ + 1) % ring;
+    Pair& p = pairs_[static_cast<std::size_t>(next)];
+    p.step = step_length * step;
+    p.gradient_change = trial_gradient_ - gradient_;
+    const double product = dot(p.step, p.gradient_change);
+    const double smallest =
+        1e-10 * std::sqrt(dot(p.step, p.step) * dot(p.gradient_change, p.gradient_change));
+    if (product > smallest) {
+        p.inverse_product = 1.0 / product;
+        newest_ = next;
+        kept_ = std::min(kept_ + 1, ring);
+    } else if (kept_ == ring) {
+        --kept_;  // the oldest pair has just been written over
+    }
+}
+
 StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCholesky& metric,
                                  Points& x, const QuasiNewtonOptions& options) {
     return minimise(
@@ -35,7 +55,8 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCh
 }
 
 StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseMetric& metric,
-                                 Points& x, const QuasiNewtonOptions& options) {
+                                 Points& x, const QuasiNewtonOptions& options,
+                                 std::span<const Points> likely) {
     const long n = x.rows();
     pairs_.resize(static_cast<std::size_t>(std::max(options.memory, 0)));
     kept_ = 0;
@@ -47,6 +68,19 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
     double e = energy(x, gradient_);
     report.evaluations = 1;
     report.energy_j = e;
+
+    for (const Points& move : likely) {
+        if (move.isZero(0.0)) continue;
+        trial_ = x + move;
+        const double trial_energy = energy(trial_, trial_gradient_);
+        ++report.evaluations;
+        remember(1.0, move);
+        if (trial_energy <= e) {  // written so that a NaN is refused
+            x.swap(trial_);
+            gradient_.swap(trial_gradient_);
+            report.energy_j = e = trial_energy;
+        }
+    }
 
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
         direction(metric);
@@ -93,24 +127,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
             return report;
         }
 
-        // Remember the pair if it shows positive curvature
-        if (!pairs_.empty()) {
-            const int ring = static_cast<int>(pairs_.size());
-            const int next = kept_ == 0 ? 0 : (newest_ + 1) % ring;
-            Pair& p = pairs_[static_cast<std::size_t>(next)];
-            p.step = t * direction_;
-            p.gradient_change = trial_gradient_ - gradient_;
-            const double product = dot(p.step, p.gradient_change);
-            const double smallest =
-                1e-10 * std::sqrt(dot(p.step, p.step) * dot(p.gradient_change, p.gradient_change));
-            if (product > smallest) {
-                p.inverse_product = 1.0 / product;
-                newest_ = next;
-                kept_ = std::min(kept_ + 1, ring);
-            } else if (kept_ == ring) {
-                --kept_;  // the oldest pair has just been written over
-            }
-        }
+        remember(t, direction_);
         x.swap(trial_);
         gradient_.swap(trial_gradient_);
         e = trial_energy;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/types.h"
@@ -48,8 +49,10 @@ class QuasiNewton {
   public:
     StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                         const QuasiNewtonOptions& options);
+    /// `likely` are moves to try first, one after the other, such as the one the step before ended with: each costs an
+    /// evaluation but no solve, and its curvature is remembered even where it does not lead downhill.
     StepReport minimise(const EnergyAndGradient& energy, const InverseMetric& metric, Points& x,
-                        const QuasiNewtonOptions& options);
+                        const QuasiNewtonOptions& options, std::span<const Points> likely = {});
 
   private:
     struct Pair {
@@ -59,6 +62,7 @@ class QuasiNewton {
         double alpha;
     };
     void direction(const InverseMetric& metric);
+    void remember(double step_length, const Points& step);
 
     std::vector<Pair> pairs_;  ///< ring of options.memory pairs
     int newest_ = 0;

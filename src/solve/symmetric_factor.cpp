@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solve/detail/nested_dissection.h"
+
 namespace risorius::solve {
 
 namespace {
@@ -27,20 +29,6 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& A) {
     view.dtype = CHOLMOD_DOUBLE;
     view.sorted = view.packed = 1;
     return view;
-}
-
-/// The pattern of nodes of a matrix of block x block blocks, lower triangle
-Eigen::SparseMatrix<double> node_pattern(const Eigen::SparseMatrix<double>& A, int block) {
-    const int n = static_cast<int>(A.rows()) / block;
-    std::vector<Eigen::Triplet<double, int>> entries;
-    entries.reserve(static_cast<std::size_t>(A.nonZeros() / (block * block) + n));
-    for (int j = 0; j < n; ++j)  // the first column of a node lists all its rows
-        for (Eigen::SparseMatrix<double>::InnerIterator it(A, j * block); it; ++it)
-            if (it.row() % block == 0 || it.row() / block == j)
-                entries.emplace_back(static_cast<int>(it.row()) / block, j, 1.0);
-    Eigen::SparseMatrix<double> pattern(n, n);
-    pattern.setFromTriplets(entries.begin(), entries.end());
-    return pattern;
 }
 
 }  // namespace
@@ -85,19 +73,7 @@ struct SymmetricFactor::Impl {
 // The nodes are ordered by nested dissection and their coordinates kept together.
 void SymmetricFactor::Impl::order(const Eigen::SparseMatrix<double>& A, int block) {
     cholmod_free_factor(&factor, &common);
-    const Eigen::SparseMatrix<double> nodes = node_pattern(A, block);
-    cholmod_sparse graph = view_of(nodes);
-    common.method[0].ordering = CHOLMOD_NESDIS;
-    cholmod_factor* const ordering = cholmod_analyze(&graph, &common);
-    if (ordering == nullptr) throw std::invalid_argument("SymmetricFactor: no ordering found");
-    std::vector<int> order(static_cast<std::size_t>(A.rows()));
-    const auto* perm = static_cast<const int*>(ordering->Perm);
-    for (std::size_t i = 0; i < order.size(); ++i)
-        order[i] = perm[i / static_cast<std::size_t>(block)] * block +
-                   static_cast<int>(i % static_cast<std::size_t>(block));
-    cholmod_factor* done = ordering;
-    cholmod_free_factor(&done, &common);
-
+    std::vector<int> order = detail::nested_dissection(A, block);
     cholmod_sparse view = view_of(A);
     common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder = 0;  // the nodes are in post-order already

@@ -7,7 +7,70 @@
 
 namespace risorius::tissue {
 
-void Contacts::set(std::vector<Contact> contacts) { contacts_ = std::move(contacts); }
+namespace {
+
+constexpr double kGreatestShift_m = 4e-3;  // what cannot be pushed out is not pushed ever harder
+constexpr double kForgetting = 0.25;       // of the shift that a contact without penetration loses
+
+// Of pairs that stick: share dc they have opened, 0 when they do not pull.
+double opened(const Contacts::Contact& contact, double gap) {
+    if (!contact.let_go_m || contact.stick_n <= 0) return 0;
+    return std::clamp((gap - *contact.let_go_m) / contact.stick_m, 0.0, 1.0);
+}
+
+}  // namespace
+
+void Contacts::set(std::vector<Contact> contacts) {
+    contacts_ = std::move(contacts);
+    for (Contact& contact : contacts_) {
+        if (contact.slot < 0) continue;
+        const auto known =
+            std::lower_bound(memory_.begin(), memory_.end(), contact.slot,
+                             [](const Memory& memory, int slot) { return memory.slot < slot; });
+        if (known == memory_.end() || known->slot != contact.slot) continue;
+        contact.shift_m = known->shift_m;
+        contact.let_go_m = known->let_go_m;
+    }
+}
+
+void Contacts::remember(const Points& x) {
+    memory_.clear();
+    for (Contact& contact : contacts_) {
+        if (contact.slot < 0) continue;
+        const double now = gap(contact, x), beyond = now - contact.rest_gap_m;
+        // Falling back more slowly than it rises keeps contacts that come and go from rattling
+        const double change = beyond < 0 ? -beyond : -std::max(kForgetting * beyond, 1e-7);
+        contact.shift_m = std::clamp(contact.shift_m + change, 0.0, kGreatestShift_m);
+        if (contact.stick_n > 0) {
+            const double push = -pull_n(contact, x);
+            if (push > 0.1 * contact.stick_n)
+                contact.let_go_m = now;
+            else if (contact.let_go_m && now > *contact.let_go_m + contact.stick_m)
+                contact.let_go_m.reset();
+        }
+        if (contact.shift_m > 0 || contact.let_go_m)
+            memory_.push_back({contact.slot, contact.shift_m, contact.let_go_m});
+    }
+    std::sort(memory_.begin(), memory_.end(),
+              [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
+}
+
+void Contacts::set_firm(std::vector<Contact> contacts, double firmer) {
+    contacts_ = std::move(contacts);
+    for (Contact& contact : contacts_) contact.stiffness_n_per_m *= firmer;
+}
+
+void Contacts::remember_firm(const Points& x, double firmer) {
+    memory_.clear();
+    for (const Contact& contact : contacts_) {
+        const double depth = contact.rest_gap_m - gap(contact, x);
+        if (contact.slot < 0 || depth <= 0) continue;
+        memory_.push_back(
+            {contact.slot, std::min((firmer - 1) * depth, kGreatestShift_m), std::nullopt});
+    }
+    std::sort(memory_.begin(), memory_.end(),
+              [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
+}
 
 double Contacts::gap(const Contact& contact, const Points& x) {
     Vec3 d = x.row(contact.node).transpose() - contact.point;
@@ -16,23 +79,41 @@ double Contacts::gap(const Contact& contact, const Points& x) {
     return d.dot(contact.normal);
 }
 
+double Contacts::pull_n(const Contact& contact, const Points& x) {
+    const double now = gap(contact, x);
+    const double u = opened(contact, now);
+    return contact.stiffness_n_per_m * std::min(0.0, now - contact.rest_gap_m - contact.shift_m) +
+           contact.stick_n * 6.75 * u * (1 - u) * (1 - u);
+}
+
 double Contacts::add_energy(const Points& x, Points& gradient) const {
     double energy = 0;
     for (const Contact& contact : contacts_) {
-        const double depth = gap(contact, x) - contact.rest_gap_m;
-        if (depth >= 0) continue;
-        energy += 0.5 * contact.stiffness_n_per_m * depth * depth;
-        const Vec3 push = contact.stiffness_n_per_m * depth * contact.normal;
-        gradient.row(contact.node) += push.transpose();
+        const double now = gap(contact, x);
+        const double depth = now - contact.rest_gap_m - contact.shift_m;
+        const double u = opened(contact, now);
+        if (depth >= 0 && u <= 0) continue;
+        double pull = 0;
+        if (depth < 0) {
+            energy += 0.5 * contact.stiffness_n_per_m * depth * depth;
+            pull += contact.stiffness_n_per_m * depth;
+        }
+        if (u > 0) {
+            energy += contact.stick_n * contact.stick_m * 6.75 * u * u *
+                      (0.5 - u * (2.0 / 3.0 - 0.25 * u));
+            pull += contact.stick_n * 6.75 * u * (1 - u) * (1 - u);
+        }
+        const Vec3 along = pull * contact.normal;
+        gradient.row(contact.node) += along.transpose();
         for (int i = 0; i < contact.count; ++i)
-            gradient.row(contact.others[i]) -= contact.weights[i] * push.transpose();
+            gradient.row(contact.others[i]) -= contact.weights[i] * along.transpose();
     }
     return energy;
 }
 
 void Contacts::add_hessian(const Points& x, solve::HessianBuilder& hessian) const {
     for (const Contact& contact : contacts_) {
-        const bool apart = gap(contact, x) >= contact.rest_gap_m;
+        const bool apart = gap(contact, x) >= contact.rest_gap_m + contact.shift_m;
         const Mat3 block =
             (apart ? 0.0 : contact.stiffness_n_per_m) * contact.normal * contact.normal.transpose();
         hessian.add(contact.node, contact.node, block);
@@ -47,8 +128,7 @@ void Contacts::add_hessian(const Points& x, solve::HessianBuilder& hessian) cons
 
 double Contacts::max_penetration(const Points& x) const {
     double deepest = 0;
-    for (const Contact& contact : contacts_)
-        deepest = std::max(deepest, contact.rest_gap_m - gap(contact, x));
+    for (const Contact& contact : contacts_) deepest = std::max(deepest, depth(contact, x));
     return deepest;
 }
 

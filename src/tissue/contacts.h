@@ -1,13 +1,19 @@
-// Penalty contact between single nodes and planes, with the pairs and normals frozen by the caller
-// for the length of a solve: searching them anew inside the energy breaks its line search.
+// Contact between single nodes and planes, with the pairs and normals frozen by the caller for the length of a solve:
+// searching them anew inside the energy breaks its line search.
 //
-//   gap = (x_a - sum w_i x_i - p) . n        E = kc/2 min(0, gap - g)^2
+//   gap = (x_a - sum w_i x_i - p) . n     d = gap - g - s     E = kc/2 min(0, d)^2 + Es(gap)
 //
 // The plane is carried by up to four other nodes with weights w (p is then the constant offset from
 // them, usually zero), or by none and p is a point of it. g is the rest gap min(0, gap at rest), so
-// that rest is free of force.
+// that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by what is left of the
+// penetration, so that steps on end press as hard as they must without a stiffness that would slow the solver.
+//
+// Es: what was pressed together sticks a little. Opened by u dc beyond where it was let go, it pulls with
+//   T = Tmax 27/4 u (1-u)^2,   0 < u < 1,   Tmax at u = 1/3
+// and is free from u = 1 on.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/types.h"
@@ -30,19 +36,42 @@ class Contacts {
         Vec3 normal = Vec3::UnitZ();       ///< n, length 1, towards node a
         double rest_gap_m = 0;             ///< g <= 0
         double stiffness_n_per_m = 0;      ///< kc
-        int body = 0;                      ///< what p rides on, as the caller counts bodies
+        int body = 0;      ///< what p rides on or belongs to, as the caller counts bodies
+        double share = 1;  ///< how far the plane stands for what is there, [0, 1]
+        int slot = -1;  ///< names the contact from one list to the next; -1: it is not remembered
+        double stick_n = 0;              ///< Tmax; 0: it does not stick
+        double stick_m = 0;              ///< dc
+        double shift_m = 0;              ///< s >= 0, from memory
+        std::optional<double> let_go_m;  ///< gap from which on it sticks, from memory
     };
 
+    /// What is remembered of slots in `contacts` is put into them; of others it is forgotten.
     void set(std::vector<Contact> contacts);
     const std::vector<Contact>& list() const { return contacts_; }
     std::vector<Contact>& list() { return contacts_; }
 
+    /// After a solve that ended at x: presses harder where something is left, and remembers what sticks.
+    void remember(const Points& x);
+    void forget() { memory_.clear(); }
+
+    /// For solvers that a stiff contact does not slow: the same list without memory, `firmer` times as stiff.
+    void set_firm(std::vector<Contact> contacts, double firmer);
+    /// After such a solve: what makes the next list from set() press as hard.
+    void remember_firm(const Points& x, double firmer);
+
     static double gap(const Contact& contact, const Points& x);  ///< m
+    /// dE/dgap, N: < 0 pushes apart, > 0 sticks.
+    static double pull_n(const Contact& contact, const Points& x);
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
     double add_energy(const Points& x, Points& gradient) const;
 
-    /// Adds the second derivative at x, which has no negative part; pairs apart are named too, so that the pattern does not
+    /// Penetration beyond the one at rest as far as the plane stands, m; <= 0 when it does not touch.
+    static double depth(const Contact& contact, const Points& x) {
+        return contact.share * (contact.rest_gap_m - gap(contact, x));
+    }
+
+    /// Adds the second derivative at x but for what sticks, which has no negative part then; pairs apart are named too, so that the pattern does not
     /// hang on what touches.
     void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;
 
@@ -50,7 +79,13 @@ class Contacts {
     double max_penetration(const Points& x) const;
 
   private:
+    struct Memory {
+        int slot;
+        double shift_m;
+        std::optional<double> let_go_m;
+    };
     std::vector<Contact> contacts_;
+    std::vector<Memory> memory_;  // ascending slots
 };
 
 /// Pairs change from step to step but the metric must not: every node that may ever touch gets

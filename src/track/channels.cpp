@@ -15,8 +15,11 @@ const std::array<KinematicChannel, kKinematicCount>& kinematic_channels() {
         {"head_pitch_deg", -55, 65},
         {"head_roll_deg", -42, 42},
         {"head_forward_mm", -60, 80},
+        {"head_up_mm", -200, 200},
+        {"head_side_mm", -200, 200},
         {"mouth_pressure_pa", -5000, 5000},
         {"tongue_out", 0, 1},
+        {"tongue_up", -1, 1},
     }};
     return kChannels;
 }

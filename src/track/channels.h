@@ -34,12 +34,16 @@ enum class Kinematic {
     kHeadYaw,
     kHeadPitch,
     kHeadRoll,
-    // mm
+    // mm; side > 0 is the subject's left
     kHeadForward,
+    kHeadUp,
+    kHeadSide,
     // Pa in the oral cavity, > 0 puffs the cheeks
     kMouthPressure,
     // Ratio of the rig's protrusion range
     kTongueOut,
+    // Ratio of the curl of its tip, up or down
+    kTongueUp,
     kCount
 };
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);

@@ -1,7 +1,9 @@
 #include "track/script.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "track/emg_source.h"
 #include "track/timeline.h"
@@ -11,6 +13,11 @@ namespace risorius::track {
 namespace {
 
 constexpr double kLongest_s = 3600;
+constexpr double kGreatestGravity_m_s2 = 50;
+constexpr double kMostAsymmetry = 0.5;
+constexpr double kLatestSide_s =
+    0.040;  // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart
+constexpr double kBlinkApart_s = 0.3;  // of idle blinks from those a script writes
 
 ScriptView read_view(const JsonCursor& json) {
     json.allow_keys({"width_px", "height_px", "camera", "show", "background"});
@@ -39,9 +46,21 @@ ScriptView read_view(const JsonCursor& json) {
     return view;
 }
 
+std::optional<Vec3> read_gravity(const JsonCursor& json) {
+    if (json.is_array()) {
+        const Vec3 gravity = json.vec3();
+        if (!(gravity.norm() <= kGreatestGravity_m_s2))
+            json.fail("an acceleration of at most " + format_number(kGreatestGravity_m_s2) +
+                      " m/s^2");
+        return gravity;
+    }
+    if (!json.json().is_boolean()) json.fail("true, false or [x, y, z] in m/s^2");
+    return json.boolean() ? ScriptHeader{}.gravity_m_s2 : std::nullopt;
+}
+
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "channels",
-                     "emg", "events", "view"});
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
+                     "gravity", "channels", "emg", "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
@@ -60,6 +79,10 @@ ScriptHeader read_header(const JsonCursor& json) {
     if (const auto v = json.find("jaw"))
         header.jaw = v->one_of({"channels", "muscles"}) == "muscles" ? JawDrive::kMuscles
                                                                      : JawDrive::kChannels;
+    if (const auto v = json.find("motion"))
+        header.motion = v->one_of({"dynamic", "quasi_static"}) == "dynamic" ? Motion::kDynamic
+                                                                            : Motion::kQuasiStatic;
+    if (const auto v = json.find("gravity")) header.gravity_m_s2 = read_gravity(*v);
     if (const auto v = json.find("view")) header.view = read_view(*v);
     return header;
 }
@@ -93,9 +116,11 @@ class Reader {
         return track;
     }
 
-    ExpressionEvent expression(const JsonCursor& json, double duration_s) const {
-        json.allow_keys(
-            {"expression", "intensity", "start_s", "onset_s", "hold_s", "offset_s", "side"});
+    ExpressionEvent expression(const JsonCursor& json, const ScriptHeader& header,
+                               int number) const {
+        const double duration_s = header.duration_s;
+        json.allow_keys({"expression", "intensity", "start_s", "onset_s", "hold_s", "offset_s",
+                         "side", "asymmetry"});
         const JsonCursor name = json.at("expression");
         const Expression* usual = expressions_.find(name.string());
         if (!usual) {
@@ -117,13 +142,31 @@ class Reader {
         event.hold_s = optional_number(json, "hold_s", usual->hold_s, {0, kLongest_s});
         event.offset_s = optional_number(json, "offset_s", usual->offset_s, {0, 60});
         event.side = read_side(json);
+        event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMostAsymmetry});
+        // Chance is drawn the same way by every standard library
+        std::seed_seq seed{header.seed, number};
+        std::mt19937 random(seed);
+        const Side weaker = random() % 2 ? Side::kLeft : Side::kRight;
+        const double chance = (random() >> 8) * 0x1p-24;
+        const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
         for (const ExpressionUnit& part : usual->units) {
             // A unit that is one-sided in the table moves over to the side the event asks for.
             const std::optional<Side> side = event.side ? event.side : part.use.side;
-            Expansion drives = Expansion::none(channels_);
-            drives.add(expand(*facs_.find(part.use.unit), side, channels_),
-                       part.use.value * event.intensity);
-            event.parts.push_back({std::move(drives), part.delay});
+            const ActionUnit& unit = *facs_.find(part.use.unit);
+            const auto add = [&](std::optional<Side> on, double share, double delay) {
+                Expansion drives = Expansion::none(channels_);
+                drives.add(expand(unit, on, channels_), share * part.use.value * event.intensity);
+                event.parts.push_back({std::move(drives), std::min(delay, 0.9)});
+            };
+            if (event.asymmetry == 0 || side || !unit.sided) {
+                add(side, 1, part.delay);
+                continue;
+            }
+            for (const Side one : {Side::kLeft, Side::kRight})
+                if (one == weaker)
+                    add(one, 1 - event.asymmetry * (0.5 + 0.5 * chance), part.delay + lag);
+                else
+                    add(one, 1, part.delay);
         }
         return event;
     }
@@ -138,14 +181,53 @@ class Reader {
             optional_number(options, "duration_s", event.duration_s, {kShortestBlink_s, 2});
         event.intensity = optional_number(options, "intensity", 1, {0, 1});
         event.side = read_side(options);
-        const ActionUnit* unit = facs_.find("AU45");
-        if (!unit) json.at("blink").fail("a rig whose facs table has AU45", "none");
-        event.drives = Expansion::none(channels_);
-        event.drives.add(expand(*unit, event.side, channels_), event.intensity);
+        close_lids(json.at("blink"), event);
         return event;
     }
 
+    IdleEvent idle(const JsonCursor& json, const ScriptHeader& header, int number) const {
+        json.allow_keys({"idle", "start_s", "end_s", "duration_s"});
+        IdleEvent event;
+        event.options = read_idle_options(json.at("idle"));
+        event.seed = header.seed;
+        event.number = number;
+        event.start_s = optional_number(json, "start_s", 0, {0, header.duration_s});
+        event.end_s = header.duration_s;
+        if (json.has("end_s") && json.has("duration_s"))
+            json.fail("either \"end_s\" or \"duration_s\"", "both");
+        if (const auto v = json.find("end_s")) event.end_s = v->number({event.start_s, kLongest_s});
+        if (const auto v = json.find("duration_s"))
+            event.end_s = event.start_s + v->number({0, kLongest_s});
+        return event;
+    }
+
+    /// Of an idle face, but for those that fall together with what a script writes.
+    void add_idle_blinks(const JsonCursor& json, const IdleEvent& idle,
+                         std::vector<BlinkEvent>& blinks) const {
+        const std::vector<BlinkEvent> written = blinks;
+        for (const IdleBlink& blink : idle_blinks(idle)) {
+            BlinkEvent event;
+            event.start_s = blink.start_s;
+            event.intensity = blink.intensity;
+            const double end_s = event.start_s + event.duration_s;
+            if (std::any_of(written.begin(), written.end(), [&](const BlinkEvent& other) {
+                    return other.start_s < end_s + kBlinkApart_s &&
+                           event.start_s < other.start_s + other.duration_s + kBlinkApart_s;
+                }))
+                continue;
+            close_lids(json.at("idle"), event);
+            blinks.push_back(std::move(event));
+        }
+    }
+
   private:
+    void close_lids(const JsonCursor& place, BlinkEvent& event) const {
+        const ActionUnit* unit = facs_.find("AU45");
+        if (!unit) place.fail("a rig whose facs table has AU45", "none");
+        event.drives = Expansion::none(channels_);
+        event.drives.add(expand(*unit, event.side, channels_), event.intensity);
+    }
+
     /// Also gives the range of the channel's values and whether it is a muscle.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
                       bool& is_muscle) const {
@@ -242,16 +324,29 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
         script.emg = read_emg(*emg, channels);
         script.recordings.push_back(emg->at("file").path());
     }
-    if (const auto events = json.find("events"))
+    if (const auto events = json.find("events")) {
+        std::vector<JsonCursor> idle;
         for (const JsonCursor& event : events->items()) {
-            if (event.has("expression") == event.has("blink"))
-                event.fail("an event with either \"expression\" or \"blink\"",
-                           event.has("blink") ? "both" : "neither");
+            const int kinds = event.has("expression") + event.has("blink") + event.has("idle");
+            if (kinds != 1)
+                event.fail("an event with one of \"expression\", \"blink\" and \"idle\"",
+                           kinds == 0   ? "none"
+                           : kinds == 2 ? "two"
+                                        : "three");
             if (event.has("expression"))
-                script.expressions.push_back(reader.expression(event, script.header.duration_s));
-            else
+                script.expressions.push_back(reader.expression(
+                    event, script.header, static_cast<int>(script.expressions.size())));
+            else if (event.has("blink"))
                 script.blinks.push_back(reader.blink(event, script.header.duration_s));
+            else
+                idle.push_back(event);
         }
+        for (const JsonCursor& event : idle) {
+            script.idle.push_back(
+                reader.idle(event, script.header, static_cast<int>(script.idle.size())));
+            reader.add_idle_blinks(event, script.idle.back(), script.blinks);
+        }
+    }
     return script;
 }
 

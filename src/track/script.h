@@ -11,6 +11,7 @@
 #include "track/channels.h"
 #include "track/curve.h"
 #include "track/facs.h"
+#include "track/idle.h"
 
 namespace risorius::track {
 
@@ -23,6 +24,9 @@ struct ScriptView {
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
 };
 
+/// Through inertia and damping, or every frame in equilibrium with its drive.
+enum class Motion { kDynamic, kQuasiStatic };
+
 /// What can be known before the rig is.
 struct ScriptHeader {
     std::string rig;                 ///< as written
@@ -31,6 +35,9 @@ struct ScriptHeader {
     double duration_s = 0;           ///< (0, 3600], at least one frame
     int seed = 1;
     JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
+    Motion motion = Motion::kDynamic;    ///< "dynamic" or "quasi_static"
+    /// true: 9.81 m/s^2 downwards; false, none here: however the head is held it hangs as upright; or a vector
+    std::optional<Vec3> gravity_m_s2{Vec3(0, -9.81, 0)};
     ScriptView view;
 
     int frame_count() const;
@@ -56,6 +63,8 @@ struct ExpressionEvent {
     std::string expression;
     std::optional<Side> side;  ///< none: as the table says
     double intensity = 1;      ///< [0, 1]
+    double asymmetry =
+        0;  ///< how much weaker one side may be, by chance; it is up to 40 ms late, [0, 0.5]
     double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
     std::vector<Part> parts;
 };
@@ -80,7 +89,8 @@ struct ScriptDescription {
     std::vector<ChannelTrack> channels;
     std::vector<EmgTrack> emg;
     std::vector<ExpressionEvent> expressions;
-    std::vector<BlinkEvent> blinks;
+    std::vector<BlinkEvent> blinks;  ///< those of idle events too
+    std::vector<IdleEvent> idle;
     std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
 };
 

@@ -22,6 +22,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
       expressions_(script.expressions),
       blinks_(script.blinks),
       column_min_(channels.column_min()) {
+    for (const IdleEvent& idle : script.idle) idle_.emplace_back(idle);
     for (const ChannelTrack& channel : script.channels) {
         Curve curve(channel.keys, channel.interpolation);
         if (!channel.activation) {
@@ -53,6 +54,11 @@ Drive Timeline::at(double t_s) const {
         // Drive taken away (the levator) leads drive given (orbicularis).
         sum.excitation += fires ? blink.drives.excitation
                                 : Eigen::VectorXd(blink.drives.excitation.cwiseMin(0.0));
+    }
+
+    for (const IdleMotion& idle : idle_) {
+        const KinematicValues values = idle.at(t_s);
+        for (std::size_t k = 0; k < values.size(); ++k) sum.kinematic[k] += values[k];
     }
 
     // What a face can do

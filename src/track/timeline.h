@@ -42,6 +42,7 @@ class Timeline {
     std::vector<DirectActivation> activations_;
     std::vector<ExpressionEvent> expressions_;
     std::vector<BlinkEvent> blinks_;
+    std::vector<IdleMotion> idle_;
     Eigen::VectorXd column_min_;
 };
 

@@ -29,7 +29,7 @@ std::string refusal(const fs::path& folder) {
 }
 
 constexpr const char* kExpected =
-    ": expected a new folder, an empty one, or one with nothing but results of risorius figure, "
+    ": expected a new folder, an empty one, or one with nothing but results of an earlier run, "
     "found ";
 
 TEST(StagedFolder, AppearsWhole) {

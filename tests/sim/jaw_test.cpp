@@ -173,11 +173,47 @@ TEST(JawOpening, TheTongueLiesInTheLowerJaw) {
             now = pose.vertices.row(v).transpose();
         }
     EXPECT_LT(now.y() - rest.y(), -10e-3);
-    const FacePose out = settled(face(), with_kinematic(Kinematic::kTongueOut, 1.0));
-    double furthest = 0;
-    for (int v : vertices_of("tongue"))
-        furthest = std::max(furthest, out.vertices(v, 2) - head().vertices(v, 2));
-    EXPECT_NEAR(furthest, 1e-3 * rig::adult().rig.facs.ranges.tongue_out_mm, 2e-3);
+}
+
+double tongue_tip_m(const FacePose& pose, int axis) {
+    double most = -1;
+    for (int v : vertices_of("tongue")) most = std::max(most, pose.vertices(v, axis));
+    return most;
+}
+
+TEST(JawOpening, LetsTheTongueOutWhichShutTeethHoldBack) {
+    const double rest = tongue_tip_m(settled(face(), neutral()), 2);
+    const track::Drive shut = with_kinematic(Kinematic::kTongueOut, 1.0);
+    EXPECT_LT(tongue_tip_m(settled(face(), shut), 2), rest + 6e-3);
+    const FacePose open = settled(face(), with_kinematic(Kinematic::kJawOpen, 0.4, shut));
+    const double range = 1e-3 * rig::adult().rig.facs.ranges.tongue_out_mm;
+    EXPECT_GT(tongue_tip_m(open, 2), rest + 0.5 * range);
+    EXPECT_LT(tongue_tip_m(open, 2), rest + range);
+    // Over the lower lip, not through it
+    const double lip = at(open.vertices, "stoi").y();
+    for (int v : vertices_of("tongue")) {
+        const Vec3 p = open.vertices.row(v).transpose();
+        const Vec3 from_lip = p - at(open.vertices, "stoi");
+        if (std::abs(from_lip.z()) < 2e-3 && std::abs(p.x()) < 4e-3) EXPECT_GT(p.y(), lip - 2e-3);
+    }
+}
+
+TEST(JawOpening, TheTongueLiftsItsTip) {
+    const track::Drive open = with_kinematic(Kinematic::kJawOpen, 0.5);
+    const auto foremost_y = [&](const FacePose& pose) {
+        double z = -1, y = 0;
+        for (int v : vertices_of("tongue"))
+            if (head().vertices(v, 2) > z) {
+                z = head().vertices(v, 2);
+                y = pose.vertices(v, 1);
+            }
+        return y;
+    };
+    const double level = foremost_y(settled(face(), open));
+    EXPECT_GT(foremost_y(settled(face(), with_kinematic(Kinematic::kTongueUp, 1.0, open))),
+              level + 6e-3);
+    EXPECT_LT(foremost_y(settled(face(), with_kinematic(Kinematic::kTongueUp, -1.0, open))),
+              level - 3e-3);
 }
 
 }  // namespace

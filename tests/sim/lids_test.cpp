@@ -17,6 +17,48 @@ track::Drive gaze(double yaw_deg, double pitch_deg, track::Drive drive = neutral
     return with_kinematic(Kinematic::kGazePitchRight, pitch_deg, drive);
 }
 
+/// The largest stretch, mm, along which the eye's centre looks out between the lids; over the whole fissure and beyond.
+double largest_gap_mm(const rig::Head& head, const EyeLids& lids, const Points& vertices) {
+    constexpr int kPlaces = 90, kAngles = 900;
+    constexpr double kLowest = -1.0, kAngle = 0.002;
+    std::vector<std::vector<char>> covered(kPlaces, std::vector<char>(kAngles, 0));
+    const auto place_at = [](int i) { return -0.03 + 1.06 * i / (kPlaces - 1); };
+    for (const Triangles* triangles : {&head.skin, &head.lining})
+        for (long f = 0; f < triangles->rows(); ++f) {
+            std::array<double, 3> place, angle;
+            bool near = true;
+            for (int k = 0; k < 3 && near; ++k) {
+                const Vec3 p = vertices.row((*triangles)(f, k)).transpose();
+                near =
+                    (p - lids.centre()).norm() < lids.zone_m() + 16e-3 && p.z() > lids.centre().z();
+                place[k] = lids.place_of(p);
+                angle[k] = lids.angle_of(p);
+            }
+            for (int i = 0; near && i < kPlaces; ++i) {
+                double low = 1e9, high = -1e9;
+                for (int k = 0; k < 3; ++k) {
+                    const int l = (k + 1) % 3;
+                    if ((place[k] <= place_at(i)) == (place[l] <= place_at(i))) continue;
+                    const double t = (place_at(i) - place[k]) / (place[l] - place[k]);
+                    low = std::min(low, angle[k] + t * (angle[l] - angle[k]));
+                    high = std::max(high, angle[k] + t * (angle[l] - angle[k]));
+                }
+                for (int a = std::max(0, static_cast<int>(std::ceil((low - kLowest) / kAngle)));
+                     a < kAngles && kLowest + a * kAngle <= high; ++a)
+                    covered[i][a] = 1;
+            }
+        }
+    int longest = 0;
+    for (const std::vector<char>& column : covered) {
+        int run = 0;
+        for (int a = 100; a < kAngles - 150; ++a) {
+            run = column[a] ? 0 : run + 1;
+            longest = std::max(longest, run);
+        }
+    }
+    return longest * kAngle * 1e3 * lids.zone_m();
+}
+
 class Lids : public testing::Test {
   protected:
     static Face& face() {
@@ -27,23 +69,30 @@ class Lids : public testing::Test {
     static double gap_mm(const FacePose& pose, const std::string& side) {
         return 1e3 * (at(pose.vertices, "ps" + side).y() - at(pose.vertices, "pi" + side).y());
     }
+    /// The larger of both eyes' largest gaps.
+    static double gaps_mm(const FacePose& pose) {
+        double largest = 0;
+        for (int side = 0; side < 2; ++side)
+            largest = std::max(
+                largest,
+                largest_gap_mm(face().head(), EyeLids(face().head(), side, 0.96), pose.vertices));
+        return largest;
+    }
     /// How much deeper than at rest the skin around an eye reaches into the eye's surface, mm.
     static double beyond_rest_mm(const FacePose& pose) {
         double worst = 0;
         const rig::Head& head = face().head();
-        const auto angle = [](const Vec3& a, const Vec3& b) {
-            return std::atan2(a.cross(b).norm(), a.dot(b));
-        };
         for (int side = 0; side < 2; ++side) {
             const rig::EyeGeometry& eye = head.eyes[side];
             const Vec3 looks = pose.eye_rotation[side] * eye.forward;
             for (long v = 0; v < head.vertices.rows(); ++v) {
                 if (head.carrier[v] != rig::Carrier::kSkin) continue;
-                const Vec3 before = head.vertices.row(v).transpose() - eye.centre,
-                           now = pose.vertices.row(v).transpose() - eye.centre;
-                if (before.norm() > eye.radius_m + 8e-3 || before.z() < 0) continue;
-                const double at_rest = before.norm() - eye.profile_at(angle(before, eye.forward));
-                const double depth = now.norm() - eye.profile_at(angle(now, looks));
+                const Vec3 before = head.vertices.row(v).transpose();
+                if ((before - eye.centre).norm() > eye.radius_m + 8e-3 ||
+                    before.z() < eye.centre.z())
+                    continue;
+                const double at_rest = eye.distance(before, eye.forward);
+                const double depth = eye.distance(pose.vertices.row(v).transpose(), looks);
                 worst = std::max(worst, std::min(0.0, at_rest) - depth);
             }
         }
@@ -51,13 +100,32 @@ class Lids : public testing::Test {
     }
 };
 
-TEST_F(Lids, ABlinkClosesBothEyes) {
+TEST_F(Lids, ABlinkClosesBothEyesFromCanthusToCanthus) {
     const FacePose open = settled(face(), neutral());
     EXPECT_GT(gap_mm(open, "_l"), 8);
-    for (const char* unit : {"AU43", "AU45"}) {
-        const FacePose closed = settled(face(), with_unit(unit));
-        for (const char* side : {"_l", "_r"}) EXPECT_LT(gap_mm(closed, side), 0.6) << unit << side;
-    }
+    for (const char* unit : {"AU43", "AU45"})
+        EXPECT_LT(gaps_mm(settled(face(), with_unit(unit))), 0.3) << unit;
+    for (const auto& [yaw, pitch] : {std::pair{0., -30.}, {30., 20.}})
+        EXPECT_LT(gaps_mm(settled(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.3)
+            << "over an eye turned " << yaw << " " << pitch;
+}
+
+TEST_F(Lids, HalfABlinkLeavesHalfTheFissure) {
+    const double open = gaps_mm(settled(face(), neutral())),
+                 half = gaps_mm(settled(face(), with_unit("AU45", 0.5)));
+    EXPECT_GT(half, 0.3 * open);
+    EXPECT_LT(half, 0.6 * open);
+}
+
+TEST_F(Lids, ABlinkLeavesTheCanthiWhereTheirTendonsHoldThem) {
+    const Points moved = moved_mm(face(), settled(face(), with_unit("AU45")));
+    for (const char* id : {"en_l", "en_r", "ex_l", "ex_r"})
+        EXPECT_LT(at(moved, id).norm(), 2.0) << id;
+}
+
+TEST_F(Lids, LidsGoAlongWithAnEyeThatLooksAside) {
+    const Points left = moved_mm(face(), settled(face(), gaze(30, 0)));
+    for (const char* id : {"ps_l", "ps_r", "pi_l", "pi_r"}) EXPECT_GT(at(left, id).x(), 0.5) << id;
 }
 
 TEST_F(Lids, WithoutItsLevatorALidFallsAlmostShut) {
@@ -113,24 +181,68 @@ TEST_F(Lids, NoLidEntersItsEye) {
     }
 }
 
-TEST(TarsalPlates, MarginsMeetWhenClosed) {
+TEST_F(Lids, EachBrowUnitMovesItsOwnPartOfTheBrow) {
+    const Points inner = moved_mm(face(), settled(face(), with_unit("AU1"))),
+                 outer = moved_mm(face(), settled(face(), with_unit("AU2"))),
+                 lowered = moved_mm(face(), settled(face(), with_unit("AU4")));
+    EXPECT_GT(at(inner, "bm_l").y(), 3);
+    EXPECT_LT(at(inner, "bl_l").y(), 0.4 * at(inner, "bm_l").y());
+    EXPECT_GT(at(outer, "bp_l").y(), 3);
+    EXPECT_GT(at(outer, "bl_l").y(), 1.5);
+    EXPECT_LT(at(lowered, "bm_l").y(), -1.5);
+    EXPECT_LT(at(lowered, "bp_l").x(), -1.5) << "corrugator draws the brow inwards";
+}
+
+TEST(TarsalPlates, MarginsAreMeasuredOnTheMesh) {
     for (int side = 0; side < 2; ++side) {
         const EyeLids lids(rig::adult_placed(), side, 0.96);
-        const LidPose closed{1.0, 1.0, 0.0, 0.0};
         const std::string suffix = side == 0 ? "_l" : "_r";
-        const Vec3 up = lids.axis().cross(Vec3::UnitZ()).normalized();
-        for (const auto& [upper, lower] : {std::pair{"ulm", "llm"}, {"ps", "pi"}, {"ull", "lll"}}) {
-            const auto after = [&](const std::string& id, bool is_upper) {
-                const Vec3 rest = rig::adult_placed().landmark(id + suffix);
-                const LidMember member = lids.classify(rest, 2e-3, 4e-3, 3e-3);
-                EXPECT_EQ(member.upper, is_upper) << id;
-                EXPECT_GT(member.weight, 0.7) << id;
-                return Vec3(rest + lids.ride(rest, is_upper, member.place, closed));
-            };
-            const Vec3 top = after(upper, true), bottom = after(lower, false);
-            // Thirds of the upper and lower margin need not stand over each other; their heights tell.
-            EXPECT_LT(std::abs((top - bottom).dot(up)), 1e-3) << upper << suffix;
-        }
+        const auto off_mm = [&](const std::string& id, bool upper) {
+            const Vec3 p = rig::adult_placed().landmark(id + suffix);
+            const double s = lids.place_of(p);
+            const double margin = upper ? lids.upper_angle(s) : lids.lower_angle(s);
+            return 1e3 * rig::adult_placed().eyes[side].radius_m * (lids.angle_of(p) - margin);
+        };
+        for (const char* id : {"ulm", "ps", "ull"}) EXPECT_NEAR(off_mm(id, true), 0, 1.5) << id;
+        for (const char* id : {"llm", "pi", "lll"}) EXPECT_NEAR(off_mm(id, false), 0, 1.5) << id;
+        EXPECT_NEAR(1e3 * lids.zone_m() * (lids.upper_angle(0.45) - lids.lower_angle(0.45)),
+                    largest_gap_mm(rig::adult_placed(), lids, rig::adult_placed().vertices), 1.0);
+    }
+}
+
+LidMember on_margin(bool upper, double place) {
+    return {.upper = upper, .place = place, .height = 0, .share = upper ? 1.0 : 0.0, .beyond = 0};
+}
+
+TEST(TarsalPlates, MarginsMeetWhenClosedWhereverTheySlide) {
+    const EyeLids lids(rig::adult_placed(), 0, 0.96);
+    for (const LidPose& pose : {LidPose{.upper_closure = 1, .lower_closure = 1},
+                                LidPose{.upper_closure = 1, .lower_closure = 1, .inward = 1},
+                                LidPose{.upper_closure = 1,
+                                .lower_closure = 1,
+                                .upper_gaze_rad = 0.1,
+                                .lower_gaze_rad = 0.1,
+                                .inward = 1,
+                                .aside_rad = 0.1}}) {
+        // Angles at which the moved margins pass a place, from margin points on either side of it
+        const auto passes = [&](const std::vector<Vec3>& margin, bool upper, double place) {
+            double best = 1e9, angle = 0;
+            for (const Vec3& p : margin) {
+                const double s = lids.place_of(p);
+                const Vec3 rest = p;
+                const double off =
+                    (upper ? lids.upper_angle(s) : lids.lower_angle(s)) - lids.angle_of(rest);
+                const Vec3 moved = rest + lids.ride(rest, on_margin(upper, s), pose);
+                if (std::abs(lids.place_of(moved) - place) > best) continue;
+                best = std::abs(lids.place_of(moved) - place);
+                angle = lids.angle_of(moved) + off;
+            }
+            return angle;
+        };
+        for (double place : {0.2, 0.35, 0.5, 0.65, 0.8})
+            EXPECT_NEAR(passes(lids.upper_margin(), true, place),
+                        passes(lids.lower_margin(), false, place), 0.06)
+                << place;
     }
 }
 
@@ -138,28 +250,52 @@ TEST(TarsalPlates, TheWayIsSharedBetweenTheLids) {
     const EyeLids lids(rig::adult_placed(), 0, 0.96);
     const Vec3 top = rig::adult_placed().landmark("ps_l"),
                bottom = rig::adult_placed().landmark("pi_l");
-    const double down = lids.ride(top, true, 0.5, {1, 1, 0, 0}).norm(),
-                 rise = lids.ride(bottom, false, 0.5, {1, 1, 0, 0}).norm();
+    const LidPose closed{.upper_closure = 1, .lower_closure = 1};
+    const double down = lids.ride(top, on_margin(true, 0.5), closed).norm(),
+                 rise = lids.ride(bottom, on_margin(false, 0.5), closed).norm();
     EXPECT_NEAR(down / (down + rise), 0.96, 0.02);
-    EXPECT_EQ(lids.ride(top, true, 0.5, {0, 0, 0, 0}).norm(), 0.0);
+    EXPECT_EQ(lids.ride(top, on_margin(true, 0.5), {}).norm(), 0.0);
 }
 
-TEST(TarsalPlates, ALidKeepsItsDistanceToTheEyeCentre) {
+TEST(TarsalPlates, ALidThatOnlyTurnsKeepsItsDistanceToTheEyeCentre) {
     const EyeLids lids(rig::adult_placed(), 0, 0.96);
-    for (double closure : {-0.2, 0.3, 0.7, 1.0})
+    for (double closure : {0.3, 0.7, 1.0})
         for (const Vec3& p : lids.upper_margin()) {
-            const Vec3 q = p + lids.ride(p, true, 0.5, {closure, 0, 0, 0});
+            const Vec3 q =
+                p + lids.ride(p, on_margin(true, lids.place_of(p)), {.upper_closure = closure});
             EXPECT_NEAR((q - lids.centre()).norm(), (p - lids.centre()).norm(), 1e-12);
         }
 }
 
-TEST(TarsalPlates, TheCanthiHoldStill) {
+TEST(TarsalPlates, APlateEndsAtCreaseAndCanthi) {
     const EyeLids lids(rig::adult_placed(), 0, 0.96);
-    for (const char* id : {"en_l", "ex_l"})
-        EXPECT_LT(lids.classify(rig::adult_placed().landmark(id), 2e-3, 4e-3, 3e-3).weight, 0.05)
-            << id;
-    EXPECT_EQ(lids.classify(rig::adult_placed().landmark("bm_l"), 2e-3, 4e-3, 3e-3).weight, 0.0);
+    const auto firmness = [&](const Vec3& p) {
+        return EyeLids::firmness(lids.member(p), 0.4, 1.15, 0.2, 0.65);
+    };
+    EXPECT_EQ(firmness(rig::adult_placed().landmark("bm_l")), 0.0);
+    EXPECT_GT(firmness(rig::adult_placed().landmark("ps_l")), 0.9);
+    EXPECT_GT(firmness(rig::adult_placed().landmark("pi_l")), 0.9);
+    const Vec3 outwards = rig::adult_placed().landmark("ex_l") + 8e-3 * lids.axis();
+    EXPECT_EQ(firmness(outwards), 0.0);
+    const LidPose closed{.upper_closure = 1, .lower_closure = 1, .inward = 1};
+    EXPECT_LT(lids.ride(outwards, lids.member(outwards), closed).norm(), 2.5e-3);
 }
+
+class MeasuredHeads : public testing::TestWithParam<const char*> {};
+
+TEST_P(MeasuredHeads, ShutTheirEyes) {
+    const auto test = GetParam() == std::string("ict") ? rig::ict_head() : rig::makehuman_head();
+    if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
+    Face face(test->rig, test->mesh, {"test", 400, 6}, GetParam());
+    const FacePose pose = settled(face, with_unit("AU45"));
+    for (int side = 0; side < 2; ++side) {
+        const EyeLids lids(face.head(), side, 0.96);
+        EXPECT_GT(largest_gap_mm(face.head(), lids, face.head().vertices), 6);
+        EXPECT_LT(largest_gap_mm(face.head(), lids, pose.vertices), 0.3);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lids, MeasuredHeads, testing::Values("ict", "makehuman"));
 
 }  // namespace
 }  // namespace risorius::sim

@@ -97,20 +97,15 @@ TEST(SkinSurface, EvensOutLumpsOfTheTissueAndKeepsItsShape) {
             swell(node(i, j), 2) += 3e-3 * std::cos(std::numbers::pi * i / (kSide - 1));
         }
     const SkinSurface skin = patch.skin();
+    // Of a height over the rest shape, how much is left
     const auto left = [&](Points at) {
-        const Points before = at - patch.rest;
+        const Eigen::VectorXd before = at.col(2) - patch.rest.col(2);
         skin.relax(at);
-        const Points after = at - patch.rest;
-        double share = 0;
-        for (int i = 10; i < 30; ++i)
-            for (int j = 10; j < 30; ++j)
-                share += after(node(i, j), 2) * before(node(i, j), 2) /
-                         std::pow(before.col(2).cwiseAbs().maxCoeff(), 2) / 400;
-        return share;
+        const Eigen::VectorXd after = at.col(2) - patch.rest.col(2);
+        return after.dot(before) / before.squaredNorm();
     };
-    const double of_lumps = left(lumps), of_swell = left(swell), whole = 0.5;
-    EXPECT_LT(of_lumps, 0.45) << "lumps of a millimetre or two hardly show";
-    EXPECT_GT(of_swell / (whole * 0.45), 0.8) << "what is wide stays";
+    EXPECT_LT(left(lumps), 0.45);
+    EXPECT_GT(left(swell), 0.95);
 }
 
 TEST(SkinSurface, LeavesWhatIsHeldAndItsBorder) {
@@ -156,7 +151,7 @@ TEST(Wrinkles, KeepTheLengthOfCompressedSkin) {
         }
         const double at_rest = (to - from) * 0.5e-3;
         const double kept = at_rest * (1 - compression + folded_share(compression));
-        // Lines differ in depth, and sixteen edges cut the corners of a wave.
+        // Lines differ in depth, and twelve edges cut the corners of a wave.
         EXPECT_NEAR(length / kept, 1.0, 0.03) << compression;
         EXPECT_NEAR(along / at_rest, 1.0, 0.01) << "smooth along the lines";
         EXPECT_EQ(folded.depth.cwiseAbs().maxCoeff(), 0.0) << "the mesh shows all of it";
@@ -174,8 +169,8 @@ TEST(Wrinkles, AreLeftToTheRendererWhereTheMeshIsCoarse) {
     for (int i = 8; i < 32; ++i)
         deepest =
             std::max(deepest, shown.vertices(node(i, 20), 2) - shown.vertices.col(2).minCoeff());
-    // Lines are up to 1.4 times as deep as their mean
-    EXPECT_NEAR(told.depth(node(20, 20), 0) * height / deepest, 1.0 / 1.3, 0.2);
+    const double deepest_line = 1 + 0.4 * std::sin(2.4);
+    EXPECT_NEAR(told.depth(node(20, 20), 0) * height * deepest_line / deepest, 1.0, 0.04);
 }
 
 TEST(Wrinkles, BeginSmoothly) {
@@ -242,7 +237,9 @@ TEST(SkinLayer, FoldsTheForeheadOfARaisedBrowAndNothingAtRest) {
         const double depth = pose.fold_depth.row(v).maxCoeff();
         if ((p - forehead).norm() < face.head().mm(12)) deepest = std::max(deepest, depth);
         if (p.y() < face.head().landmark("sn").y()) elsewhere = std::max(elsewhere, depth);
-        if (p.z() < 0) EXPECT_EQ(pose.vertices.row(v), face.head().vertices.row(v)) << v;
+        if (p.z() < 0) {
+            EXPECT_EQ(pose.vertices.row(v), face.head().vertices.row(v)) << v;
+        }
     }
     EXPECT_GT(1e3 * deepest, 0.3) << "mm";
     EXPECT_LT(1e3 * elsewhere, 0.05) << "mm, around a mouth at rest";

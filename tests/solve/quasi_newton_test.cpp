@@ -174,6 +174,75 @@ TEST(QuasiNewton, FixedNodesStayWhereTheyAre) {
     EXPECT_EQ(x.row(0).norm(), 0.0);
 }
 
+/// The pulled bar in balance.
+Points balanced_bar(const SparseCholesky& metric) {
+    Points x = HangingBar::rest();
+    minimise(HangingBar::energy, metric, x, {.iterations = 100, .tolerance_rms_m = 1e-12});
+    return x;
+}
+
+TEST(QuasiNewton, ALikelyMoveThatLeadsDownhillIsTakenWithoutASolve) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    const Points moves[] = {balanced_bar(metric) - HangingBar::rest()};
+    Points x = HangingBar::rest();
+    QuasiNewton solver;
+    const StepReport report = solver.minimise(
+        HangingBar::energy, [](const Points&, Points&) { FAIL() << "solved"; }, x,
+        {.iterations = 0}, moves);
+    EXPECT_EQ(report.evaluations, 2);
+    EXPECT_TRUE((x.array() == (HangingBar::rest() + moves[0]).array()).all());
+    Points gradient(HangingBar::n, 3);
+    EXPECT_EQ(report.energy_j, HangingBar::energy(x, gradient));
+}
+
+// On a quadratic, any move along the way to the minimum tells how far it is, even a metric ten times too stiff.
+TEST(QuasiNewton, ALikelyMoveThatLeadsUphillIsLeftButItsCurvatureCounts) {
+    const int n = 12;
+    const double k = 40;
+    const auto energy = [&](const Points& x, Points& gradient) {
+        gradient.setZero();
+        double e = 0;
+        for (int i = 0; i + 1 < n; ++i) {
+            const Eigen::RowVector3d d = x.row(i + 1) - x.row(i);
+            e += 0.5 * k * d.squaredNorm();
+            gradient.row(i + 1) += k * d;
+            gradient.row(i) -= k * d;
+        }
+        gradient.row(0).setZero();
+        return e;
+    };
+    const SparseCholesky metric = chain_metric(n, 10 * k);
+    const InverseMetric inverse = [&](const Points& b, Points& y) { metric.solve(b, y); };
+    Points start = Points::Zero(n, 3);  // the minimum is where all are at the origin
+    for (int i = 1; i < n; ++i) start.row(i) << 1e-3 * i, 1e-3 * std::sin(i), 0;
+    QuasiNewton solver;
+    const auto left_after = [&](int iterations, std::span<const Points> likely) {
+        Points x = start;
+        solver.minimise(energy, inverse, x, {.iterations = iterations, .step_cap_m = 1}, likely);
+        return x.norm() / start.norm();
+    };
+    for (const double length : {-0.5, 3.0}) {
+        const Points moves[] = {-length * start};
+        EXPECT_EQ(left_after(0, moves), 1.0) << length;
+        EXPECT_LT(left_after(1, moves), 1e-12) << length;
+    }
+    EXPECT_GT(left_after(1, {}), 0.5);
+}
+
+TEST(QuasiNewton, ALikelyMoveThatIsNotANumberDoesNoHarm) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    const InverseMetric inverse = [&](const Points& b, Points& y) { metric.solve(b, y); };
+    const Points moves[] = {
+        Points::Constant(HangingBar::n, 3, std::numeric_limits<double>::quiet_NaN())};
+    Points x = HangingBar::rest(), plain = x;
+    QuasiNewton solver;
+    solver.minimise(HangingBar::energy, inverse, x, {.iterations = 5}, moves);
+    solver.minimise(HangingBar::energy, inverse, plain, {.iterations = 5});
+    EXPECT_TRUE((x.array() == plain.array()).all());
+}
+
 TEST(QuasiNewton, ReusedBuffersLeaveNoTrace) {
     const SparseCholesky metric =
         chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);

@@ -85,7 +85,7 @@ TEST(Facs, LeftAndRightTogetherAreTheWholeUnit) {
 
 TEST(Facs, MillimetresBecomeRatiosOfTheTablesRanges) {
     EXPECT_DOUBLE_EQ(kinematic(unit("AU29"), Kinematic::kJawForward), 8.0 / 9.0);
-    EXPECT_DOUBLE_EQ(kinematic(unit("AU19"), Kinematic::kTongueOut), 12.0 / 45.0);
+    EXPECT_DOUBLE_EQ(kinematic(unit("AU19"), Kinematic::kTongueOut), 20.0 / 45.0);
     EXPECT_EQ(kinematic(unit("AU30.l"), Kinematic::kJawSide), 1.0);
     EXPECT_EQ(kinematic(unit("AU30.r"), Kinematic::kJawSide), -1.0);
     EXPECT_EQ(kinematic(unit("AU27"), Kinematic::kJawOpen), 1.0);

@@ -17,6 +17,7 @@ namespace {
 struct Expression {
     const app::MeasuredShape* shape;
     std::vector<app::ActivationUnknown> unknowns;
+    Eigen::VectorXd price;        // what the table does not list costs more
     Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
     double size;                  // |goal|^2
     long first;                   // of its activations among all unknowns
@@ -55,6 +56,15 @@ class Calibration {
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 one.table[static_cast<long>(i)] = app::value_of(one.unknowns[i], shape.drive);
+            // A lid goes where its table says: the face around it is to be found
+            for (app::ActivationUnknown& unknown : one.unknowns)
+                if (unknown.name.starts_with("levator_palpebrae") ||
+                    unknown.name.starts_with("superior_tarsal"))
+                    unknown.least = unknown.most = app::value_of(unknown, shape.drive);
+            one.price = one.table.unaryExpr(
+                [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
+            for (std::size_t i = 0; i < one.unknowns.size(); ++i)
+                if (!one.unknowns[i].channels.empty()) one.price[static_cast<long>(i)] *= 2;
             Points measured(static_cast<long>(shell.vertex.size()), 3);
             for (std::size_t v = 0; v < shell.vertex.size(); ++v)
                 measured.row(static_cast<long>(v)) = shape.displacement.row(shell.vertex[v]);
@@ -137,8 +147,8 @@ class Calibration {
             out.miss.push_back(weighted(face.skin_nodes() - face.rest_skin_nodes()) - one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
             const Eigen::VectorXd a = z.segment(one.first, one.table.size());
-            out.cost += options_.price * a.lpNorm<1>() +
-                        0.5 * options_.stay * (a - one.table).squaredNorm();
+            out.cost +=
+                one.price.dot(a.cwiseAbs()) + 0.5 * options_.stay * (a - one.table).squaredNorm();
         }
         for (std::size_t p = 0; p < parameters_.size(); ++p) {
             const double off = z[static_cast<long>(p)] / parameters_[p].spread;
@@ -230,7 +240,7 @@ class Calibration {
             problem.A.block(one.first, one.first, own, own) = A.bottomRightCorner(own, own);
             problem.b.head(parameters) += b_local.head(parameters);
             problem.b.segment(one.first, own) = b_local.tail(own) - options_.stay * one.table;
-            problem.price.segment(one.first, own).setConstant(options_.price);
+            problem.price.segment(one.first, own) = one.price;
             problem.A.diagonal().segment(one.first, own).array() += options_.stay;
         }
         for (long i = 0; i < parameters; ++i) {

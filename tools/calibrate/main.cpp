@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     std::filesystem::path rig_file, shapes_file, standard;
     std::vector<std::string> only;
     calibrate::Options options;
-    double least = 0.03;
+    double least = 0.05;
     bool shapes_too = false;
     app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
         ->required();

@@ -1,6 +1,7 @@
 #include "tables.h"
 
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/staged_file.h"
@@ -19,7 +20,11 @@ double short_of(double value) {
 }
 
 std::string line_of(const Json& value) {
-    if (value.is_number_float()) return format_number(std::stod(value.dump()));
+    if (value.is_number_float()) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.9g", value.get<double>() + 0.0);
+        return text;
+    }
     if (!value.is_structured()) return value.dump();
     std::string out;
     for (const auto& [key, one] : value.items()) {
@@ -42,6 +47,12 @@ std::string text_of(const Json& value, int depth, const std::string& indent = ""
         out += --left > 0 ? ",\n" : "\n";
     }
     return out + indent + (value.is_object() ? "}" : "]");
+}
+
+bool searched(const std::string& muscle, const std::vector<app::ActivationUnknown>& unknowns) {
+    for (const app::ActivationUnknown& unknown : unknowns)
+        if (track::split_side(unknown.name).id == muscle) return true;
+    return false;
 }
 
 Json read(const std::filesystem::path& file) { return JsonCursor::read_file(file).json(); }
@@ -80,7 +91,16 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
                   const std::filesystem::path& folder) {
     Json facs = read(folder / "facs.json");
     for (std::size_t e = 0; e < shapes.size(); ++e) {
-        const auto write = [&](const std::string& name, const std::string& side) {
+        const auto write = [&](const std::string& name, const std::string& side,
+                               bool mirrored = false) {
+            const auto sided_name = [&](std::string id) {
+                if (!mirrored) return id;
+                if (id.ends_with(".l"))
+                    id.back() = 'r';
+                else if (id.ends_with(".r"))
+                    id.back() = 'l';
+                return id;
+            };
             Json& shape = facs["arkit"][name];
             // A shape that is one whole unit teaches the unit
             Json* target = &shape;
@@ -94,6 +114,10 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
                 if (sided.side) ending.clear();
             }
             Json muscles = Json::object(), jaw = Json::object();
+            if (target->contains("muscles"))  // what the search did not move stays
+                for (const auto& [id, value] : (*target)["muscles"].items())
+                    if (!searched(track::split_side(id).id, result.unknowns[e]))
+                        muscles[id] = value;
             for (std::size_t i = 0; i < result.unknowns[e].size(); ++i) {
                 const app::ActivationUnknown& unknown = result.unknowns[e][i];
                 double value = rounded(result.activations[e][static_cast<long>(i)], 0.01);
@@ -102,14 +126,15 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
                 if (value == 0 && !(listed && target == &shape)) continue;
                 if (unknown.channels.empty()) {
                     const bool paired = unknown.columns.size() == 2;
-                    muscles[unknown.name + (paired ? ending : "")] =
+                    muscles[sided_name(unknown.name + (paired ? ending : ""))] =
                         !paired && !ending.empty() ? 0.5 * value : value;
                 } else if (unknown.channels.front() == track::Kinematic::kJawOpen) {
                     jaw["open"] = value;
                 } else if (unknown.channels.front() == track::Kinematic::kJawForward) {
                     jaw["protrude_mm"] = rounded(value * rig.facs.ranges.jaw_forward_mm, 0.1);
                 } else if (unknown.channels.front() == track::Kinematic::kJawSide) {
-                    jaw["lateral_mm"] = rounded(value * rig.facs.ranges.jaw_side_mm, 0.1);
+                    jaw["lateral_mm"] =
+                        rounded((mirrored ? -value : value) * rig.facs.ranges.jaw_side_mm, 0.1);
                 }
             }
             (*target)["muscles"] = muscles;
@@ -122,6 +147,9 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
         const bool whole = arkit.contains(name), left = arkit.contains(name + "Left"),
                    right = arkit.contains(name + "Right");
         if (whole) write(name, "");
+        // mouthLeft, jawLeft: the other direction is the mirror image
+        if (whole && shapes[e].sided && name.ends_with("Left"))
+            write(name.substr(0, name.size() - 4) + "Right", "", true);
         if (left) write(name + "Left", ".l");
         if (right) write(name + "Right", ".r");
     }

@@ -37,9 +37,25 @@ void print_solids(const Json& report) {
     }
 }
 
+void print_stress(const Json& one) {
+    std::printf("%s, %s, seed %d: %d steps of random drive, %.1f ms each\n",
+                one["rig"].get<std::string>().c_str(), one["quality"].get<std::string>().c_str(),
+                one["seed"].get<int>(), one["steps"].get<int>(), one["step_ms"].get<double>());
+    std::printf("  %d broken; of %d tets at most %d inverted, %.2f on average\n",
+                one["broken_steps"].get<int>(), one["tets"].get<int>(),
+                one["most_inverted_tets"].get<int>(), one["mean_inverted_tets"].get<double>());
+    std::printf("  skin moved by %.1f mm at most; at rest again %d inverted, %.3f mm left\n",
+                one["furthest_mm"].get<double>(), one["inverted_at_rest"].get<int>(),
+                one["left_at_rest_mm"].get<double>());
+}
+
 void print(const Json& report) {
     std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
                 report["machine"]["cores"].get<int>());
+    if (report.contains("stress")) {
+        for (const Json& one : report["stress"]) print_stress(one);
+        return;
+    }
     for (const Json& solids : report["solids"]) print_solids(solids);
     for (const Json& rig : report["rigs"]) {
         std::printf("%s\n", rig["rig"].get<std::string>().c_str());
@@ -85,6 +101,15 @@ void add_bench(CLI::App& app) {
         ->add_flag("--solids", arguments->only_solids,
                    "Only deformable solids of 13^3, 22^3 and 46^3 nodes, no face")
         ->excludes("--rig");
+    command
+        ->add_option("--stress", arguments->options.stress_steps,
+                     "Only drive the face at random for so many steps, and say what comes of it")
+        ->check(CLI::Range(1, 1000000))
+        ->excludes("--solids");
+    command->add_option("--seed", arguments->options.seed, "Of --stress")->needs("--stress");
+    command->add_option("--quality", arguments->options.quality, "Of --stress")
+        ->check(CLI::IsMember({"preview", "video", "fine"}))
+        ->needs("--stress");
     command->add_option("-o,--out", arguments->out, "Write the report here, as JSON");
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");

@@ -46,21 +46,19 @@ void print_means(const char* what, const app::Evaluation& evaluation,
     std::printf("\n");
 }
 
-void print(const app::Evaluation& evaluation, bool fit) {
+void print(const app::Evaluation& evaluation, const app::EvaluateOptions& options) {
     std::printf("%s, %d nodes, against %s\n", evaluation.rig.c_str(), evaluation.nodes,
                 evaluation.shapes.c_str());
     std::printf(
         "  cos: cosine similarity, rel: relative error (1 without motion), rms, max, landmarks in "
         "mm\n");
     std::printf("  %-20s %6s %6s %6s %6s %6s%s\n", "by the rig's table", "cos", "rel", "rms", "max",
-                "landm", fit ? "   | fitted: cos, rel, rms, max, landm" : "");
-    std::vector<std::string> all;
+                "landm", options.fit ? "   | fitted: cos, rel, rms, max, landm" : "");
     const auto numbers = [](const app::ExpressionScore& score) {
         std::printf("%6.3f %6.3f %6.2f %6.1f %6.2f", score.cosine, score.relative,
                     1e3 * score.rms_m, 1e3 * score.greatest_m, 1e3 * score.landmark_m);
     };
     for (const app::EvaluatedExpression& one : evaluation.expressions) {
-        all.push_back(one.name);
         std::printf("  %-20s ", one.name.c_str());
         numbers(one.table.score);
         if (one.fitted) {
@@ -72,14 +70,10 @@ void print(const app::Evaluation& evaluation, bool fit) {
         if (!one.table.converged) std::printf("  did not come to rest");
         std::printf("\n");
     }
-    print_means("mean", evaluation, all);
-    const auto of = [&](const std::vector<std::string>& names) {
-        return evaluation.means(names, false).count == static_cast<int>(names.size());
-    };
-    if (of(app::sixteen_expressions()))
-        print_means("mean of the 16", evaluation, app::sixteen_expressions());
-    if (of(app::twenty_four_expressions()))
-        print_means("mean of the 24", evaluation, app::twenty_four_expressions());
+    for (const app::ExpressionGroup& group : evaluation.groups())
+        print_means(("mean of " + group.title).c_str(), evaluation, group.names);
+    if (!options.out.empty())
+        std::printf("report: %s\n", (options.out / "index.html").generic_string().c_str());
 }
 
 void compare(EvaluateArguments& arguments) {
@@ -100,7 +94,7 @@ void compare(EvaluateArguments& arguments) {
 
 void run(EvaluateArguments& arguments) {
     if (arguments.options.shapes.empty() == arguments.like.empty())
-        throw Error("evaluate", "one of --shapes and --like",
+        throw Error("evaluate", "--shapes FILE or --like RIG",
                     arguments.like.empty() ? "neither" : "both");
     if (!arguments.like.empty()) return compare(arguments);
     arguments.options.pictures = !arguments.no_pictures;
@@ -112,7 +106,7 @@ void run(EvaluateArguments& arguments) {
     if (arguments.common.json)
         std::printf("%s\n", evaluation.json().dump(2).c_str());
     else if (!arguments.common.quiet)
-        print(evaluation, arguments.options.fit);
+        print(evaluation, arguments.options);
 }
 
 }  // namespace
@@ -123,27 +117,39 @@ void add_evaluate(CLI::App& app) {
     auto arguments = std::make_shared<EvaluateArguments>();
     app::EvaluateOptions& options = arguments->options;
     command->add_option("RIG", options.rig, "The rig whose expressions are tried")->required();
+    command->add_option("--shapes", options.shapes,
+                        "Measured displacements of the vertices of the rig's mesh: JSON beside raw "
+                        "numbers, see \"Measured shapes\" in README.md");
     command->add_option(
-        "--shapes", options.shapes,
-        "Measured displacements of the same mesh's vertices, JSON beside raw numbers");
-    command->add_option("--like", arguments->like,
-                        "Another rig, instead: do both heads make the same expressions?");
-    command->add_option("-o,--out", options.out, "A folder for the report");
-    command->add_option("--only", options.only, "Names of expressions; all when not given")
+        "--like", arguments->like,
+        "Another rig, in place of --shapes: do both heads make the same expressions?");
+    command->add_option("-o,--out", options.out,
+                        "Folder of the report: index.html, contact sheets, pictures, results.json, "
+                        "scores.tsv; without it numbers are printed only");
+    command
+        ->add_option("--only", options.only,
+                     "Names of expressions, separated by commas; all when not given")
         ->delimiter(',');
-    command->add_flag(
-        "--fit", options.fit,
-        "Search the activations that come nearest, too; the rig's tables are where it begins");
-    command->add_flag("--apart", options.apart, "Left and right shapes by themselves");
+    command->add_flag("--fit", options.fit,
+                      "Also search the activations that come nearest, few and within [0, 1], "
+                      "setting out from the rig's table");
+    command->add_flag("--apart", options.apart,
+                      "Left and right shapes by themselves; otherwise x_L and x_R are added to x");
     command
         ->add_option("--quality", options.quality,
                      "\"preview\", \"video\" or \"fine\": how fine a mesh")
         ->capture_default_str();
-    command->add_flag("--no-pictures", arguments->no_pictures, "Numbers only");
+    command->add_flag("--no-pictures", arguments->no_pictures, "A report of numbers alone");
     add_common(*command, arguments->common);
     command->footer(
-        "Example:\n  risorius evaluate anna/rig.json --shapes anna/expressions.json --fit -o "
-        "out/anna");
+        "Cosine similarity says how alike the simulated and the measured displacement of the skin "
+        "are in shape (1 at\nbest), the relative error how large their difference is (0 at best, 1 "
+        "for a face that does not move).\n\n"
+        "Examples:\n"
+        "  risorius evaluate anna/rig.json --shapes anna/expressions.json -o out/anna\n"
+        "  risorius evaluate anna/rig.json --shapes anna/expressions.json --fit --only "
+        "mouthSmile,jawOpen -o out/fit\n"
+        "  risorius evaluate anna/rig.json --like rigs/adult/rig.json");
     command->callback([arguments] { run(*arguments); });
 }
 

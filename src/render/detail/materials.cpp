@@ -132,6 +132,13 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 }
 
 void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const {
+    if (batch.material == Material::kSkin && pose.values) {
+        if (!values_)
+            values_ =
+                std::make_unique<GlProgram>("values", values_vertex_shader(), values_shader());
+        values_->use();
+        return;
+    }
     const GlProgram& program = *programs_.at(batch.material);
     program.use();
     if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);

@@ -27,6 +27,7 @@ class Materials {
                  const PosedMarks& marks) const;
 
     std::map<Material, std::unique_ptr<GlProgram>> programs_;
+    mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};

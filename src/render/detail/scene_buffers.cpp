@@ -91,7 +91,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
-    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &elements_})
+    for (GLuint* buffer :
+         {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &colour_buffer_, &elements_})
         glGenBuffers(1, buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
@@ -121,9 +122,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 }
 
 SceneBuffers::~SceneBuffers() {
-    const GLuint buffers[] = {moving_buffer_, fixed_buffer_,      occlusion_buffer_,
+    const GLuint buffers[] = {moving_buffer_, fixed_buffer_,      occlusion_buffer_, colour_buffer_,
                               elements_,      fold_phase_buffer_, fold_depth_buffer_};
-    glDeleteBuffers(6, buffers);
+    glDeleteBuffers(7, buffers);
     glDeleteVertexArrays(1, &array_);
 }
 
@@ -149,6 +150,12 @@ void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
     }
     glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(moving_), moving_.data(), GL_STREAM_DRAW);
+}
+
+void SceneBuffers::set_colours(const std::vector<float>& rgb) {
+    glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, bytes(rgb), rgb.data(), GL_STREAM_DRAW);
+    attribute(kColour, 3, 3, 0);
 }
 
 void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,

@@ -30,6 +30,7 @@ class SceneBuffers {
     void bind() const { glBindVertexArray(array_); }
     /// `fold_depth` has no rows when nothing is folded; it is not read when the scene has no folds.
     void upload(const Points& positions, const Points& fold_depth = {});
+    void set_colours(const std::vector<float>& rgb);  ///< linear, 3 per vertex
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
     void draw(const Batch& batch) const;
@@ -49,7 +50,8 @@ class SceneBuffers {
     std::vector<LashPlace> lashes_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
     int index_count_ = 0;
-    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0, elements_ = 0;
+    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,
+           colour_buffer_ = 0, elements_ = 0;
     GLuint fold_phase_buffer_ = 0, fold_depth_buffer_ = 0;  ///< 0 when nothing folds
 };
 

@@ -39,7 +39,8 @@ enum VertexAttribute {
     kFoldPhase = 5,
     kFoldDepth = 6,
     kOcclusion =
-        4  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
+        4,  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
+    kColour = 7  ///< of a value on the skin
 };
 
 /// Share of the skin's own light where one looks straight down on a muscle.
@@ -49,6 +50,8 @@ std::string surface_vertex_shader(bool folds = false);  ///< for every material
 std::string depth_vertex_shader();                      ///< shadow map and occlusion
 std::string skin_shader(bool folds);
 std::string veil_shader(bool folds);  ///< of the skin over the muscles, which shine through
+std::string values_vertex_shader();
+std::string values_shader();  ///< of the skin when it shows a quantity
 std::string muscle_vertex_shader();
 std::string muscle_shader();
 std::string eye_shader();
