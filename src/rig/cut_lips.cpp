@@ -316,8 +316,8 @@ class Cut {
     }
     bool may_be_cut(const Vec3& p) const {
         const Vec3 off = p - line_.at(p.x());
-        // A furrow may be deep
-        return line_.spans(p.x()) && std::hypot(off.y(), 0.5 * off.z()) < head_.size * kFromLine_m;
+        // A furrow may be deep, down to the teeth
+        return line_.spans(p.x()) && std::hypot(off.y(), 0.25 * off.z()) < head_.size * kFromLine_m;
     }
     double share_of_edge(int a, int b) const {
         const double at_a = height_of(a), at_b = height_of(b);

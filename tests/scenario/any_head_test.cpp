@@ -154,10 +154,6 @@ TEST(AnyHead, AnotherPersonIsFittedFromTwentyLandmarks) {
         ++count;
     }
     EXPECT_LT(1e3 * std::sqrt(squared / count), 5);
-    const Moves moves(brought.options.out);
-    EXPECT_TRUE(moves.finite);
-    EXPECT_GT(moves.jaw_mm, 15);
-    EXPECT_GT(moves.smile_mm, 4);
 }
 
 }  // namespace
