@@ -14,7 +14,7 @@ namespace {
 
 // px
 constexpr int kMargin = 24, kGap = 3, kBetweenBlocks = 30, kHeading = 26, kBelowRow = 10;
-constexpr int kTitle = 66, kColumnNames = 22, kScaleLength = 220, kScaleHeight = 12;
+constexpr int kTitle = 82, kColumnNames = 22, kScaleLength = 220, kScaleHeight = 12;
 constexpr render::TextStyle kTitleText{.height_px = 17}, kNameText{.height_px = 12},
     kNumberText{.height_px = 10, .ink = 0.30};
 constexpr double kWidest = 1.6;  ///< of a sheet, against its height
@@ -30,9 +30,12 @@ std::string number(double value) {
     return text;
 }
 
-void draw_scale(const render::SkinValues& scale, int right, Image& sheet) {
-    const int left = right - kScaleLength, top = kMargin + 6;
-    for (int x = 0; x < kScaleLength; ++x) {
+/// Its name, and the bar with its numbers below.
+void draw_scale(const render::SkinValues& scale, int left, int top, Image& sheet) {
+    const std::string name = scale.name + ", " + scale.unit;
+    render::write_text(name, {static_cast<double>(left), top + 12.0}, kNameText, sheet);
+    left += static_cast<int>(render::text_width(name) * kNameText.height_px) + 16;
+    for (int x = 0; x < kScaleLength && left + x < sheet.width_px; ++x) {
         const double value = scale.from + (x + 0.5) / kScaleLength * (scale.to - scale.from);
         const Vec3 colour = render::srgb_of(render::value_colour(value, scale.from, scale.to));
         for (int y = 0; y < kScaleHeight; ++y)
@@ -40,18 +43,12 @@ void draw_scale(const render::SkinValues& scale, int right, Image& sheet) {
                 sheet.pixel(left + x, top + y)[k] =
                     static_cast<std::uint8_t>(std::lround(255 * colour[k]));
     }
-    const double baseline = top + kScaleHeight + 16;
-    const auto mark = [&](double value, const std::string& text) {
-        const double at = left + (value - scale.from) / (scale.to - scale.from) * kScaleLength;
-        const double width = render::text_width(text) * kNumberText.height_px;
-        render::write_text(text, {at - width / 2, baseline}, kNumberText, sheet);
-    };
-    mark(scale.from, number(scale.from));
-    mark((scale.from + scale.to) / 2, number((scale.from + scale.to) / 2));
-    mark(scale.to, number(scale.to));
-    const std::string name = scale.name + ", " + scale.unit;
-    const double width = render::text_width(name) * kNameText.height_px;
-    render::write_text(name, {left - width - 14.0, top + kScaleHeight}, kNameText, sheet);
+    for (const double share : {0.0, 0.5, 1.0}) {
+        const std::string text = number(scale.from + share * (scale.to - scale.from));
+        const double half = render::text_width(text) * kNumberText.height_px / 2;
+        render::write_text(text, {left + share * kScaleLength - half, top + kScaleHeight + 15.0},
+                           kNumberText, sheet);
+    }
 }
 
 }  // namespace
@@ -76,8 +73,8 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
 
     Image out(width(blocks), height(blocks));
     std::fill(out.rgba.begin(), out.rgba.end(), std::uint8_t{255});
-    render::write_text(sheet.title, {kMargin, kMargin + 20.0}, kTitleText, out);
-    draw_scale(sheet.scale, out.width_px - kMargin - 8, out);
+    render::write_text(sheet.title, {kMargin, kMargin + 17.0}, kTitleText, out);
+    draw_scale(sheet.scale, kMargin, kMargin + 34, out);
     for (int b = 0; b < blocks; ++b) {
         const int left = kMargin + b * (row_width + kBetweenBlocks);
         for (int c = 0; c < columns; ++c)

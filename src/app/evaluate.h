@@ -16,10 +16,11 @@
 namespace risorius::app {
 
 struct EvaluateOptions {
-    std::filesystem::path rig, shapes, out;  ///< out: a folder; empty: nothing is written
-    std::vector<std::string> only;           ///< names of shapes; empty: all
-    std::string quality = "preview";         ///< of the mesh; poses are settled
-    bool apart = false;                      ///< left and right by themselves
+    std::filesystem::path rig = {}, shapes = {},
+                          out = {};      ///< out: a folder; empty: nothing is written
+    std::vector<std::string> only = {};  ///< names of shapes; empty: all
+    std::string quality = "preview";     ///< of the mesh; poses are settled
+    bool apart = false;                  ///< left and right by themselves
     bool fit = false;
     bool pictures = true;
 };

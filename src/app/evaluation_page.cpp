@@ -23,10 +23,9 @@ constexpr const char* kEvaluationStyle = R"(
 .orders input:focus-visible + label { outline: 2px solid var(--ink); }
 .rows { display: flex; flex-direction: column; min-width: max-content; margin-top: .6rem; }
 .rows .row { display: grid; padding: .22rem 0; border-bottom: 1px solid var(--line); font-size: .9rem; font-variant-numeric: tabular-nums; }
-.rows .row b, .rows .head { font-weight: 600; color: var(--soft); }
+.rows .row b { font-weight: 600; color: var(--soft); }
 .rows .row span, .rows .row b { text-align: right; padding-right: .7rem; }
 .rows .row :first-child { text-align: left; }
-.rows .first { border-left: 1px solid var(--line); }
 .faces { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: .5rem; margin: .5rem 0; }
 .bars { display: grid; grid-template-columns: repeat(auto-fill, minmax(330px, 1fr)); gap: .1rem 1.6rem; font-size: .84rem; margin-top: .4rem; }
 .bars .bar { display: grid; grid-template-columns: 13.5rem 1fr 2.6rem; align-items: center; gap: .5rem; line-height: 1.25; }

@@ -24,8 +24,8 @@ struct MeasuredShape {
 };
 
 struct MeasuredShapesOptions {
-    std::vector<std::string> only;  ///< names; empty: all
-    bool apart = false;             ///< left and right shapes by themselves, not added up to one
+    std::vector<std::string> only = {};  ///< names; empty: all
+    bool apart = false;  ///< left and right shapes by themselves, not added up to one
 };
 
 /// Shapes of one side (smile_L and smile_R, smileLeft and smileRight) become one, "smile". A shape measured on top of another

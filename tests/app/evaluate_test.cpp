@@ -86,10 +86,12 @@ class Evaluate : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder = std::make_unique<TemporaryFolder>();
-        fit_rig({.mesh = kRoot / "tests/data/heads/plain_head.obj",
-                 .landmarks = kRoot / "tests/data/heads/plain_landmarks.json",
-                 .out = *folder / "rig.json",
-                 .calibrate = false});
+        FitOptions fit;
+        fit.mesh = fs::path(RISORIUS_SHARED_DIR) / "data/heads/makehuman/mh_head.obj";
+        fit.landmarks = kRoot / "tests/data/heads/makehuman_landmarks.json";
+        fit.out = *folder / "rig.json";
+        fit.calibrate = false;
+        fit_rig(fit);
         const std::map<std::string, Excitations> done{
             {"noseSneer", {{"corrugator_supercilii", 0.7}}},
             {"smile", {{"zygomaticus_major", 0.6}}}};

@@ -204,6 +204,7 @@ TEST_F(MeasuredShapes, MistakenExcitationsAreRefused) {
     described["excitation"] = Json::object();
     EXPECT_EQ(complaint(described),
               "x.json:/excitation: expected a known key (did you mean \"excitations\"?), found "
+              "unknown key "
               "\"excitation\"");
 }
 
