@@ -59,25 +59,25 @@ struct ActivationDescription {
 
 /// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
 struct TissueDescription {
-    double deep_shear_pa = 1000;
-    double superficial_shear_pa = 3000;
-    double bulk_pa = 30000;
+    double deep_shear_pa = 910;
+    double superficial_shear_pa = 1950;
+    double bulk_pa = 22000;
     double density_kg_m3 = 1000;
     double damping_s = 0.008;       ///< stiffness-proportional damping
     double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
-    double lid_shear_ratio = 0.2;   ///< lid tissue against the rest
+    double lid_shear_ratio = 0.12;  ///< lid tissue against the rest
     double lip_shear_ratio =
         0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
-    double modiolus_shear_ratio = 6.0;
+    double modiolus_shear_ratio = 3.8;
     double fibre_passive_strain =
-        1.2;                   ///< strain at which a relaxed fibre pulls with its isometric force
+        1.5;                   ///< strain at which a relaxed fibre pulls with its isometric force
     double force_scale = 1.5;  ///< on every muscle, on top of its strength
 };
 
 struct SkinDescription {
-    double membrane_n_per_m = 10;
-    double bending_n_m = 2e-5;
-    double lid_membrane_ratio = 0.02;
+    double membrane_n_per_m = 11.4;
+    double bending_n_m = 2.9e-5;
+    double lid_membrane_ratio = 0.012;
     double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
 };
 

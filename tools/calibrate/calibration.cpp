@@ -56,10 +56,11 @@ class Calibration {
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 one.table[static_cast<long>(i)] = app::value_of(one.unknowns[i], shape.drive);
-            // A lid goes where its table says: the face around it is to be found
+            // Lids go where their table says, jaws only where it moves them: the face around them is to be found
             for (app::ActivationUnknown& unknown : one.unknowns)
                 if (unknown.name.starts_with("levator_palpebrae") ||
-                    unknown.name.starts_with("superior_tarsal"))
+                    unknown.name.starts_with("superior_tarsal") ||
+                    (!unknown.channels.empty() && app::value_of(unknown, shape.drive) == 0))
                     unknown.least = unknown.most = app::value_of(unknown, shape.drive);
             one.price = one.table.unaryExpr(
                 [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
