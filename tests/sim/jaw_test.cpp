@@ -194,7 +194,9 @@ TEST(JawOpening, LetsTheTongueOutWhichShutTeethHoldBack) {
     for (int v : vertices_of("tongue")) {
         const Vec3 p = open.vertices.row(v).transpose();
         const Vec3 from_lip = p - at(open.vertices, "stoi");
-        if (std::abs(from_lip.z()) < 2e-3 && std::abs(p.x()) < 4e-3) EXPECT_GT(p.y(), lip - 2e-3);
+        if (std::abs(from_lip.z()) < 2e-3 && std::abs(p.x()) < 4e-3) {
+            EXPECT_GT(p.y(), lip - 2e-3);
+        }
     }
 }
 

@@ -69,9 +69,10 @@ TEST(Expressions, OfHigherIntensityAreMoreOfEverything) {
                     .at(0.6 + tables().expressions.find(name)->onset_s)
                     .excitation;
             EXPECT_GT(now.norm(), 0.05) << name;
-            if (before.size() > 0)
+            if (before.size() > 0) {
                 EXPECT_TRUE((now.array().abs() >= before.array().abs() - 1e-12).all())
                     << name << " " << intensity;
+            }
             before = now;
         }
     }

@@ -13,7 +13,7 @@
 namespace risorius::track {
 namespace {
 
-ScriptDescription script_of(const std::string& events, int seed = 1, double duration_s = 60) {
+ScriptDescription idle_script(const std::string& events, int seed = 1, double duration_s = 60) {
     Json json = Json::parse(R"({"format": "risorius-script", "version": 1, "rig": "rig.json"})");
     json["duration_s"] = duration_s;
     json["seed"] = seed;
@@ -22,9 +22,9 @@ ScriptDescription script_of(const std::string& events, int seed = 1, double dura
                        tables().expressions);
 }
 
-std::string error_of(const std::string& events) {
+std::string idle_error(const std::string& events) {
     try {
-        script_of(events);
+        idle_script(events);
     } catch (const Error& error) {
         return error.what();
     }
@@ -81,7 +81,7 @@ TEST(Idle, TheHeadSwaysByLessThanADegreeAndSlowly) {
 
 TEST(Idle, TheSameSeedGivesTheSameFaceAndAnotherAnother) {
     const auto drive = [](int seed) {
-        const ScriptDescription script = script_of(R"([{"idle": {}}])", seed);
+        const ScriptDescription script = idle_script(R"([{"idle": {}}])", seed);
         return std::pair{Timeline(script, tables().channels).at(20.3).kinematic, script.blinks};
     };
     EXPECT_EQ(drive(5).first, drive(5).first);
@@ -92,7 +92,7 @@ TEST(Idle, TheSameSeedGivesTheSameFaceAndAnotherAnother) {
 
 TEST(Idle, BothEyesTurnAlikeAndWhatAScriptWritesIsAdded) {
     const ScriptDescription script =
-        script_of(R"([{"idle": {"sway": 0}, "start_s": 2, "end_s": 40}])");
+        idle_script(R"([{"idle": {"sway": 0}, "start_s": 2, "end_s": 40}])");
     const Timeline timeline(script, tables().channels);
     EXPECT_EQ(timeline.at(1.9).at(Kinematic::kGazeYawLeft), 0);
     EXPECT_EQ(timeline.at(41).at(Kinematic::kHeadUp), 0);
@@ -107,23 +107,23 @@ TEST(Idle, BothEyesTurnAlikeAndWhatAScriptWritesIsAdded) {
 }
 
 TEST(Idle, AWrittenBlinkIsNotDoubled) {
-    const auto idle = script_of(R"([{"idle": {}}])").blinks;
+    const auto idle = idle_script(R"([{"idle": {}}])").blinks;
     ASSERT_GT(idle.size(), 5u);
     const std::string at = std::to_string(idle[2].start_s + 0.2);
-    const auto both = script_of(R"([{"idle": {}}, {"blink": {}, "start_s": )" + at + "}]").blinks;
+    const auto both = idle_script(R"([{"idle": {}}, {"blink": {}, "start_s": )" + at + "}]").blinks;
     EXPECT_EQ(both.size(), idle.size());
 }
 
 TEST(Idle, MistakesAreNamed) {
-    EXPECT_EQ(error_of(R"([{"idle": {"blink_per_minute": 9}}])"),
+    EXPECT_EQ(idle_error(R"([{"idle": {"blink_per_minute": 9}}])"),
               "script.json:/events/0/idle/blink_per_minute: expected a known key (did you mean "
               "\"blinks_per_minute\"?), found unknown key \"blink_per_minute\"");
-    EXPECT_EQ(error_of(R"([{"idle": {}, "end_s": 3, "duration_s": 3}])"),
+    EXPECT_EQ(idle_error(R"([{"idle": {}, "end_s": 3, "duration_s": 3}])"),
               "script.json:/events/0: expected either \"end_s\" or \"duration_s\", found both");
-    EXPECT_EQ(error_of(R"([{"idle": {}, "blink": {}, "start_s": 1}])"),
+    EXPECT_EQ(idle_error(R"([{"idle": {}, "blink": {}, "start_s": 1}])"),
               "script.json:/events/0: expected an event with one of \"expression\", \"blink\" and "
               "\"idle\", found two");
-    EXPECT_EQ(error_of(R"([{"idle": {"sway": -1}}])"),
+    EXPECT_EQ(idle_error(R"([{"idle": {"sway": -1}}])"),
               "script.json:/events/0/idle/sway: expected [0, 5], found -1");
 }
 
