@@ -16,16 +16,16 @@ namespace risorius::app {
 
 struct FitOptions {
     std::filesystem::path mesh, landmarks, out;
-    std::filesystem::path standard;  ///< folder of the standard tables; empty: those of this build
-    std::optional<double> metres_per_unit;  ///< none: told from the landmarks
-    std::string name;                       ///< empty: that of the mesh file
+    std::filesystem::path standard{};  ///< folder of the standard tables; empty: those of this build
+    std::optional<double> metres_per_unit{};  ///< none: told from the landmarks
+    std::string name{};                     ///< empty: that of the mesh file
     std::map<std::string, std::vector<std::string>>
-        parts;                  ///< role -> groups; the rest is guessed from their names
+        parts{};                ///< role -> groups; the rest is guessed from their names
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
     bool cut_lips =
         false;  ///< those of a scan that are grown together; the cut mesh is written beside the rig
-    std::filesystem::path report;  ///< folder for a page with pictures; empty: none
+    std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
     bool solids = false;  ///< the volume muscles of the standard table, rather than bundles alone
 };
 

@@ -42,7 +42,7 @@ class Contacts {
         double stick_n = 0;              ///< Tmax; 0: it does not stick
         double stick_m = 0;              ///< dc
         double shift_m = 0;              ///< s >= 0, from memory
-        std::optional<double> let_go_m;  ///< gap from which on it sticks, from memory
+        std::optional<double> let_go_m{};  ///< gap from which on it sticks, from memory
     };
 
     /// What is remembered of slots in `contacts` is put into them; of others it is forgotten.

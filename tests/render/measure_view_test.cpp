@@ -23,22 +23,22 @@ Vec3 colour_at(const Image& image, int x, int y) {
     const std::uint8_t* p = image.pixel(x, y);
     return Vec3(p[0], p[1], p[2]) / 255.0;
 }
-const MeasureViewOptions kSmall{.width_px = 40, .height_px = 40, .height_m = 4};
+const MeasureViewOptions kFewPixels{.width_px = 40, .height_px = 40, .height_m = 4};
 
 TEST(MeasureView, NearerSurfacesHideFartherOnesAndVeilsAreLaidOver) {
     const Vec3 red(1, 0, 0), green(0, 1, 0);
     EXPECT_GT(
-        colour_at(draw_measured({square(0, red), square(1, green)}, {}, {}, kSmall), 20, 20).y(),
+        colour_at(draw_measured({square(0, red), square(1, green)}, {}, {}, kFewPixels), 20, 20).y(),
         0.8);
     EXPECT_GT(
-        colour_at(draw_measured({square(1, red), square(0, green)}, {}, {}, kSmall), 20, 20).x(),
+        colour_at(draw_measured({square(1, red), square(0, green)}, {}, {}, kFewPixels), 20, 20).x(),
         0.8);
     const Vec3 both =
-        colour_at(draw_measured({square(0, red), square(1, green, 0.5)}, {}, {}, kSmall), 20, 20);
+        colour_at(draw_measured({square(0, red), square(1, green, 0.5)}, {}, {}, kFewPixels), 20, 20);
     EXPECT_NEAR(both.x(), both.y(), 0.01);
     EXPECT_GT(both.x(), 0.4);
     // 10 px a metre: the square ends 10 px from the middle
-    const Image image = draw_measured({square(0, red)}, {}, {}, kSmall);
+    const Image image = draw_measured({square(0, red)}, {}, {}, kFewPixels);
     EXPECT_EQ(colour_at(image, 8, 20), Vec3(1, 1, 1));
     EXPECT_LT(colour_at(image, 11, 20).y(), 0.1);
 }
@@ -46,7 +46,7 @@ TEST(MeasureView, NearerSurfacesHideFartherOnesAndVeilsAreLaidOver) {
 TEST(MeasureView, MarksShowUnlessASurfaceHidesThem) {
     const Vec3 blue(0, 0, 1);
     const auto mark_at = [&](double z, double azimuth_deg) {
-        MeasureViewOptions options = kSmall;
+        MeasureViewOptions options = kFewPixels;
         options.azimuth_deg = azimuth_deg;
         const Image image = draw_measured({square(0, Vec3(1, 0, 0))},
                                           {{.at = Vec3(0.5, 0.5, z), .colour = blue}}, {}, options);

@@ -35,7 +35,9 @@ TEST(CutLips, TellsLipsThatPartFromLipsThatAreGrownTogether) {
     EXPECT_FALSE(lips_are_closed(adult_placed()));
     EXPECT_TRUE(lips_are_closed(scan().head));
     for (const auto& head : {ict_head(), makehuman_head()})
-        if (head) EXPECT_FALSE(lips_are_closed(place_head(head->rig, head->mesh, "head")));
+        if (head) {
+            EXPECT_FALSE(lips_are_closed(place_head(head->rig, head->mesh, "head")));
+        }
     RigDescription rig = scan().rig;
     rig.parts["mouth"] = {kLiningGroup};
     EXPECT_FALSE(lips_are_closed(place_head(rig, lips().mesh, "cut")));

@@ -41,8 +41,12 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
             // Slopes to either side, price included
             const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.price[i];
             const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.price[i];
-            if (x[i] < problem.most[i]) EXPECT_GE(up, -1e-8);
-            if (x[i] > problem.least[i]) EXPECT_LE(down, 1e-8);
+            if (x[i] < problem.most[i]) {
+                EXPECT_GE(up, -1e-8);
+            }
+            if (x[i] > problem.least[i]) {
+                EXPECT_LE(down, 1e-8);
+            }
             const bool at_limit = x[i] == problem.least[i] || x[i] == problem.most[i];
             ++(at_limit ? held : x[i] == 0 ? zero : free);
         }
