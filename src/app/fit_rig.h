@@ -16,9 +16,10 @@ namespace risorius::app {
 
 struct FitOptions {
     std::filesystem::path mesh, landmarks, out;
-    std::filesystem::path standard{};  ///< folder of the standard tables; empty: those of this build
+    std::filesystem::path
+        standard{};  ///< folder of the standard tables; empty: those of this build
     std::optional<double> metres_per_unit{};  ///< none: told from the landmarks
-    std::string name{};                     ///< empty: that of the mesh file
+    std::string name{};                       ///< empty: that of the mesh file
     std::map<std::string, std::vector<std::string>>
         parts{};                ///< role -> groups; the rest is guessed from their names
     bool inline_tables = true;  ///< false: refer to the standard tables by path

@@ -11,8 +11,8 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kPenWidth = 0.13;  ///< of the height of a capital
-constexpr double kLetterGap = 0.20;     ///< between letters, of that height
+constexpr double kPenWidth = 0.13;   ///< of the height of a capital
+constexpr double kLetterGap = 0.20;  ///< between letters, of that height
 
 using Line = std::vector<Vec2>;  ///< x to the right, y down, baseline 0, height of a capital 1
 

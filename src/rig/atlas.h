@@ -50,7 +50,8 @@ struct MuscleBand {
     double width_m;
     double force_n;         ///< isometric force of this side, shared by the muscle's bands
     double strength = 1.0;  ///< calibration: activation 1 shortens as it should
-    double shortens_to = 0.72;  ///< mean fibre length / rest length at activation 1, the muscle alone
+    double shortens_to =
+        0.72;  ///< mean fibre length / rest length at activation 1, the muscle alone
     std::vector<BandPoint> points;
     Body origin = Body::kSkull;
     Body insertion = Body::kSoft;

@@ -259,7 +259,8 @@ struct Face::Impl {
         return {mandible(now.jaw.q, drive),
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                 drive.at(track::Kinematic::kMouthPressure),
-                gaze(drive), gravity_at(drive) - JawDynamics::upright_gravity()};
+                gaze(drive),
+                gravity_at(drive) - JawDynamics::upright_gravity()};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
@@ -344,14 +345,15 @@ struct Face::Impl {
         std::vector<Points> likely;
         if (past_moves.size() == 2) likely.push_back(past_moves[0] - past_moves[1]);
         if (!past_moves.empty()) likely.push_back(past_moves[0]);
-        const StepFigures figures = implicit_step(h, piece_s, moves.start, moves.aim, activation,
-                                                  {moves.moved, gravity_at(drive)},
-                                                  {.iterations = quality.iterations,
-                                                   .least_iterations = quality.least_iterations,
-                                                   .memory = kMemory,
-                                                   .step_cap_m = kStepCap_m,
-                                                   .tolerance_rms_m = quality.tolerance_rms_m},
-                                                  x, likely);
+        const StepFigures figures = implicit_step(
+            h, piece_s, moves.start, moves.aim, activation, {moves.moved, gravity_at(drive)},
+            // A jaw that muscles move needs twice as many to keep up
+            {.iterations = (jaw_dynamics ? 2 : 1) * quality.iterations,
+             .least_iterations = quality.least_iterations,
+             .memory = kMemory,
+             .step_cap_m = kStepCap_m,
+             .tolerance_rms_m = quality.tolerance_rms_m},
+            x, likely);
         past_moves.insert(past_moves.begin(), x - carried);
         past_moves.resize(std::min<std::size_t>(past_moves.size(), 2));
         tissue.fibres().end_step();

@@ -9,7 +9,7 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr int kPieces = 24;          // of the middle line, less one
+constexpr int kPieces = 24;           // of the middle line, less one
 constexpr double kTipUp_rad = 1.1;    // how far the blade curls
 constexpr double kOverLip_rad = 0.6;  // by which it hangs over the lower lip when it is all out
 constexpr double kFlattest = 0.35;    // of its thickness at rest, between teeth

@@ -39,9 +39,9 @@ class Contacts {
         int body = 0;      ///< what p rides on or belongs to, as the caller counts bodies
         double share = 1;  ///< how far the plane stands for what is there, [0, 1]
         int slot = -1;  ///< names the contact from one list to the next; -1: it is not remembered
-        double stick_n = 0;              ///< Tmax; 0: it does not stick
-        double stick_m = 0;              ///< dc
-        double shift_m = 0;              ///< s >= 0, from memory
+        double stick_n = 0;                ///< Tmax; 0: it does not stick
+        double stick_m = 0;                ///< dc
+        double shift_m = 0;                ///< s >= 0, from memory
         std::optional<double> let_go_m{};  ///< gap from which on it sticks, from memory
     };
 

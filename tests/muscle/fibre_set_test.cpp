@@ -277,8 +277,8 @@ TEST(FibreSet, SecondDerivativesAreTheSlopeOfItsForces) {
     };
     const Eigen::MatrixXd exact = second(solve::Curvature::kExact);
     testing_of::expect_slope_of_gradient(
-        exact, x,
-        [&](const Points& y, Points& g) { return set.add_energy(y, activation, g); }, 1e-8, 1e-6);
+        exact, x, [&](const Points& y, Points& g) { return set.add_energy(y, activation, g); },
+        1e-8, 1e-6);
     testing_of::expect_positive_part(second(solve::Curvature::kPositive), exact);
 }
 

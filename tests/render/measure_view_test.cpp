@@ -28,13 +28,15 @@ const MeasureViewOptions kFewPixels{.width_px = 40, .height_px = 40, .height_m =
 TEST(MeasureView, NearerSurfacesHideFartherOnesAndVeilsAreLaidOver) {
     const Vec3 red(1, 0, 0), green(0, 1, 0);
     EXPECT_GT(
-        colour_at(draw_measured({square(0, red), square(1, green)}, {}, {}, kFewPixels), 20, 20).y(),
+        colour_at(draw_measured({square(0, red), square(1, green)}, {}, {}, kFewPixels), 20, 20)
+            .y(),
         0.8);
     EXPECT_GT(
-        colour_at(draw_measured({square(1, red), square(0, green)}, {}, {}, kFewPixels), 20, 20).x(),
+        colour_at(draw_measured({square(1, red), square(0, green)}, {}, {}, kFewPixels), 20, 20)
+            .x(),
         0.8);
-    const Vec3 both =
-        colour_at(draw_measured({square(0, red), square(1, green, 0.5)}, {}, {}, kFewPixels), 20, 20);
+    const Vec3 both = colour_at(
+        draw_measured({square(0, red), square(1, green, 0.5)}, {}, {}, kFewPixels), 20, 20);
     EXPECT_NEAR(both.x(), both.y(), 0.01);
     EXPECT_GT(both.x(), 0.4);
     // 10 px a metre: the square ends 10 px from the middle

@@ -43,8 +43,9 @@ TEST(Calibration, OfAnotherFormatIsRefused) {
             "x.json"));
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  "x.json:/format: expected one of \"risorius-calibration\", found \"risorius-rig\"");
+        EXPECT_EQ(
+            std::string(error.what()),
+            "x.json:/format: expected one of \"risorius-calibration\", found \"risorius-rig\"");
     }
 }
 

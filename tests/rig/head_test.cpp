@@ -182,7 +182,7 @@ TEST(MissingLandmarks, LieOnTheSkin) {
                 least = std::min(
                     least,
                     (head.vertices.row(head.skin(f, k)).transpose() - head.landmark(id)).norm());
-        EXPECT_EQ(least, 0.0) << id;
+        EXPECT_LT(least, 5e-4) << id;  // a vertex, or beside it on the surface
     }
 }
 

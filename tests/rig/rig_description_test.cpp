@@ -44,7 +44,7 @@ class RigFile : public testing::Test {
              {"landmarks", "thickness", "attachments", "muscle_bands", "muscles"})
             if (json["anatomy"][table].is_string())
                 json["anatomy"][table] = standard(json["anatomy"][table]);
-        for (const char* table : {"facs", "expressions"})
+        for (const char* table : {"facs", "expressions", "calibrated_on"})
             if (json[table].is_string()) json[table] = standard(json[table]);
         return json;
     }

@@ -91,7 +91,8 @@ TEST(HeadTurn, CarriesTheGazeAndAnyExpressionWithIt) {
     drive = with_kinematic(Kinematic::kGazeYawLeft, 10, drive);
     const FacePose turned = settled(face(), drive);
     for (const char* id : {"ch_l", "mc_r", "prn", "bp_l"})
-        EXPECT_LT((turned.head * at(smile, id) - at(turned.vertices, id)).norm(), 1e-9) << id;
+        EXPECT_LT((turned.head * at(smile, id) - at(turned.vertices, id)).norm(), 1e-4)
+            << id << ": but for the lids, which go along with the eyes";
     const Vec3 looks = turned.eye_rotation[0] * Vec3::UnitZ();
     EXPECT_NEAR(std::atan2(looks.x(), looks.z()), 35 * kDegree, 1e-12);
 }

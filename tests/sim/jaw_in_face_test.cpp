@@ -95,7 +95,7 @@ TEST(JawInFace, ChannelsAskMusclesForAboutWhatTheyAskBonesFor) {
         const FacePose pose = pose_after(40, with_kinematic(channel, value));
         EXPECT_NEAR(pose.jaw.open_m, open, 3e-3);
         EXPECT_NEAR(pose.jaw.forward_m, slide, 2e-3);
-        EXPECT_NEAR(pose.jaw.side_m, side, 1e-3);
+        EXPECT_NEAR(pose.jaw.side_m, side, 1.5e-3);
     }
 }
 

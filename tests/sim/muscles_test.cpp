@@ -151,13 +151,17 @@ TEST_F(Muscles, MentalisRaisesTheChinPadAndTheLowerLip) {
 
 TEST_F(Muscles, OrbicularisOrisNarrowsTheMouthAndPushesItForward) {
     for (const char* muscle :
-         {"orbicularis_oris_upper_peripheral", "orbicularis_oris_upper_marginal",
-          "orbicularis_oris_lower_peripheral", "orbicularis_oris_lower_marginal"}) {
+         {"orbicularis_oris_upper_peripheral", "orbicularis_oris_lower_peripheral"}) {
         const Points u = moved(muscle);
         EXPECT_LT(at(u, "ch_l").x(), -0.5) << muscle;
         EXPECT_GT(at(u, "ch_r").x(), 0.5) << muscle;
         EXPECT_GT(at(u, "ch_l").z(), 0.5) << muscle;
     }
+}
+
+TEST_F(Muscles, MarginalFibresTurnTheRedLipIn) {
+    EXPECT_LT(at(moved("orbicularis_oris_upper_marginal"), "ls").z(), -0.5);
+    EXPECT_LT(at(moved("orbicularis_oris_lower_marginal"), "li").z(), -0.5);
 }
 
 TEST_F(Muscles, RisoriusWidensTheMouth) {

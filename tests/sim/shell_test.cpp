@@ -150,8 +150,8 @@ TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
             if (a.shell_vertex == v) return a.tangential_n_per_m / adult().mesh.area_m2[v];
         return -1.0;
     };
-    EXPECT_GT(sliding("n"), 20 * sliding("ls"));
-    EXPECT_GT(sliding("rhi"), 100 * sliding("mc_l"));
+    EXPECT_GT(sliding("n"), 10 * sliding("ls"));
+    EXPECT_GT(sliding("rhi"), 60 * sliding("mc_l"));
     for (const Attachment& a : held) {
         EXPECT_GE(a.normal_n_per_m, 0);
         EXPECT_GE(a.jaw_weight, 0);

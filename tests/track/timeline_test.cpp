@@ -48,8 +48,8 @@ TEST(Timeline, SourcesAddUpAndAreClamped) {
         "AU12":                {"keys": [[0, 0.6]]}})");
     const Drive drive = face.at(0.5);
     EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 1.0);
-    EXPECT_NEAR(excitation(drive, "zygomaticus_major.r"), 0.9, 1e-15);
-    EXPECT_NEAR(excitation(drive, "zygomaticus_minor.r"), 0.06, 1e-15);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_major.r"), 0.3 + 0.6 * 0.93, 1e-15);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_minor.r"), 0.6 * 0.11, 1e-15);
 }
 
 TEST(Timeline, LevatorMayGoToMinusOneAndKinematicsStayInTheirRange) {
@@ -95,12 +95,12 @@ TEST(Timeline, ExpressionIsZeroOutsideAndItsIntensityAtTheApex) {
     EXPECT_EQ(activity(face.at(1.0)), 0.0);
     EXPECT_EQ(activity(face.at(2.8)), 0.0);
     for (double t : {1.4, 1.7, 1.99}) {
-        EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8, 1e-15);
-        EXPECT_NEAR(excitation(face.at(t), "orbicularis_oculi_orbital.r"), 0.5 * 0.6, 1e-15);
+        EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93, 1e-15);
+        EXPECT_NEAR(excitation(face.at(t), "orbicularis_oculi_orbital.r"), 0.5 * 0.6 * 0.58, 1e-15);
     }
     // Halfway through the onset and through the slower offset.
-    EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 / 2, 1e-12);
-    EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 / 2, 1e-12);
+    EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93 / 2, 1e-12);
+    EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93 / 2, 1e-12);
 }
 
 TEST(Timeline, CheekRaiserTrailsTheLipCornersInASmile) {
@@ -177,10 +177,10 @@ TEST(Timeline, HelloStartsAndEndsAtRestAndShowsItsPartsApart) {
     for (double t : {0.0, 0.2, 3.8, 4.0}) EXPECT_EQ(activity(face.at(t)), 0.0) << t;
     EXPECT_GT(excitation(face.at(0.7), "zygomaticus_major.l"), 0.6);
     EXPECT_EQ(excitation(face.at(1.5), "zygomaticus_major.l"), 0.0);
-    EXPECT_GT(excitation(face.at(1.5), "frontalis_medial.r"), 0.8);
+    EXPECT_GT(excitation(face.at(1.5), "frontalis_medial.r"), 0.5);
     EXPECT_EQ(excitation(face.at(1.8), "orbicularis_oculi_palpebral_upper.r"), 1.0);
     EXPECT_NEAR(face.at(2.3).at(Kinematic::kJawOpen), 0.50, 1e-12);
-    EXPECT_GT(excitation(face.at(2.95), "corrugator_supercilii.l"), 0.7);
+    EXPECT_GT(excitation(face.at(2.95), "corrugator_supercilii.l"), 0.6);
     EXPECT_GT(excitation(face.at(3.45), "zygomaticus_major.l"), 0.6);
     EXPECT_EQ(excitation(face.at(3.45), "zygomaticus_major.r"), 0.0);
 }
