@@ -239,6 +239,12 @@ struct Face::Impl {
         return head_motion(head, drive).linear().transpose() * *gravity;
     }
 
+    // What of it the rest shape does not bear; a turn about the upright axis leaves none, rounding aside.
+    Vec3 weight_at(const track::Drive& drive) const {
+        const Vec3 weight = gravity_at(drive) - JawDynamics::upright_gravity();
+        return weight.norm() < 1e-9 ? Vec3(Vec3::Zero()) : weight;
+    }
+
     // One step of the tissue, and of the jaw if muscles move it; `jaw_h` is the jaw's own.
     StepFigures implicit_step(double h, double jaw_h, const Points& start, const Points& aim,
                               const Eigen::VectorXd& activation,
@@ -260,7 +266,7 @@ struct Face::Impl {
                 {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
                 drive.at(track::Kinematic::kMouthPressure),
                 gaze(drive),
-                gravity_at(drive) - JawDynamics::upright_gravity()};
+                weight_at(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
@@ -515,10 +521,9 @@ void Face::start(const DriveAt& drive) {
     impl_->history.clear();
     impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
-    const bool at_rest = activation.isZero(0.0) &&
-                         impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
-                         first.at(track::Kinematic::kMouthPressure) == 0.0 &&
-                         impl_->gravity_at(first) == JawDynamics::upright_gravity();
+    const bool at_rest =
+        activation.isZero(0.0) && impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
+        first.at(track::Kinematic::kMouthPressure) == 0.0 && impl_->weight_at(first).isZero(0.0);
     impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};

@@ -226,7 +226,7 @@ TEST(Dynamics, RandomDriveOfEverythingLeavesNothingBehind) {
     Face face = adult_face(
         {.name = "small", .shell_vertices = 300, .iterations = 6, .least_iterations = 6});
     const StressReport report =
-        stress(face, channels(), {.steps = 200, .seed = 4, .settle_steps = 240});
+        stress(face, channels(), {.steps = 200, .seed = 4, .settle_steps = 150});
     EXPECT_EQ(report.steps, 200);
     EXPECT_EQ(report.broken_steps, 0);
     EXPECT_EQ(report.inverted_at_rest, 0);
