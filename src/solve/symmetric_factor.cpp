@@ -9,29 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solve/detail/cholmod_view.h"
 #include "solve/detail/nested_dissection.h"
 
 namespace risorius::solve {
-
-namespace {
-
-/// View of an Eigen matrix's lower triangle; copies nothing.
-cholmod_sparse view_of(const Eigen::SparseMatrix<double>& A) {
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(A.rows());
-    view.nzmax = static_cast<std::size_t>(A.nonZeros());
-    view.p = const_cast<int*>(A.outerIndexPtr());
-    view.i = const_cast<int*>(A.innerIndexPtr());
-    view.x = const_cast<double*>(A.valuePtr());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
-    return view;
-}
-
-}  // namespace
 
 struct SymmetricFactor::Impl {
     cholmod_common common;
@@ -74,7 +55,7 @@ struct SymmetricFactor::Impl {
 void SymmetricFactor::Impl::order(const Eigen::SparseMatrix<double>& A, int block) {
     cholmod_free_factor(&factor, &common);
     std::vector<int> order = detail::nested_dissection(A, block);
-    cholmod_sparse view = view_of(A);
+    cholmod_sparse view = detail::view_of(A);
     common.method[0].ordering = CHOLMOD_GIVEN;
     common.postorder = 0;  // the nodes are in post-order already
     factor = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
@@ -94,7 +75,7 @@ Definiteness SymmetricFactor::factorise(const Eigen::SparseMatrix<double>& A, in
     assert(A.rows() == A.cols() && A.isCompressed() && A.rows() % block == 0);
     Impl& own = *impl_;
     if (!own.same_pattern(A)) own.order(A, block);
-    cholmod_sparse view = view_of(A);
+    cholmod_sparse view = detail::view_of(A);
     cholmod_factorize(&view, own.factor, &own.common);
     const cholmod_factor& L = *own.factor;
     if (own.common.status < CHOLMOD_OK || L.minor < L.n) return Definiteness::kSingular;

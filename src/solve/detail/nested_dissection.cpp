@@ -4,25 +4,11 @@
 
 #include <stdexcept>
 
+#include "solve/detail/cholmod_view.h"
+
 namespace risorius::solve::detail {
 
 namespace {
-
-/// View of an Eigen matrix's lower triangle; copies nothing.
-cholmod_sparse view_of(const Eigen::SparseMatrix<double>& A) {
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(A.rows());
-    view.nzmax = static_cast<std::size_t>(A.nonZeros());
-    view.p = const_cast<int*>(A.outerIndexPtr());
-    view.i = const_cast<int*>(A.innerIndexPtr());
-    view.x = const_cast<double*>(A.valuePtr());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
-    return view;
-}
 
 struct Workspace {
     cholmod_common common;
