@@ -196,7 +196,8 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
         if (n.dot(d) >= kLeastFacing) facing.row(rows++) = head.skin.row(f);
     }
     facing.conservativeResize(rows, 3);
-    shell.fine = without_bow_ties(largest_piece(facing, count));
+    // Fans that are dropped may have held others
+    shell.fine = largest_piece(without_bow_ties(facing), count);
 
     // Size field: fine at lips and lids, coarse on forehead and cheek
     const auto wanted_mm = [&](const Vec3& p) {
