@@ -103,7 +103,10 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     rig.parts["mouth"].push_back(rig::kLiningGroup);
     mesh = std::move(cut.mesh);
     notes.push_back("the lips are cut apart over " + std::to_string(cut.upper.size()) +
-                    " points, with a lining behind");
+                    " points, with a lining behind" +
+                    (cut.laid_back == 0 ? ""
+                                        : "; " + std::to_string(cut.laid_back) +
+                                              " points seen deep between them are laid back"));
     return true;
 }
 
