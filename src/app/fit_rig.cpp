@@ -217,7 +217,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
     if (!report.teeth)
         report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
-    const BoneEstimate bone = bone_estimate(head, rig);
+    const BoneEstimate bone = bone_estimate(head, rig, face.shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +
