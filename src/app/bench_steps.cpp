@@ -108,6 +108,12 @@ track::ScriptDescription step_track(const RigFiles& files) {
 std::vector<StepBench> usual_step_benches() {
     std::vector<StepBench> out;
     for (const char* name : {"preview", "video", "fine"}) out.push_back({sim::quality_named(name)});
+    for (const int vertices : {1700, 3300}) {
+        sim::Quality quality = sim::quality_named("preview");
+        quality.name += ", " + std::to_string(vertices) + " skin nodes";
+        quality.shell_vertices = vertices;
+        out.push_back({quality, vertices < 2000 ? 240 : 60});
+    }
     for (const int vertices : {3300, 6600}) {
         sim::Quality quality = sim::quality_named("fine");
         quality.name = std::to_string(vertices) + " skin nodes";
