@@ -97,6 +97,10 @@ double collapse_quality(const Surface& s, int gone, int stays, const std::vector
                           std::back_inserter(common));
     const int on_edge = s.faces_on_edge(gone, stays);
     if (static_cast<int>(common.size()) != on_edge) return -1;  // link condition
+    const auto only_these = [&](int v) {
+        return static_cast<int>(s.faces_of_[v].size()) == on_edge;
+    };
+    if (only_these(gone) && only_these(stays)) return -1;  // a piece's last triangle
 
     const std::vector<int> border = s.boundary_neighbours(gone);
     if (!keeps_seam(s, gone, stays, around, common, border)) return -1;

@@ -214,17 +214,18 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     }
     facing.conservativeResize(rows, 3);
     Triangles half(0, 3);
+    // Fans that are dropped may have held others
     if (mirror.found()) {
         half = geom::first_half(facing, head.vertices, mirror);
         for (long before = -1; half.rows() != before;) {
             before = half.rows();
             const Triangles whole = geom::with_mirror_image(half, mirror);
-            half = geom::paired_half(without_bow_ties(largest_piece(whole, count)), head.vertices,
+            half = geom::paired_half(largest_piece(without_bow_ties(whole), count), head.vertices,
                                      mirror);
         }
         shell.fine = geom::with_mirror_image(half, mirror);
     } else {
-        shell.fine = without_bow_ties(largest_piece(facing, count));
+        shell.fine = largest_piece(without_bow_ties(facing), count);
     }
 
     // Size field: fine at lips and lids, coarse on forehead and cheek
