@@ -154,7 +154,7 @@ struct Face::Impl {
         pose.lower_closure = pose.upper_closure;
         pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
         // Orbicularis draws both lids towards the inner canthus it springs from.
-        pose.inward = pose.upper_closure * (0.5 + 0.5 * std::min(1.0, upper));
+        pose.inward = pose.upper_closure * (0.5 + std::min(0.5, upper));
         constexpr double kDegree = 3.14159265358979323846 / 180.0;
         const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft
                                                 : track::Kinematic::kGazePitchRight);

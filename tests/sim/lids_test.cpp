@@ -103,8 +103,10 @@ class Lids : public testing::Test {
 TEST_F(Lids, ABlinkClosesBothEyesFromCanthusToCanthus) {
     const FacePose open = settled(face(), neutral());
     EXPECT_GT(gap_mm(open, "_l"), 8);
-    for (const char* unit : {"AU43", "AU45"})
+    for (const char* unit : {"AU43", "AU45"}) {
         EXPECT_LT(gaps_mm(settled(face(), with_unit(unit))), 0.3) << unit;
+        EXPECT_EQ(face().inverted_tets(), 0) << unit;
+    }
     for (const auto& [yaw, pitch] : {std::pair{0., -30.}, {30., 20.}})
         EXPECT_LT(gaps_mm(settled(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.3)
             << "over an eye turned " << yaw << " " << pitch;
@@ -288,10 +290,13 @@ TEST_P(MeasuredHeads, ShutTheirEyes) {
     if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     Face face(test->rig, test->mesh, {"test", 400, 6}, GetParam());
     const FacePose pose = settled(face, with_unit("AU45"));
+    // Up and aside the eyes pull their lids furthest apart
+    const FacePose aside = settled(face, gaze(-30, 20, with_unit("AU45")));
     for (int side = 0; side < 2; ++side) {
         const EyeLids lids(face.head(), side, 0.96);
         EXPECT_GT(largest_gap_mm(face.head(), lids, face.head().vertices), 6);
         EXPECT_LT(largest_gap_mm(face.head(), lids, pose.vertices), 0.3);
+        EXPECT_LT(largest_gap_mm(face.head(), lids, aside.vertices), 0.3);
     }
 }
 

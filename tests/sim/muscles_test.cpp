@@ -189,6 +189,15 @@ TEST_F(Muscles, MarginalFibresTurnTheRedLipIn) {
     EXPECT_LT(at(moved("orbicularis_oris_lower_marginal"), "li").z(), -0.5);
 }
 
+TEST_F(Muscles, TightenedLipsGetNarrowWithoutAKiss) {
+    const Points u = moved_mm(face(), settled(face(), with_unit("AU23")));
+    EXPECT_GT(at(u, "li").y() - at(u, "ls").y(), 1.0) << "the red of the lips";
+    for (const char* corner : {"ch_l", "ch_r"}) {
+        EXPECT_LT(std::abs(at(u, corner).x()), 3.5) << corner;
+        EXPECT_LT(at(u, corner).z(), 2.5) << corner;
+    }
+}
+
 TEST_F(Muscles, RisoriusWidensTheMouth) {
     const Points u = moved("risorius");
     EXPECT_GT(at(u, "ch_l").x(), 2);

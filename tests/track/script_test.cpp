@@ -119,8 +119,8 @@ TEST(Script, ContemptMovesToTheSideAskedFor) {
     const ScriptDescription script = read(json);
     const int left = tables().column("buccinator.l"), right = tables().column("buccinator.r");
     EXPECT_EQ(script.expressions[0].parts[0].drives.excitation[left], 0.0);
-    EXPECT_EQ(script.expressions[0].parts[0].drives.excitation[right], 0.322);
-    EXPECT_EQ(script.expressions[1].parts[0].drives.excitation[left], 0.322);
+    EXPECT_EQ(script.expressions[0].parts[0].drives.excitation[right], 0.46);
+    EXPECT_EQ(script.expressions[1].parts[0].drives.excitation[left], 0.46);
     EXPECT_EQ(script.expressions[1].parts[0].drives.excitation[right], 0.0);
 }
 
