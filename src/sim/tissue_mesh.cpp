@@ -29,14 +29,14 @@ double interpolate_thickness(const rig::Head& head,
     return sum / weights;
 }
 
-// Three tetrahedra per prism, with diagonals from the smallest vertex so that neighbours agree.
-void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top,
-               std::vector<std::array<int, 4>>& out) {
+// Three tetrahedra per prism, with diagonals from the vertex of least rank so that neighbours agree, and mirror images too.
+void cut_prism(const std::array<int, 3>& base, const std::vector<int>& rank, Layer bottom,
+               Layer top, std::vector<std::array<int, 4>>& out) {
     std::array<int, 3> v = base;
     bool odd = false;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2 - i; ++j)
-            if (v[j] > v[j + 1]) {
+            if (rank[v[j]] > rank[v[j + 1]]) {
                 std::swap(v[j], v[j + 1]);
                 odd = !odd;
             }
@@ -97,12 +97,16 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
         mesh.thickness_m[v] = thickness;
     }
 
+    // No triangle holds a vertex and its image, so within one the ranks differ.
+    std::vector<int> rank(static_cast<std::size_t>(count));
+    for (int v = 0; v < count; ++v)
+        rank[v] = shell.mirrored.empty() ? v : std::min(v, shell.mirrored[v]);
     std::vector<std::array<int, 4>> tets;
     for (long f = 0; f < shell.triangles.rows(); ++f) {
         const std::array<int, 3> base{shell.triangles(f, 0), shell.triangles(f, 1),
                                       shell.triangles(f, 2)};
-        cut_prism(base, kDeep, kMiddle, tets);
-        cut_prism(base, kMiddle, kSkin, tets);
+        cut_prism(base, rank, kDeep, kMiddle, tets);
+        cut_prism(base, rank, kMiddle, kSkin, tets);
     }
     std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
     std::vector<double> face_area(static_cast<std::size_t>(shell.triangles.rows()));
