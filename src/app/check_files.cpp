@@ -3,6 +3,7 @@
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/rig_files.h"
+#include "core/existing_file.h"
 #include "experiment/registry.h"
 #include "io/read_mesh.h"
 #include "rig/head.h"
@@ -21,6 +22,7 @@ rig::Head check_rig(const fs::path& file) {
 
 void check_script(const fs::path& file) {
     const track::ScriptHeader header = track::read_script_header(file);
+    existing_file(JsonCursor::read_file(file).at("rig"));
     const RigFiles files = read_rig_files(header.rig_file);
     track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions);
     rig::place_head(files.rig, files.mesh, files.place());

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/existing_file.h"
 
 namespace risorius::app {
 
@@ -23,7 +24,10 @@ std::string Shot::background_text() const {
 Shot plan_shot(const AnimateOptions& options) {
     Shot shot;
     shot.script = track::read_script_header(options.script);
-    if (options.rig) shot.script.rig_file = *options.rig;
+    if (options.rig)
+        shot.script.rig_file = *options.rig;
+    else
+        existing_file(JsonCursor::read_file(options.script).at("rig"));
     if (options.fps) {
         if (*options.fps < 1 || *options.fps > 240)
             throw Error("--fps", "an integer in [1, 240]", std::to_string(*options.fps));

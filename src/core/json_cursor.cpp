@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "core/existing_file.h"
+
 namespace risorius {
 
 namespace {
@@ -268,8 +270,7 @@ void JsonCursor::fail(const std::string& expected) const { fail(expected, descri
 
 JsonCursor follow_table(const JsonCursor& table) {
     if (!table.is_string()) return table;
-    const std::filesystem::path file = table.path();
-    if (!std::filesystem::exists(file)) table.fail("an existing file", "\"" + file.string() + "\"");
+    const std::filesystem::path file = existing_file(table);
     return JsonCursor::read_file(file);
 }
 

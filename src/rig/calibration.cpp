@@ -3,7 +3,7 @@
 namespace risorius::rig {
 
 std::vector<std::string> read_calibration(const JsonCursor& json) {
-    if (json.is_string()) return read_calibration(JsonCursor::read_file(json.path()));
+    if (json.is_string()) return read_calibration(follow_table(json));
     std::vector<std::string> out;
     if (json.is_array()) {
         for (const JsonCursor& name : json.items()) out.push_back(name.string());

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/existing_file.h"
 #include "rig/calibration.h"
 
 namespace risorius::rig {
@@ -188,7 +189,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor mesh = json.at("mesh");
     mesh.allow_keys({"file", "metres_per_unit", "parts"});
-    rig.mesh_file = mesh.at("file").path();
+    rig.mesh_file = existing_file(mesh.at("file"));
     rig.metres_per_unit = mesh.at("metres_per_unit").number({1e-9, 1e3});
     mesh.at("parts").allow_keys(part_roles());
     for (const std::string& role : mesh.at("parts").keys())
@@ -196,8 +197,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
             rig.parts[role].push_back(group.string());
 
     const JsonCursor landmarks = json.at("landmarks");
-    rig.landmarks =
-        landmarks.is_string() ? read_landmarks(landmarks.path()) : read_landmark_table(landmarks);
+    rig.landmarks = landmarks.is_string() ? read_landmarks(existing_file(landmarks))
+                                          : read_landmark_table(landmarks);
     if (landmarks.is_string()) rig.table_files.push_back(landmarks.path());
 
     const JsonCursor anatomy = table(json.at("anatomy"));

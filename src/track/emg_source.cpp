@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/existing_file.h"
 #include "signal/emg_envelope.h"
 #include "signal/recording.h"
 
@@ -79,7 +80,7 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
     json.allow_keys({"file", "rate_hz", "time_column", "channels", "envelope", "band_pass_hz",
                      "notch_hz", "low_pass_hz", "order", "maximum", "maximum_percentile",
                      "rest_percentile", "delay_s"});
-    const Recording recording = Recording::read_file(json.at("file").path());
+    const Recording recording = Recording::read_file(existing_file(json.at("file")));
     const auto [rate_hz, start_s] = read_clock(json, recording);
     const EmgFilters filters = read_filters(json, rate_hz);
     const std::size_t shortest = signal::padding_of(filters, rate_hz) + 1;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "core/existing_file.h"
 #include "track/emg_source.h"
 #include "track/timeline.h"
 
@@ -322,7 +323,7 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
             script.channels.push_back(reader.channel(table->at(name), name));
     if (const auto emg = json.find("emg")) {
         script.emg = read_emg(*emg, channels);
-        script.recordings.push_back(emg->at("file").path());
+        script.recordings.push_back(existing_file(emg->at("file")));
     }
     if (const auto events = json.find("events")) {
         std::vector<JsonCursor> idle;

@@ -173,7 +173,7 @@ TEST_F(EmgSource, WhatCannotBeReadIsRefusedByPlace) {
               "script.json:/emg/channels/mentalis: expected a maximum above the envelope at rest, "
               "0, found 0");
     EXPECT_EQ(refusal_of(R"({"file": "none.csv", "rate_hz": 1000, "channels": {}})"),
-              "none.csv: expected a readable file, found none");
+              "script.json:/emg/file: expected an existing file, found \"none.csv\"");
 }
 
 TEST(SimulatedEmg, IsTheSmoothedExcitationWithoutDelay) {
