@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "app/stopwatch.h"
@@ -119,13 +120,18 @@ std::vector<StepBench> usual_step_benches() {
 Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases, const Watch& watch) {
     const track::Timeline timeline(step_track(files), files.rig.channels());
     const sim::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
-    std::map<std::pair<int, int>, SkinTrack> converged;  // by size of the shell and steps
+    std::map<std::tuple<int, int, double>, SkinTrack>
+        converged;  // by size of the shell, steps, pieces
     Json out = Json::array();
     for (const StepBench& one : cases) {
-        const auto key = std::pair(one.quality.shell_vertices, one.steps);
+        const auto key =
+            std::tuple(one.quality.shell_vertices, one.steps, one.quality.longest_piece_s);
         if (!converged.contains(key)) {
-            const sim::Quality exact{"converged", one.quality.shell_vertices, kConvergedIterations,
-                                     0, kConverged_m};
+            sim::Quality exact = one.quality;
+            exact.name = "converged";
+            exact.iterations = kConvergedIterations;
+            exact.tolerance_rms_m = kConverged_m;
+            exact.precision = solve::Precision::kDouble;
             converged[key] = play(files, drive, {exact, one.steps}, watch).skin;
         }
         const StepRun quick = play(files, drive, one, watch);

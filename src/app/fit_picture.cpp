@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "geom/closest_point.h"
 #include "media/image_file.h"
 #include "render/measure_view.h"
+#include "sim/inside_skin.h"
 #include "sim/lids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
@@ -88,11 +88,11 @@ std::string text_of(const char* format, double a, double b = 0, double c = 0) {
 
 }  // namespace
 
-BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig) {
+BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig,
+                           const sim::Shell& shell) {
     const std::array<sim::EyeLids, 2> lids{sim::EyeLids(head, 0, rig.eyes.lid_closed_share),
                                            sim::EyeLids(head, 1, rig.eyes.lid_closed_share)};
     const sim::Jaw jaw(head, rig.jaw);
-    const sim::Shell shell = sim::build_shell(head, jaw, lids, {});
     const sim::TissueMesh tissue = sim::build_tissue_mesh(head, rig, shell, lids);
     BoneEstimate out;
     const long count = static_cast<long>(shell.vertex.size());
@@ -118,18 +118,9 @@ BoneFigures bone_figures(const BoneEstimate& bone) {
         out.thickest_mm = std::max(out.thickest_mm, 1e3 * thickness);
         out.mean_mm += 1e3 * thickness / static_cast<double>(bone.thickness_m.size());
     }
-    // Inside: the nearest skin is passed from its inner side
-    const geom::SurfaceTree skin(bone.skin, bone.triangles);
-    for (long v = 0; v < bone.bone.rows(); ++v) {
-        const Vec3 p = bone.bone.row(v).transpose();
-        const auto foot = skin.closest(p);
-        const Vec3 a = bone.skin.row(bone.triangles(foot->triangle, 0)),
-                   b = bone.skin.row(bone.triangles(foot->triangle, 1)),
-                   c = bone.skin.row(bone.triangles(foot->triangle, 2));
-        // Nearest to an edge or a corner the triangle's own side says nothing
-        const bool face_on = foot->barycentric.minCoeff() > 1e-6;
-        if (face_on && (p - foot->point).dot((b - a).cross(c - a)) > 0) ++out.through_skin;
-    }
+    const sim::InsideSkin skin(bone.skin, bone.triangles);
+    for (long v = 0; v < bone.bone.rows(); ++v)
+        out.through_skin += skin.outside(bone.bone.row(v).transpose());
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include "geom/polygon_mesh.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
+#include "sim/shell.h"
 
 namespace risorius::app {
 
@@ -18,7 +19,8 @@ struct BoneEstimate {
     std::vector<double> thickness_m;  ///< N
     std::vector<double> jaw_share;    ///< N, 1 on the mandible, 0 on the skull
 };
-BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig);
+BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig,
+                           const sim::Shell& shell);
 
 /// How the bone lies under the skin.
 struct BoneFigures {

@@ -103,7 +103,10 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     rig.parts["mouth"].push_back(rig::kLiningGroup);
     mesh = std::move(cut.mesh);
     notes.push_back("the lips are cut apart over " + std::to_string(cut.upper.size()) +
-                    " points, with a lining behind");
+                    " points, with a lining behind" +
+                    (cut.laid_back == 0 ? ""
+                                        : "; " + std::to_string(cut.laid_back) +
+                                              " points seen deep between them are laid back"));
     return true;
 }
 
@@ -214,7 +217,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
     if (!report.teeth)
         report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
-    const BoneEstimate bone = bone_estimate(head, rig);
+    const BoneEstimate bone = bone_estimate(head, rig, face.shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +

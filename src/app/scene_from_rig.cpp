@@ -3,6 +3,8 @@
 #include <functional>
 #include <optional>
 
+#include "sim/lids.h"
+
 namespace risorius::app {
 
 namespace {
@@ -50,12 +52,30 @@ render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh,
     return surface;
 }
 
+// The head with its lids closed as their plates carry them.
+Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
+    Points shut = head.vertices;
+    const sim::LidPose closed{.upper_closure = 1, .lower_closure = 1, .inward = 0.5};
+    for (int side = 0; side < 2; ++side) {
+        const sim::EyeLids lids(head, side, rig.eyes.lid_closed_share);
+        for (Eigen::Index v = 0; v < shut.rows(); ++v) {
+            const Vec3 p = head.vertices.row(v).transpose();
+            if (head.carrier[static_cast<std::size_t>(v)] == rig::Carrier::kSkin &&
+                (p - lids.centre()).norm() < lids.zone_m() + head.mm(4) &&
+                p.z() > lids.centre().z())
+                shut.row(v) += lids.ride(p, lids.member(p), closed).transpose();
+        }
+    }
+    return shut;
+}
+
 }  // namespace
 
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh) {
     render::Scene scene;
     scene.rest = head.vertices;
+    scene.shut = eyes_shut(head, rig);
     scene.landmarks = head.landmarks;
 
     // One surface per group of faces; the tongue is told from the gums piece by piece

@@ -15,7 +15,8 @@ constexpr double kPi = 3.14159265358979323846;
 // The surface while it is being coarsened.
 class Surface {
   public:
-    Surface(const Triangles& triangles, const Points& points) : points_(points) {
+    Surface(const Triangles& triangles, const Points& points, const std::vector<char>& seam)
+        : points_(points), seam_(seam) {
         faces_of_.resize(static_cast<std::size_t>(points.rows()));
         for (long f = 0; f < triangles.rows(); ++f) {
             faces_.push_back({triangles(f, 0), triangles(f, 1), triangles(f, 2)});
@@ -26,6 +27,7 @@ class Surface {
         for (std::size_t f = 0; f < faces_.size(); ++f) rest_normal_[f] = normal(faces_[f]);
     }
 
+    bool on_seam(int v) const { return !seam_.empty() && seam_[v]; }
     Vec3 at(int v) const { return points_.row(v).transpose(); }
     Vec3 normal(const std::array<int, 3>& f) const {
         return (at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0])).normalized();
@@ -53,6 +55,7 @@ class Surface {
     }
 
     const Points& points_;
+    const std::vector<char>& seam_;
     std::vector<std::array<int, 3>> faces_;
     std::vector<char> alive_;
     std::vector<std::vector<int>> faces_of_;
@@ -73,6 +76,18 @@ double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
 }
 
+// Whether a collapse leaves the seam where it is: its vertices leave along it, but for its ends, and no other edge joins two.
+bool keeps_seam(const Surface& s, int gone, int stays, const std::vector<int>& around,
+                const std::vector<int>& common, const std::vector<int>& border) {
+    if (s.on_seam(gone))
+        return s.on_seam(stays) &&
+               std::all_of(border.begin(), border.end(), [&](int w) { return s.on_seam(w); });
+    if (!s.on_seam(stays)) return true;
+    return std::all_of(around.begin(), around.end(), [&](int w) {
+        return w == stays || !s.on_seam(w) || std::binary_search(common.begin(), common.end(), w);
+    });
+}
+
 // How good the surface is after moving `gone` onto `stays`; negative when it must not be done.
 double collapse_quality(const Surface& s, int gone, int stays, const std::vector<double>& length,
                         const DecimateOptions& options) {
@@ -82,15 +97,23 @@ double collapse_quality(const Surface& s, int gone, int stays, const std::vector
                           std::back_inserter(common));
     const int on_edge = s.faces_on_edge(gone, stays);
     if (static_cast<int>(common.size()) != on_edge) return -1;  // link condition
+    const auto only_these = [&](int v) {
+        return static_cast<int>(s.faces_of_[v].size()) == on_edge;
+    };
+    if (only_these(gone) && only_these(stays)) return -1;  // a piece's last triangle
 
     const std::vector<int> border = s.boundary_neighbours(gone);
+    if (!keeps_seam(s, gone, stays, around, common, border)) return -1;
     if (!border.empty()) {
         if (border.size() != 2 || on_edge != 1) return -1;
         const int other = border[0] == stays ? border[1] : border[0];
         const Vec3 along = s.at(other) - s.at(stays);
         const Vec3 from = s.at(gone) - s.at(stays);
         const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
-        if ((from - t * along).norm() > options.boundary_tolerance * length[gone]) return -1;
+        // A seam is an edge of this half only; there the normals decide, as inside a surface.
+        if (!s.on_seam(gone) &&
+            (from - t * along).norm() > options.boundary_tolerance * length[gone])
+            return -1;
     } else if (!s.boundary_neighbours(stays).empty() && on_edge != 2) {
         return -1;
     }
@@ -146,6 +169,7 @@ void flip_edges(Surface& s, const DecimateOptions& options) {
                 if (f[k] == b && f[(k + 1) % 3] == a) std::swap(a, b);
             const int c = opposite(f), d = opposite(g);
             if (c < 0 || d < 0 || c == d || s.faces_on_edge(c, d) > 0) continue;
+            if (s.on_seam(c) && s.on_seam(d)) continue;
             const Vec3 pa = s.at(a), pb = s.at(b), pc = s.at(c), pd = s.at(d);
             const double before = std::min(smallest_angle(pa, pb, pc), smallest_angle(pb, pa, pd));
             const double after = std::min(smallest_angle(pc, pa, pd), smallest_angle(pd, pb, pc));
@@ -175,8 +199,8 @@ void flip_edges(Surface& s, const DecimateOptions& options) {
 
 Decimated decimate(const Triangles& triangles, const Points& points,
                    const std::vector<double>& length, const std::vector<char>& keep,
-                   const DecimateOptions& options) {
-    Surface s(triangles, points);
+                   const DecimateOptions& options, const std::vector<char>& seam) {
+    Surface s(triangles, points, seam);
     const std::size_t count = static_cast<std::size_t>(points.rows());
     std::vector<int> parent(count, -1);
     for (long f = 0; f < triangles.rows(); ++f)

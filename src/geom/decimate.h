@@ -25,9 +25,10 @@ struct Decimated {
         collapsed_to;  ///< V, the kept vertex each original vertex went to; -1 if not on the surface
 };
 
-/// `length` is the wanted edge length at each vertex; vertices in `keep` (V, may be empty) are never removed.
+/// `length` is the wanted edge length at each vertex; vertices in `keep` (V, may be empty) are never removed. Those of `seam` (V, may
+/// be empty) lie on an edge along which another surface will be joined: they leave along it only, and it stays an edge.
 Decimated decimate(const Triangles& triangles, const Points& points,
                    const std::vector<double>& length, const std::vector<char>& keep,
-                   const DecimateOptions& options = {});
+                   const DecimateOptions& options = {}, const std::vector<char>& seam = {});
 
 }  // namespace risorius::geom

@@ -18,6 +18,10 @@ namespace {
 // active: with all of it a step of the face takes half as many iterations again, with none it ends before it has converged.
 constexpr double kFastShare = 0.1;
 
+// Tables of steps: a corner of the velocity curve, at no speed, is the end of a cell, and forces are off by 1e-5 at most.
+constexpr double kGreatestSpeed = 1.5, kGreatestLength = 3;
+constexpr int kCells = 768;
+
 }  // namespace
 
 FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, const Points& rest,
@@ -26,6 +30,8 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
       fibres_(std::move(fibres)),
       curves_(shape),
       velocity_(zajac_curves().velocity),
+      velocity_table_(velocity_, -kGreatestSpeed, kGreatestSpeed, kCells),
+      passive_table_(passive_curve(shape), 1.0, kGreatestLength, kCells),
       optimal_length_m_(points_.size(), 0.0) {
     const auto count = static_cast<Eigen::Index>(points_.size());
     body_position_.setZero(count, 3);
@@ -98,8 +104,14 @@ LengthCurves::Value FibreSet::active(const Fibre& fibre, int segment, double l) 
     if (step_s_ == 0) return curves_.active(l / optimal_length_m_[s]);
     const double reach = step_s_ * fibre.greatest_speed_hz;  // h vmax
     const double v = (l - start_length_m_[s]) / (reach * optimal_length_m_[s]);
-    const Curve::Value velocity = velocity_.at(v);
+    const CurveTable::Value velocity = velocity_table_.at(v);
     return {start_force_[s] * velocity.value, start_force_[s] * reach * velocity.integral};
+}
+
+LengthCurves::Value FibreSet::passive(double lam) const {
+    if (step_s_ == 0 || lam <= 1.0) return curves_.passive(lam);
+    const CurveTable::Value value = passive_table_.at(lam);
+    return {value.value, value.integral};
 }
 
 double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
@@ -117,7 +129,7 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
             const double lam = l / l0;
             // A relaxed, slack segment does nothing; most segments of most frames are that.
             if (a == 0.0 && lam <= 1.0) continue;
-            const LengthCurves::Value passive = curves_.passive(lam);
+            const LengthCurves::Value passive = this->passive(lam);
             const LengthCurves::Value pulled =
                 a == 0.0 ? LengthCurves::Value{0.0, 0.0} : active(fibre, p, l);
             energy += fibre.f0_n * l0 * (a * pulled.integral + passive.integral);

@@ -16,6 +16,7 @@
 
 #include "core/types.h"
 #include "muscle/curve.h"
+#include "muscle/curve_table.h"
 #include "muscle/hill_shape.h"
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
@@ -97,11 +98,13 @@ class FibreSet {
     double length(int segment) const;
     /// Per unit of activation and F0; the integral per unit of l0 too.
     LengthCurves::Value active(const Fibre& fibre, int segment, double l) const;
+    LengthCurves::Value passive(double lam) const;
 
     std::vector<FibrePoint> points_;
     std::vector<Fibre> fibres_;
     LengthCurves curves_;
     Curve velocity_;
+    CurveTable velocity_table_, passive_table_;     ///< of steps
     std::vector<double> optimal_length_m_;          ///< l0 of the segment that begins at a point
     double step_s_ = 0;                             ///< h, 0 at rest
     std::vector<double> start_length_m_;            ///< l_n, likewise

@@ -102,6 +102,9 @@ struct OffscreenView::Impl {
         if (scene.fold_phase.rows() != 0 && scene.fold_phase.rows() != vertex_count)
             throw Error("scene/fold_phase", std::to_string(vertex_count) + " rows, or none",
                         std::to_string(scene.fold_phase.rows()));
+        if (scene.shut.rows() != 0 && scene.shut.rows() != vertex_count)
+            throw Error("scene/shut", std::to_string(vertex_count) + " rows, or none",
+                        std::to_string(scene.shut.rows()));
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
         if (options.show == Show::kMuscles)
@@ -112,10 +115,17 @@ struct OffscreenView::Impl {
 
         // Baked once: how much sky the skin sees, and its paint
         const double reach = 0.75 * camera.frame_height_m;
-        const std::vector<float> sky =
-            sky_seen_at_rest(scene.rest, buffers->normals(), buffers->index_count(), centre, reach);
-        const std::vector<float> inside = marks.inside_mouth(scene, sky);
+        const auto sky_over = [&](const Points& positions) {
+            return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
+        };
+        const std::vector<float> sky = sky_over(scene.rest);
+        inside = marks.inside_mouth(scene, sky);
         buffers->set_occlusion(sky, inside);
+        if (scene.shut.rows() > 0) {
+            buffers->upload(scene.shut);
+            sky_about_eyes.emplace(scene, sky, sky_over(scene.shut));
+            buffers->upload(scene.rest);
+        }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
         paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, centre,
                                buffers->paintable_triangles(inside));
@@ -185,6 +195,8 @@ struct OffscreenView::Impl {
     std::unique_ptr<Materials> materials;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<Framebuffer> target;
+    std::vector<float> inside;  ///< of the mouth, per vertex
+    std::optional<SkyAboutEyes> sky_about_eyes;
     GLuint paint_map = 0, pore_map = 0, frame_buffer = 0;
 };
 
@@ -209,6 +221,10 @@ Image OffscreenView::draw(const Pose& pose) {
     // What moved
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);
+    if (view.sky_about_eyes)
+        view.buffers->set_occlusion(view.sky_about_eyes->seen({view.marks.lids_closed(pose, 0),
+                                                               view.marks.lids_closed(pose, 1)}),
+                                    view.inside);
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
 

@@ -60,6 +60,8 @@ struct Muscles {
 
 struct Scene {
     Points rest;  ///< V x 3, m, head frame
+    Points
+        shut;  ///< V x 3, or no rows: with the eyes shut, for the shade on lids that have unrolled from their crease
     std::vector<Surface> surfaces;
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right

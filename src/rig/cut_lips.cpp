@@ -6,7 +6,8 @@
 #include <map>
 #include <set>
 
-#include "geom/closest_point.h"
+#include "rig/lip_line.h"
+#include "rig/scan_spikes.h"
 
 namespace risorius::rig {
 
@@ -17,79 +18,6 @@ constexpr double kFromLine_m =
     9e-3;  // of the landmarks' line, at atlas size: how far the cut may lie
 constexpr double kBehind_m = 5e-3;  // what is this far behind the lips is inside of the mouth
 constexpr double kPi = 3.14159265358979323846;
-
-/// The line between the lips seen from the front: height and depth over x, corner to corner.
-class LipLine {
-  public:
-    explicit LipLine(const Head& head)
-        : right_(head.landmark("ch_r")),
-          left_(head.landmark("ch_l")),
-          middle_(head.landmark("sto")) {
-        // The deepest place between the lips, some millimetres up or down from where the landmarks put it
-        const geom::SurfaceTree skin(head.vertices, head.skin);
-        constexpr int kReach = 8;  // half millimetres
-        std::vector<double> offset(kStations + 1, 0.0);
-        for (int i = 1; i < kStations; ++i) {
-            const double x = x_of(i);
-            const Vec3 base = plain(x);
-            std::array<double, 2 * kReach + 1> z{};
-            bool whole = true;
-            for (int k = -kReach; k <= kReach; ++k) {
-                const Vec3 from(x, base.y() + head.mm(0.5 * k), base.z() + head.mm(25));
-                const auto hit = skin.cast(from, -Vec3::UnitZ(), head.mm(50));
-                whole = whole && hit.has_value();
-                z[static_cast<std::size_t>(k + kReach)] = hit ? hit->point.z() : 0;
-            }
-            if (!whole) continue;
-            double best = head.mm(0.15);  // what shallower furrows are: none
-            for (int k = -kReach + 1; k < kReach; ++k) {
-                const double t = static_cast<double>(k + kReach) / (2 * kReach);
-                const double chord = (1 - t) * z.front() + t * z.back();
-                const double depth =
-                    chord - z[static_cast<std::size_t>(k + kReach)] - head.mm(0.08) * std::abs(k);
-                if (depth <= best) continue;
-                best = depth;
-                offset[static_cast<std::size_t>(i)] = head.mm(0.5 * k);
-            }
-        }
-        for (int pass = 0; pass < 4; ++pass) {
-            std::vector<double> next = offset;
-            for (std::size_t i = 1; i < kStations; ++i)
-                next[i] = 0.25 * offset[i - 1] + 0.5 * offset[i] + 0.25 * offset[i + 1];
-            offset = next;
-        }
-        offset_ = offset;
-    }
-
-    bool spans(double x) const { return x > right_.x() && x < left_.x(); }
-    /// From corner to corner, -1 .. 1, 0 in the middle.
-    double across(double x) const {
-        return x < middle_.x() ? (x - middle_.x()) / (middle_.x() - right_.x())
-                               : (x - middle_.x()) / (left_.x() - middle_.x());
-    }
-    Vec3 at(double x) const {
-        const double place =
-            std::clamp((x - right_.x()) / (left_.x() - right_.x()), 0.0, 1.0) * kStations;
-        const std::size_t i = std::min<std::size_t>(kStations - 1, static_cast<std::size_t>(place));
-        const double t = place - static_cast<double>(i);
-        return plain(x) + Vec3(0, (1 - t) * offset_[i] + t * offset_[i + 1], 0);
-    }
-
-  private:
-    static constexpr int kStations = 24;
-    double x_of(int i) const { return right_.x() + (left_.x() - right_.x()) * i / kStations; }
-    /// A parabola each side, level in the middle.
-    Vec3 plain(double x) const {
-        const double s = std::min(1.0, std::abs(across(x)));
-        const Vec3& corner = x < middle_.x() ? right_ : left_;
-        Vec3 p = middle_ + s * s * (corner - middle_);
-        p.x() = x;
-        return p;
-    }
-
-    Vec3 right_, left_, middle_;
-    std::vector<double> offset_;
-};
 
 /// A polygon on its way through the cut.
 struct Polygon {
@@ -106,8 +34,9 @@ class Cut {
   public:
     Cut(const geom::PolygonMesh& mesh, const Head& head, const std::vector<int>& groups)
         : head_(head), line_(head), textured_(mesh.corner_texcoord.rows() > 0) {
-        for (long v = 0; v < head.vertices.rows(); ++v)
-            position_.push_back(head.vertices.row(v).transpose());
+        const Points laid_back = without_spikes(head, line_, laid_back_);
+        for (long v = 0; v < laid_back.rows(); ++v)
+            position_.push_back(laid_back.row(v).transpose());
         for (int f = 0; f < mesh.face_count(); ++f) {
             Polygon polygon{{}, {}, mesh.face_group[static_cast<std::size_t>(f)]};
             for (int c = mesh.face_begin[static_cast<std::size_t>(f)];
@@ -295,6 +224,7 @@ class Cut {
     }
 
     const Vec3& position(int v) const { return position_[static_cast<std::size_t>(v)]; }
+    int laid_back() const { return laid_back_; }
 
   private:
     struct Corner {
@@ -423,6 +353,7 @@ class Cut {
     const Head& head_;
     LipLine line_;
     bool textured_;
+    int laid_back_ = 0;
     std::vector<Vec3> position_;
     std::vector<Polygon> polygons_;
     std::vector<char> is_skin_;  ///< polygons the cut may run through
@@ -485,6 +416,7 @@ CutLips cut_lips(const geom::PolygonMesh& mesh, const Head& head,
                     "a cut over " + format_number(std::round(1e3 * reached)) + " of " +
                         format_number(std::round(1e3 * width)) + " mm");
     CutLips out;
+    out.laid_back = cut.laid_back();
     out.lower = cut.part(path);
     out.upper.assign(path.begin() + 1, path.end() - 1);
     std::vector<std::string> names = mesh.group_names;

@@ -1,7 +1,7 @@
 // Lips that a scan has grown together, cut apart along the line between them, with the lining of a mouth behind.
 //
 // The cut follows the deepest line between the lips from corner to corner, through triangles where it has to; vertices of
-// the mesh keep their place and number, new ones follow after them.
+// the mesh keep their number and, but for spikes into the mouth, their place; new ones follow after them.
 #pragma once
 
 #include <vector>
@@ -19,6 +19,7 @@ struct CutLips {
     std::vector<int>
         upper;  ///< vertices of the upper lip along the cut, right to left, without the corners
     std::vector<int> lower;  ///< their counterparts, at the same places
+    int laid_back = 0;       ///< points seen between the lips, see scan_spikes.h
     int middle = 0;          ///< which of them is nearest to stomion
     std::vector<Vec3> seam;  ///< corner to corner, head frame, m
 };

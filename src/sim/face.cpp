@@ -29,7 +29,7 @@ namespace risorius::sim {
 namespace {
 
 constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equilibrium
-constexpr int kMemory = 8;
+constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
 constexpr int kSettleIterations = 400;
 constexpr int kContactRefresh = 20;  // iterations between searches while settling
@@ -51,7 +51,7 @@ double exact_step(double t_s, double step_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 7, 7, 0.0};
+    if (name == "preview") return {"preview", 800, 10, 10, 0.0};
     if (name == "video") return {"video", 800, 80, 4, 0.0025e-3, kStep_s, kStep_s / 2};
     if (name == "fine") return {"fine", 1700, 120, 4, 0.0025e-3, kStep_s, kStep_s / 2};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
@@ -117,6 +117,7 @@ struct Face::Impl {
           motion(neck, tissue.rest(), piece_s),
           channels(rig.channels()) {
         tissue.prepare(motion.effective_step_s());
+        tissue.step_in(quality.precision);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
         skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);

@@ -54,7 +54,7 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
     solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
     tets_->add_laplacian(laplacian, 1.0);
-    damping_ = laplacian.build({}).selfadjointView<Eigen::Lower>();
+    damping_ = solve::Laplacian(laplacian.build({}));
 }
 
 // Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
@@ -170,7 +170,8 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
         builder.add_diagonal(search_.nodes()[i], contact_share * search_.node_stiffness()[i]);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
-        {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}))});
+        {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}),
+                                  solve::Precision::kSingle)});
     return metrics_.back().factor;
 }
 
@@ -230,9 +231,9 @@ void FaceTissue::note_contacts() {
         contact_on_mandible_.push_back(to_rest * contact.point);
 }
 
-double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
-                             Points& gradient) const {
-    double energy = tets_->add_energy(x, gradient);
+double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
+                             solve::Precision precision) const {
+    double energy = tets_->add_energy(x, gradient, precision);
     energy += skin_->add_energy(x, gradient);
     energy += tethers_->add_energy(x, gradient);
     energy += fibres_->add_energy(x, activation, gradient);
@@ -249,16 +250,15 @@ double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
                                const Eigen::VectorXd& activation, const Points& at,
                                Points& gradient) {
     const double inertia = 1.0 / (h * h), viscous = rig_.tissue.damping_s / h;
-    work_ = at - start;
-    damped_.noalias() = damping_ * work_;
-    gradient = viscous * damped_;
-    double value = 0.5 * viscous * work_.cwiseProduct(damped_).sum();
-    work_ = at - aim;
+    double value = damping_.pull(viscous, at, start, gradient);
+    double moving = 0;
     for (long i = 0; i < at.rows(); ++i) {
-        value += 0.5 * inertia * mass_[i] * work_.row(i).squaredNorm();
-        gradient.row(i) += inertia * mass_[i] * work_.row(i);
+        const Vec3 off = (at.row(i) - aim.row(i)).transpose();
+        moving += mass_[i] * off.squaredNorm();
+        gradient.row(i) += inertia * mass_[i] * off.transpose();
     }
-    value += potential(at, activation, gradient);
+    value += 0.5 * inertia * moving;
+    value += potential(at, activation, gradient, precision_);
     for (long i = 0; i < at.rows(); ++i)
         if (fixed_[i]) gradient.row(i).setZero();
     return value;

@@ -27,6 +27,7 @@
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
 #include "sim/wrench.h"
+#include "solve/laplacian.h"
 #include "solve/quasi_newton.h"
 #include "solve/sparse_cholesky.h"
 #include "tissue/contacts.h"
@@ -81,6 +82,9 @@ class FaceTissue {
 
     /// Factors the matrix for steps of length h now rather than in the first of them.
     void prepare(double h) { metric(h); }
+
+    /// What steps of motion are worked out in; equilibria are in double.
+    void step_in(solve::Precision precision) { precision_ = precision; }
 
     void prescribe(const Prescribed& prescribed);
 
@@ -167,7 +171,8 @@ class FaceTissue {
     void move_mandible(const Rigid& moved);
     /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
     Wrench mandible_gradient(const Points& x, const Points& gradient) const;
-    double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
+    double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
+                     solve::Precision precision) const;
 
     const rig::Head& head_;
     const rig::RigDescription& rig_;
@@ -197,10 +202,11 @@ class FaceTissue {
     std::vector<LidTether> lid_tethers_;
     std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
-    Eigen::SparseMatrix<double> damping_;  // Ks, full symmetric, N/m
-    std::vector<Metric> metrics_;          // one per step length used
+    solve::Laplacian damping_;                                // Ks, N/m
+    solve::Precision precision_ = solve::Precision::kDouble;  // of steps of motion
+    std::vector<Metric> metrics_;                             // one per step length used
     solve::QuasiNewton newton_;
-    Points work_, damped_, carried_, carried_gradient_;
+    Points carried_, carried_gradient_;
 };
 
 }  // namespace risorius::sim

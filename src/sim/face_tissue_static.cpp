@@ -13,7 +13,7 @@ constexpr double kFirmer = 6;  // contacts at rest / those of a step, which lear
 double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activation,
                                  Points& gradient) const {
     gradient.setZero(x.rows(), 3);
-    const double energy = potential(x, activation, gradient);
+    const double energy = potential(x, activation, gradient, solve::Precision::kDouble);
     for (long i = 0; i < x.rows(); ++i)
         if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
     return energy;

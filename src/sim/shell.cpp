@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "geom/decimate.h"
+#include "geom/mirror.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -182,21 +183,50 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
         shell.direction.row(v) = d.transpose();
     }
 
+    // A head with vertices in pairs gets a shell that is its own mirror image
+    Triangles face(static_cast<long>(region.size()), 3);
+    for (std::size_t i = 0; i < region.size(); ++i)
+        face.row(static_cast<long>(i)) = head.skin.row(region[i]);
+    const geom::MirrorPairs mirror =
+        geom::find_mirror_pairs(face, head.vertices, Vec3::UnitX(), 0.0);
+    if (mirror.found())
+        for (long v = 0; v < count; ++v) {
+            if (!used[v] || mirror.side(static_cast<int>(v), head.vertices) < 0) continue;
+            const Vec3 here = shell.direction.row(v).transpose(),
+                       there = shell.direction.row(mirror.partner[v]).transpose();
+            const Vec3 d = (here + mirror.reflect(there)).normalized();
+            shell.direction.row(v) = d.transpose();
+            shell.direction.row(mirror.partner[v]) = mirror.reflect(d).transpose();
+        }
+
     // Shell rule: what turns away from the direction is left out
     constexpr double kLeastFacing = 0.12;
-    Triangles facing(static_cast<long>(region.size()), 3);
+    Triangles facing(face.rows(), 3);
     long rows = 0;
-    for (long f : region) {
-        const int a = head.skin(f, 0), b = head.skin(f, 1), c = head.skin(f, 2);
+    for (long f = 0; f < face.rows(); ++f) {
+        const int a = face(f, 0), b = face(f, 1), c = face(f, 2);
         const Vec3 pa = head.vertices.row(a), pb = head.vertices.row(b), pc = head.vertices.row(c);
         const Vec3 n = (pb - pa).cross(pc - pa).normalized();
         const Vec3 d = (shell.direction.row(a) + shell.direction.row(b) + shell.direction.row(c))
                            .transpose()
                            .normalized();
-        if (n.dot(d) >= kLeastFacing) facing.row(rows++) = head.skin.row(f);
+        if (n.dot(d) >= kLeastFacing) facing.row(rows++) = face.row(f);
     }
     facing.conservativeResize(rows, 3);
-    shell.fine = without_bow_ties(largest_piece(facing, count));
+    Triangles half(0, 3);
+    // Fans that are dropped may have held others
+    if (mirror.found()) {
+        half = geom::first_half(facing, head.vertices, mirror);
+        for (long before = -1; half.rows() != before;) {
+            before = half.rows();
+            const Triangles whole = geom::with_mirror_image(half, mirror);
+            half = geom::paired_half(largest_piece(without_bow_ties(whole), count), head.vertices,
+                                     mirror);
+        }
+        shell.fine = geom::with_mirror_image(half, mirror);
+    } else {
+        shell.fine = largest_piece(without_bow_ties(facing), count);
+    }
 
     // Size field: fine at lips and lids, coarse on forehead and cheek
     const auto wanted_mm = [&](const Vec3& p) {
@@ -214,12 +244,13 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     double low = 0.15, high = 4.0;
     std::vector<double> length(static_cast<std::size_t>(count));
     double scale = 1.0;
-    for (int attempt = 0; attempt < 7; ++attempt) {
+    for (int attempt = 0; attempt < 12; ++attempt) {
         scale = std::sqrt(low * high);
         for (long v = 0; v < count; ++v) length[v] = scale * shell.spacing_m[v];
-        coarse = geom::decimate(shell.fine, head.vertices, length, {});
+        coarse = mirror.found() ? geom::decimate_mirrored(half, head.vertices, length, mirror)
+                                : geom::decimate(shell.fine, head.vertices, length, {});
         const int kept = static_cast<int>(coarse.kept.size());
-        if (std::abs(kept - options.vertices) < options.vertices / 50) break;
+        if (std::abs(kept - options.vertices) < options.vertices / 100) break;
         (kept > options.vertices ? low : high) = scale;
     }
     for (long v = 0; v < count; ++v) shell.spacing_m[v] *= scale;
@@ -234,7 +265,10 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     shell.collapsed_to.assign(static_cast<std::size_t>(count), -1);
     for (long v = 0; v < count; ++v)
         if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
-    for (int v : shell.vertex) shell.fixed.push_back(border[v]);
+    for (int v : shell.vertex) {
+        shell.fixed.push_back(border[v]);
+        if (mirror.found()) shell.mirrored.push_back(index[mirror.partner[v]]);
+    }
     shell.over_bite_m = bite_heights(head, jaw, shell);
     return shell;
 }

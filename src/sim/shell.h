@@ -2,7 +2,7 @@
 //
 // Region: the face from hairline to throat and back to the front of the ears. Triangles that turn away from the smooth
 // outward direction (inner lips, nostrils, lid margins) are left out: under them prisms would invert. They follow by
-// harmonic extension (skin_binding.h). Source: measured face formulation, geometry pipeline.
+// harmonic extension (skin_binding.h). On a head that is its own mirror image so is the shell, to the last diagonal. Source: measured face formulation, geometry pipeline.
 #pragma once
 
 #include <array>
@@ -28,6 +28,8 @@ struct Shell {
     std::vector<char> fixed;          ///< N, on the border to the rest of the head
     std::vector<double> spacing_m;    ///< V, wanted edge length
     std::vector<double> over_bite_m;  ///< N, height over the bite, see bite_heights()
+    std::vector<int>
+        mirrored;  ///< N, the vertex on the other side, itself on the midline; empty when the head is not symmetric
 };
 
 Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,

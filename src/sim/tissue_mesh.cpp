@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/inside_skin.h"
 #include "sim/polyline.h"
 
 namespace risorius::sim {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kLeastVolume = 0.12;  // of a tet's nominal volume
 constexpr int kRepairRounds = 60;
+constexpr double kThinnest_mm = 0.8;
 
 // Inverse-distance interpolation (power 4) of the measured soft-tissue thickness.
 double interpolate_thickness(const rig::Head& head,
@@ -27,14 +29,14 @@ double interpolate_thickness(const rig::Head& head,
     return sum / weights;
 }
 
-// Three tetrahedra per prism, with diagonals from the smallest vertex so that neighbours agree.
-void cut_prism(const std::array<int, 3>& base, Layer bottom, Layer top,
-               std::vector<std::array<int, 4>>& out) {
+// Three tetrahedra per prism, with diagonals from the vertex of least rank so that neighbours agree, and mirror images too.
+void cut_prism(const std::array<int, 3>& base, const std::vector<int>& rank, Layer bottom,
+               Layer top, std::vector<std::array<int, 4>>& out) {
     std::array<int, 3> v = base;
     bool odd = false;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2 - i; ++j)
-            if (v[j] > v[j + 1]) {
+            if (rank[v[j]] > rank[v[j + 1]]) {
                 std::swap(v[j], v[j + 1]);
                 odd = !odd;
             }
@@ -57,6 +59,10 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
     std::vector<Vec3> skin(static_cast<std::size_t>(count));
     mesh.direction.resize(static_cast<std::size_t>(count));
     mesh.thickness_m.resize(static_cast<std::size_t>(count));
+    Points coarse(count, 3);
+    for (int v = 0; v < count; ++v) coarse.row(v) = head.vertices.row(shell.vertex[v]);
+    const InsideSkin inside(coarse, shell.triangles);
+    const double least = head.mm(kThinnest_mm);
     const std::vector<Vec3> lips = lip_line(head);
     const double arch_z = head.teeth_front_m;
     for (int v = 0; v < count; ++v) {
@@ -76,6 +82,7 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
             thickness = (1 - lip) * thickness + lip * to_arch;
         }
         // Lids lie on the eyeball
+        bool on_lid = false;
         for (int side = 0; side < 2; ++side) {
             const double from_centre = (p - lids[side].centre()).norm();
             const double lid = 1.0 - smoothstep(lids[side].zone_m() - head.mm(2.5),
@@ -83,16 +90,23 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
             const double to_globe =
                 std::clamp(from_centre - head.eyes[side].radius_m, head.mm(1.0), head.mm(9));
             thickness = (1 - lid) * thickness + lid * to_globe;
+            on_lid = on_lid || lid > 0;
         }
+        // Elsewhere no bone comes near the skin of another side
+        if (lip == 0 && !on_lid) thickness = inside.depth(p, mesh.direction[v], thickness, least);
         mesh.thickness_m[v] = thickness;
     }
 
+    // No triangle holds a vertex and its image, so within one the ranks differ.
+    std::vector<int> rank(static_cast<std::size_t>(count));
+    for (int v = 0; v < count; ++v)
+        rank[v] = shell.mirrored.empty() ? v : std::min(v, shell.mirrored[v]);
     std::vector<std::array<int, 4>> tets;
     for (long f = 0; f < shell.triangles.rows(); ++f) {
         const std::array<int, 3> base{shell.triangles(f, 0), shell.triangles(f, 1),
                                       shell.triangles(f, 2)};
-        cut_prism(base, kDeep, kMiddle, tets);
-        cut_prism(base, kMiddle, kSkin, tets);
+        cut_prism(base, rank, kDeep, kMiddle, tets);
+        cut_prism(base, rank, kMiddle, kSkin, tets);
     }
     std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
     std::vector<double> face_area(static_cast<std::size_t>(shell.triangles.rows()));
@@ -108,9 +122,11 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
         }
     }
 
-    // A tet that is too thin makes the whole column thinner and turns it towards its neighbours.
+    // A tet that is too thin makes the whole column thinner and turns it towards its neighbours; bone outside of the skin
+    // turns the column's foot under its own skin.
     mesh.nodes.resize(kLayers * count, 3);
-    std::vector<char> good;
+    std::vector<char> good, looked_at(static_cast<std::size_t>(count), 1),
+        outside(static_cast<std::size_t>(count), 0);
     for (int round = 0; round <= kRepairRounds; ++round) {
         for (int v = 0; v < count; ++v) {
             mesh.nodes.row(node_of(v, kSkin)) = skin[v].transpose();
@@ -137,11 +153,27 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
                 for (int k = 0; k < 3; ++k) bad_vertex[shell.triangles(face, k)] = 1;
             }
         }
+        for (int v = 0; v < count; ++v) {
+            if (looked_at[v])
+                outside[v] = inside.outside(mesh.nodes.row(node_of(v, kDeep)).transpose());
+            any_bad = any_bad || outside[v];
+        }
         if (!any_bad || round == kRepairRounds) break;
+        // In the end that bone is inside comes before whole columns
+        const bool late = round >= kRepairRounds - 10;
         std::vector<Vec3> turned = mesh.direction;
         for (int v = 0; v < count; ++v) {
-            if (!bad_vertex[v]) continue;
-            mesh.thickness_m[v] = std::max(head.mm(0.8), 0.9 * mesh.thickness_m[v]);
+            looked_at[v] = bad_vertex[v] || outside[v];
+            if (outside[v]) {
+                const double shrink = late ? 0.7 : 0.9;
+                mesh.thickness_m[v] =
+                    std::max(late ? 0.4 * least : least, shrink * mesh.thickness_m[v]);
+                turned[v] =
+                    late ? inside.normal(v) : (mesh.direction[v] + inside.normal(v)).normalized();
+                continue;
+            }
+            if (late || !bad_vertex[v]) continue;
+            mesh.thickness_m[v] = std::max(least, 0.9 * mesh.thickness_m[v]);
             Vec3 sum = mesh.direction[v];
             for (int w : neighbours[v])
                 sum += mesh.direction[w] / static_cast<double>(neighbours[v].size());

@@ -30,6 +30,32 @@ inline double dot(const Points& a, const Points& b) {
     return sum;
 }
 
+/// sum += scale a, in the same pass as the product of that with b, which it returns; b may be `sum`.
+inline double add_and_dot(Points& sum, double scale, const Points& a, const Points& b) {
+    double* s = sum.data();
+    const double* p = a.data();
+    const double* q = b.data();
+    const long n = sum.size();
+    Lanes even{}, odd{};
+    long i = 0;
+    for (; i + 7 < n; i += 8) {
+        const Lanes first = load_lanes(s + i) + scale * load_lanes(p + i);
+        const Lanes second = load_lanes(s + i + 4) + scale * load_lanes(p + i + 4);
+        for (int k = 0; k < 4; ++k) {
+            s[i + k] = first[k];
+            s[i + 4 + k] = second[k];
+        }
+        even += first * load_lanes(q + i);
+        odd += second * load_lanes(q + i + 4);
+    }
+    double product = sum_lanes(even + odd);
+    for (; i < n; ++i) {
+        s[i] += scale * p[i];
+        product += s[i] * q[i];
+    }
+    return product;
+}
+
 inline double longest_row(const Points& d) {
     double longest = 0;
     for (long i = 0; i < d.rows(); ++i) {

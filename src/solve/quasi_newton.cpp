@@ -14,16 +14,20 @@ void QuasiNewton::direction(const InverseMetric& metric) {
         return pairs_[static_cast<std::size_t>((newest_ - age + ring) % ring)];
     };
     work_ = gradient_;
+    double along = kept_ > 0 ? dot(pair(0).step, work_) : 0;
     for (int age = 0; age < kept_; ++age) {
         Pair& p = pair(age);
-        p.alpha = p.inverse_product * dot(p.step, work_);
-        work_ -= p.alpha * p.gradient_change;
+        p.alpha = p.inverse_product * along;
+        along = add_and_dot(work_, -p.alpha, p.gradient_change,
+                            age + 1 < kept_ ? pair(age + 1).step : work_);
     }
     metric(work_, direction_);
+    along = kept_ > 0 ? dot(pair(kept_ - 1).gradient_change, direction_) : 0;
     for (int age = kept_ - 1; age >= 0; --age) {
         const Pair& p = pair(age);
-        const double beta = p.inverse_product * dot(p.gradient_change, direction_);
-        direction_ += (p.alpha - beta) * p.step;
+        const double beta = p.inverse_product * along;
+        along = add_and_dot(direction_, p.alpha - beta, p.step,
+                            age > 0 ? pair(age - 1).gradient_change : direction_);
     }
     direction_ = -direction_;
 }

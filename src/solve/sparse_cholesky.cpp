@@ -13,37 +13,52 @@ namespace risorius::solve {
 // L is copied out of CHOLMOD so that the three right-hand sides can be swept together: one point is one group of lanes,
 // and each entry of L is read once per sweep instead of three times. Neighbouring columns whose patterns nest are kept as one
 // panel, filled up with a few zeros, so that a point is fetched once for up to kWidest entries.
+namespace {
+
+constexpr int kWidest = 4;
+constexpr double kZerosAllowed = 0.2;  ///< of a panel's entries
+
+struct Panel {
+    std::int32_t first = 0;      ///< column
+    std::int32_t width = 0;      ///< columns, 1..kWidest
+    std::int32_t row_begin = 0;  ///< rows below the panel's own
+    std::int32_t row_end = 0;
+    std::int64_t value_begin = 0;  ///< width x width, diagonal inverted, then width values per row
+};
+
+/// The numbers of the factor, and both sweeps over them.
+template <class Real>
+struct Sweeps {
+    using Point = typename LanesOf<Real>::Point;
+    std::vector<Real> value;
+    PaddedRows<Real> y;
+
+    template <int W>
+    void forward(const Panel& panel, const std::vector<std::int32_t>& row);
+    template <int W>
+    void backward(const Panel& panel, const std::vector<std::int32_t>& row);
+    void solve(const std::vector<Panel>& panels, const std::vector<std::int32_t>& row,
+               const std::vector<std::int32_t>& order, const Points& B, Points& X);
+};
+
+}  // namespace
+
 struct SparseCholesky::Impl {
-    struct Panel {
-        std::int32_t first = 0;      ///< column
-        std::int32_t width = 0;      ///< columns, 1..kWidest
-        std::int32_t row_begin = 0;  ///< rows below the panel's own
-        std::int32_t row_end = 0;
-        std::int64_t value_begin =
-            0;  ///< width x width, diagonal inverted, then width values per row
-    };
     int n = 0;
     long nonzeros = 0;
     std::vector<std::int32_t> order;  // row of the factor -> row of A
     std::vector<Panel> panels;
     std::vector<std::int32_t> row;
-    std::vector<double> value;
-    mutable PaddedPoints y;
+    Precision kept = Precision::kDouble;
+    mutable Sweeps<double> in_double;
+    mutable Sweeps<float> in_single;  // empty, or the other is
 
     void factorise(const Eigen::SparseMatrix<double>& A);
     void copy_panels(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& rows,
                      const std::vector<double>& values);
-    void solve(const Points& B, Points& X) const;
-    template <int W>
-    void forward(const Panel& panel) const;
-    template <int W>
-    void backward(const Panel& panel) const;
 };
 
 namespace {
-
-constexpr int kWidest = 4;
-constexpr double kZerosAllowed = 0.2;  ///< of a panel's entries
 
 struct Cholmod {
     cholmod_common common;
@@ -123,6 +138,7 @@ void SparseCholesky::Impl::copy_panels(const std::vector<std::int32_t>& begin,
         return begin[static_cast<std::size_t>(j) + 1] - begin[static_cast<std::size_t>(j)];
     };
     std::vector<std::int32_t> place(static_cast<std::size_t>(n), 0);  // of a row in its panel
+    std::vector<double>& value = in_double.value;
     for (int first = 0; first < n;) {
         // If the first row below column j is j + 1, the rest of its pattern is part of that of column j + 1.
         int last = first;
@@ -168,12 +184,13 @@ void SparseCholesky::Impl::copy_panels(const std::vector<std::int32_t>& begin,
     }
 }
 
+template <class Real>
 template <int W>
-void SparseCholesky::Impl::forward(const Panel& panel) const {
-    const double* v = value.data() + panel.value_begin;
-    Lanes z[W];
+void Sweeps<Real>::forward(const Panel& panel, const std::vector<std::int32_t>& row) {
+    const Real* v = value.data() + panel.value_begin;
+    Point z[W];
     for (int k = 0; k < W; ++k) {
-        Lanes s = y[panel.first + k];
+        Point s = y[panel.first + k];
         for (int m = 0; m < k; ++m) s -= v[k * W + m] * z[m];
         z[k] = s * v[k * W + k];
         y[panel.first + k] = z[k];
@@ -181,63 +198,68 @@ void SparseCholesky::Impl::forward(const Panel& panel) const {
     v += W * W;
     const std::int32_t* const end = row.data() + panel.row_end;
     for (const std::int32_t* r = row.data() + panel.row_begin; r < end; ++r, v += W) {
-        Lanes s = v[0] * z[0];
+        Point s = v[0] * z[0];
         for (int k = 1; k < W; ++k) s += v[k] * z[k];
         y[*r] -= s;
     }
 }
 
+template <class Real>
 template <int W>
-void SparseCholesky::Impl::backward(const Panel& panel) const {
-    const double* const block = value.data() + panel.value_begin;
-    const double* v = block + W * W;
+void Sweeps<Real>::backward(const Panel& panel, const std::vector<std::int32_t>& row) {
+    const Real* const block = value.data() + panel.value_begin;
+    const Real* v = block + W * W;
     // Two partial sums per column hide the latency of the additions
-    Lanes even[W], odd[W];
+    Point even[W], odd[W];
     for (int k = 0; k < W; ++k) {
         even[k] = y[panel.first + k];
-        odd[k] = Lanes{};
+        odd[k] = Point{};
     }
     const std::int32_t* r = row.data() + panel.row_begin;
     const std::int32_t* const end = row.data() + panel.row_end;
     for (; r + 1 < end; r += 2, v += 2 * W) {
-        const Lanes y0 = y[r[0]], y1 = y[r[1]];
+        const Point y0 = y[r[0]], y1 = y[r[1]];
         for (int k = 0; k < W; ++k) {
             even[k] -= v[k] * y0;
             odd[k] -= v[W + k] * y1;
         }
     }
     if (r < end) {
-        const Lanes y0 = y[*r];
+        const Point y0 = y[*r];
         for (int k = 0; k < W; ++k) even[k] -= v[k] * y0;
     }
     for (int k = W - 1; k >= 0; --k) {
-        Lanes s = even[k] + odd[k];
+        Point s = even[k] + odd[k];
         for (int m = k + 1; m < W; ++m) s -= block[m * W + k] * even[m];
         even[k] = s * block[k * W + k];
         y[panel.first + k] = even[k];
     }
 }
 
-void SparseCholesky::Impl::solve(const Points& B, Points& X) const {
+template <class Real>
+void Sweeps<Real>::solve(const std::vector<Panel>& panels, const std::vector<std::int32_t>& row,
+                         const std::vector<std::int32_t>& order, const Points& B, Points& X) {
+    const auto n = static_cast<int>(order.size());
     y.set_zero(n);
     for (int i = 0; i < n; ++i) {
         const double* b = B.data() + 3L * order[static_cast<std::size_t>(i)];
-        y[i] = Lanes{b[0], b[1], b[2], 0.0};
+        y[i] = Point{static_cast<Real>(b[0]), static_cast<Real>(b[1]), static_cast<Real>(b[2]),
+                     Real(0)};
     }
     // L z = b
     for (const Panel& panel : panels) {
         switch (panel.width) {
             case 1:
-                forward<1>(panel);
+                forward<1>(panel, row);
                 break;
             case 2:
-                forward<2>(panel);
+                forward<2>(panel, row);
                 break;
             case 3:
-                forward<3>(panel);
+                forward<3>(panel, row);
                 break;
             default:
-                forward<kWidest>(panel);
+                forward<kWidest>(panel, row);
                 break;
         }
     }
@@ -245,16 +267,16 @@ void SparseCholesky::Impl::solve(const Points& B, Points& X) const {
     for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
         switch (panel->width) {
             case 1:
-                backward<1>(*panel);
+                backward<1>(*panel, row);
                 break;
             case 2:
-                backward<2>(*panel);
+                backward<2>(*panel, row);
                 break;
             case 3:
-                backward<3>(*panel);
+                backward<3>(*panel, row);
                 break;
             default:
-                backward<kWidest>(*panel);
+                backward<kWidest>(*panel, row);
                 break;
         }
     }
@@ -268,15 +290,25 @@ void SparseCholesky::Impl::solve(const Points& B, Points& X) const {
     }
 }
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& A)
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& A, Precision kept)
     : impl_(std::make_unique<Impl>()) {
+    impl_->kept = kept;
     impl_->factorise(A);
+    if (kept == Precision::kDouble) return;
+    impl_->in_single.value.assign(impl_->in_double.value.begin(), impl_->in_double.value.end());
+    impl_->in_double.value = {};
 }
 SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-void SparseCholesky::solve(const Points& B, Points& X) const { impl_->solve(B, X); }
+void SparseCholesky::solve(const Points& B, Points& X) const {
+    const Impl& self = *impl_;
+    if (self.kept == Precision::kSingle)
+        self.in_single.solve(self.panels, self.row, self.order, B, X);
+    else
+        self.in_double.solve(self.panels, self.row, self.order, B, X);
+}
 int SparseCholesky::size() const { return impl_->n; }
 long SparseCholesky::nonzeros() const { return impl_->nonzeros; }
 

@@ -8,14 +8,17 @@
 #include <memory>
 
 #include "core/types.h"
+#include "solve/lanes.h"
 
 namespace risorius::solve {
 
 class SparseCholesky {
   public:
     /// Only the lower triangle of A is read. Throws std::invalid_argument when A is not positive
-    /// definite.
-    explicit SparseCholesky(const Eigen::SparseMatrix<double>& A);
+    /// definite. The factor is found in double and kept in `kept`: in float, half the bytes are read per solution, which is
+    /// good to 1e-6 of its size then: enough for a metric.
+    explicit SparseCholesky(const Eigen::SparseMatrix<double>& A,
+                            Precision kept = Precision::kDouble);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

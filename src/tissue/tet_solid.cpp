@@ -22,107 +22,131 @@ Mat3 edges(const Points& x, const Tets& tets, int tet) {
 
 TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
                    const Eigen::VectorXd& bulk_pa)
-    : tets_(tets), rest_volume_(tets.rows()), mu_(mu_pa), bulk_(bulk_pa) {
+    : tets_(tets), rest_(rest), rest_volume_(tets.rows()), mu_(mu_pa), bulk_(bulk_pa) {
     assert(mu_pa.size() == tets.rows() && bulk_pa.size() == tets.rows());
-    const int count = size();
-    groups_.resize(static_cast<std::size_t>((count + 3) / 4));
-    for (int slot = 0; slot < 4 * static_cast<int>(groups_.size()); ++slot) {
-        // The last group is filled up with copies of the last tet that have no stiffness.
-        const int tet = std::min(slot, count - 1);
-        const Mat3 d = edges(rest, tets_, tet);
-        const double volume = d.determinant() / 6.0;
-        if (!(volume > 0))
+    for (int tet = 0; tet < size(); ++tet) {
+        rest_volume_[tet] = edges(rest_, tets_, tet).determinant() / 6.0;
+        if (!(rest_volume_[tet] > 0))
             throw std::invalid_argument("TetSolid: tet " + std::to_string(tet) +
                                         " has no positive volume at rest");
-        rest_volume_[tet] = volume;
-        const Mat3 b = d.inverse();
-        const double weight = slot < count ? volume : 0.0;
-        Group& group = groups_[static_cast<std::size_t>(slot / 4)];
-        const int lane = slot % 4;
+    }
+    fill(double_);
+    fill(single_);
+}
+
+template <class Real>
+void TetSolid::fill(Work<Real>& work) const {
+    constexpr int kWidth = Group<Real>::kWidth;
+    const int count = size();
+    work.groups.resize(static_cast<std::size_t>((count + kWidth - 1) / kWidth));
+    for (int slot = 0; slot < kWidth * static_cast<int>(work.groups.size()); ++slot) {
+        // The last group is filled up with copies of the last tet that have no stiffness.
+        const int tet = std::min(slot, count - 1);
+        const Mat3 b = edges(rest_, tets_, tet).inverse();
+        const double weight = slot < count ? rest_volume_[tet] : 0.0;
+        Group<Real>& group = work.groups[static_cast<std::size_t>(slot / kWidth)];
+        const int lane = slot % kWidth;
         for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) group.b[3 * k + j][lane] = b(k, j);
-        group.shear[lane] = weight * mu_[tet];
-        group.bulk[lane] = weight * bulk_[tet];
-        group.inverse_6v[lane] = 1.0 / (6.0 * volume);
+            for (int j = 0; j < 3; ++j) group.b[3 * k + j][lane] = static_cast<Real>(b(k, j));
+        group.shear[lane] = static_cast<Real>(weight * mu_[tet]);
+        group.bulk[lane] = static_cast<Real>(weight * bulk_[tet]);
         for (int k = 0; k < 4; ++k) group.node[k][lane] = tets_(tet, k);
     }
 }
 
-double TetSolid::add_energy(const Points& x, Points& gradient) const {
+double TetSolid::add_energy(const Points& x, Points& gradient, solve::Precision precision) const {
     assert(gradient.rows() == x.rows());
-    x_.copy(x);
-    gradient_.set_zero(x.rows());
-    const Lanes one = Lanes{} + 1.0;
+    return precision == solve::Precision::kSingle ? add_energy_in(single_, x, gradient)
+                                                  : add_energy_in(double_, x, gradient);
+}
+
+template <class Real>
+double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    using Point = typename solve::LanesOf<Real>::Point;
+    constexpr int kWidth = Group<Real>::kWidth;
+    constexpr Real kHalf = Real(0.5), kQuarter = Real(0.25);
+    solve::PaddedRows<Real>& u = work.displacement;
+    solve::PaddedRows<Real>& out = work.gradient;
+    u.copy_difference(x, rest_);
+    out.set_zero(rest_.rows());
     Lanes energy{};
 
-    for (const Group& g : groups_) {
-        // Edges e[i][k]: coordinate i of edge k
-        Lanes e[3][3];
+    for (const Group<Real>& g : work.groups) {
+        // Differences d[i][k] of displacement: coordinate i along edge k
+        Lane d[3][3];
         {
-            Lanes r[3][4];
-            for (int lane = 0; lane < 4; ++lane) {
-                const Lanes p0 = x_[g.node[0][lane]];
-                for (int k = 0; k < 3; ++k) r[k][lane] = x_[g.node[k + 1][lane]] - p0;
+            Point r[3][kWidth];
+            for (int lane = 0; lane < kWidth; ++lane) {
+                const Point p0 = u[g.node[0][lane]];
+                for (int k = 0; k < 3; ++k) r[k][lane] = u[g.node[k + 1][lane]] - p0;
             }
-            for (int k = 0; k < 3; ++k)
-                solve::rows_to_lanes(r[k][0], r[k][1], r[k][2], r[k][3], e[0][k], e[1][k], e[2][k]);
+            for (int k = 0; k < 3; ++k) solve::rows_to_lanes(r[k], d[0][k], d[1][k], d[2][k]);
         }
-        const Lanes* const b = g.b;
+        const Lane* const b = g.b;
 
-        // F = E B, C = F^T F - I
-        Lanes f[3][3];
+        // H = D B, F = I + H, C = F^T F - I = H + H^T + H^T H
+        Lane h[3][3];
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-                f[i][j] = e[i][0] * b[j] + e[i][1] * b[3 + j] + e[i][2] * b[6 + j];
-        const Lanes c00 = f[0][0] * f[0][0] + f[1][0] * f[1][0] + f[2][0] * f[2][0] - one;
-        const Lanes c11 = f[0][1] * f[0][1] + f[1][1] * f[1][1] + f[2][1] * f[2][1] - one;
-        const Lanes c22 = f[0][2] * f[0][2] + f[1][2] * f[1][2] + f[2][2] * f[2][2] - one;
-        const Lanes c01 = f[0][0] * f[0][1] + f[1][0] * f[1][1] + f[2][0] * f[2][1];
-        const Lanes c02 = f[0][0] * f[0][2] + f[1][0] * f[1][2] + f[2][0] * f[2][2];
-        const Lanes c12 = f[0][1] * f[0][2] + f[1][1] * f[1][2] + f[2][1] * f[2][2];
+                h[i][j] = d[i][0] * b[j] + d[i][1] * b[3 + j] + d[i][2] * b[6 + j];
+        Lane c[3][3];
+        for (int i = 0; i < 3; ++i)
+            for (int j = i; j < 3; ++j)
+                c[i][j] = c[j][i] =
+                    h[i][j] + h[j][i] + h[0][i] * h[0][j] + h[1][i] * h[1][j] + h[2][i] * h[2][j];
 
-        // J and its gradient with respect to the edges: 6V J = e_0 . (e_1 x e_2)
-        Lanes cof[3][3];
+        // J - 1 in invariants of H, exact near rest; dJ/dF = cof F
+        Lane f[3][3], cof[3][3];
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) f[i][j] = i == j ? h[i][j] + Real(1) : h[i][j];
         for (int i = 0; i < 3; ++i) {
             const int p = (i + 1) % 3, q = (i + 2) % 3;
-            cof[i][0] = e[p][1] * e[q][2] - e[q][1] * e[p][2];
-            cof[i][1] = e[p][2] * e[q][0] - e[q][2] * e[p][0];
-            cof[i][2] = e[p][0] * e[q][1] - e[q][0] * e[p][1];
+            for (int j = 0; j < 3; ++j) {
+                const int m = (j + 1) % 3, n = (j + 2) % 3;
+                cof[i][j] = f[p][m] * f[q][n] - f[p][n] * f[q][m];
+            }
         }
-        const Lanes j_minus_1 =
-            (e[0][0] * cof[0][0] + e[1][0] * cof[1][0] + e[2][0] * cof[2][0]) * g.inverse_6v - one;
+        const Lane minors = h[0][0] * h[1][1] - h[0][1] * h[1][0] + h[1][1] * h[2][2] -
+                            h[1][2] * h[2][1] + h[0][0] * h[2][2] - h[0][2] * h[2][0];
+        const Lane det = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) +
+                         h[0][1] * (h[1][2] * h[2][0] - h[1][0] * h[2][2]) +
+                         h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
+        const Lane j_minus_1 = h[0][0] + h[1][1] + h[2][2] + minors + det;
 
-        const Lanes cross = c01 * c01 + c02 * c02 + c12 * c12;
-        energy += g.shear * 0.25 * (c00 * c00 + c11 * c11 + c22 * c22 + cross + cross) +
-                  g.bulk * 0.5 * j_minus_1 * j_minus_1;
+        const Lane cross = c[0][1] * c[0][1] + c[0][2] * c[0][2] + c[1][2] * c[1][2];
+        solve::add_lanes(energy, g.shear * kQuarter *
+                                         (c[0][0] * c[0][0] + c[1][1] * c[1][1] +
+                                          c[2][2] * c[2][2] + cross + cross) +
+                                     g.bulk * kHalf * j_minus_1 * j_minus_1);
 
-        // dE/dE = V mu F C B^T + V K (J - 1) dJ/dE, a column per edge
-        const Lanes pressure = g.bulk * j_minus_1 * g.inverse_6v;
-        Lanes h[3][3];
+        // dE/dF = V mu F C + V K (J - 1) cof F, and times B^T a column per edge
+        const Lane pressure = g.bulk * j_minus_1;
+        Lane along[3][3];
         for (int i = 0; i < 3; ++i) {
-            const Lanes p0 = g.shear * (f[i][0] * c00 + f[i][1] * c01 + f[i][2] * c02);
-            const Lanes p1 = g.shear * (f[i][0] * c01 + f[i][1] * c11 + f[i][2] * c12);
-            const Lanes p2 = g.shear * (f[i][0] * c02 + f[i][1] * c12 + f[i][2] * c22);
+            Lane p[3];
+            for (int j = 0; j < 3; ++j)
+                p[j] = g.shear * (f[i][0] * c[0][j] + f[i][1] * c[1][j] + f[i][2] * c[2][j]) +
+                       pressure * cof[i][j];
             for (int k = 0; k < 3; ++k)
-                h[i][k] =
-                    p0 * b[3 * k] + p1 * b[3 * k + 1] + p2 * b[3 * k + 2] + pressure * cof[i][k];
+                along[i][k] = p[0] * b[3 * k] + p[1] * b[3 * k + 1] + p[2] * b[3 * k + 2];
         }
 
-        Lanes r[3][4];
+        Point r[3][kWidth];
         for (int k = 0; k < 3; ++k)
-            solve::lanes_to_rows(h[0][k], h[1][k], h[2][k], r[k][0], r[k][1], r[k][2], r[k][3]);
-        for (int lane = 0; lane < 4; ++lane) {
-            gradient_[g.node[0][lane]] -= r[0][lane] + r[1][lane] + r[2][lane];
-            for (int k = 0; k < 3; ++k) gradient_[g.node[k + 1][lane]] += r[k][lane];
+            solve::lanes_to_rows(along[0][k], along[1][k], along[2][k], r[k]);
+        for (int lane = 0; lane < kWidth; ++lane) {
+            out[g.node[0][lane]] -= r[0][lane] + r[1][lane] + r[2][lane];
+            for (int k = 0; k < 3; ++k) out[g.node[k + 1][lane]] += r[k][lane];
         }
     }
-    gradient_.add_to(gradient);
+    out.add_to(gradient);
     return solve::sum_lanes(energy);
 }
 
 void TetSolid::add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const {
     for (int tet = 0; tet < size(); ++tet) {
-        const Group& group = groups_[static_cast<std::size_t>(tet / 4)];
+        const Group<double>& group = double_.groups[static_cast<std::size_t>(tet / 4)];
         // Row v of G is the gradient of the shape function of corner v.
         Eigen::Matrix<double, 4, 3> g;
         for (int k = 0; k < 3; ++k)

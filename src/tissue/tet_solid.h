@@ -31,7 +31,9 @@ class TetSolid {
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
     /// order.
-    double add_energy(const Points& x, Points& gradient) const;
+    /// In float from displacements, so that rest is exact: forces are good to some 1e-6 of the stress in the tet.
+    double add_energy(const Points& x, Points& gradient,
+                      solve::Precision precision = solve::Precision::kDouble) const;
 
     /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
     /// part, tet by tet.
@@ -52,21 +54,33 @@ class TetSolid {
     Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
 
   private:
-    /// Four tets, one per lane.
+    /// As many tets as there are lanes.
+    template <class Real>
     struct alignas(64) Group {
-        solve::Lanes b[9];   ///< inverse of the rest edges, row k belongs to edge x_(k+1) - x_0
-        solve::Lanes shear;  ///< V mu
-        solve::Lanes bulk;   ///< V K
-        solve::Lanes inverse_6v;  ///< 1 / det of the rest edges
-        std::int32_t node[4][4];  ///< [corner][lane]
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        Lane b[9];   ///< inverse of the rest edges, row k belongs to edge x_(k+1) - x_0
+        Lane shear;  ///< V mu
+        Lane bulk;   ///< V K
+        std::int32_t node[4][kWidth];  ///< [corner][lane]
     };
+    template <class Real>
+    struct Work {
+        std::vector<Group<Real>> groups;
+        solve::PaddedRows<Real> displacement, gradient;
+    };
+    template <class Real>
+    void fill(Work<Real>& work) const;
+    template <class Real>
+    double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
     double signed_volume(const Points& x, int tet) const;
     void add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const;
 
     Tets tets_;
+    Points rest_;
     Eigen::VectorXd rest_volume_, mu_, bulk_;
-    std::vector<Group> groups_;
-    mutable solve::PaddedPoints x_, gradient_;
+    mutable Work<double> double_;
+    mutable Work<float> single_;
 };
 
 }  // namespace risorius::tissue

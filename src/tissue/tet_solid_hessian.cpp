@@ -29,7 +29,7 @@ detail::StretchModes modes_of(const Vec3& s, double mu, double bulk) {
 void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
                            solve::HessianBuilder& hessian) const {
     for (int tet = 0; tet < size(); ++tet) {
-        const Group& group = groups_[static_cast<std::size_t>(tet / 4)];
+        const Group<double>& group = double_.groups[static_cast<std::size_t>(tet / 4)];
         const int lane = tet % 4;
         Mat3 edge, inverse;
         for (int k = 0; k < 3; ++k) {

@@ -187,5 +187,22 @@ TEST(Decimate, TwiceGivesTheSame) {
     EXPECT_TRUE(a.triangles == b.triangles);
 }
 
+TEST(Decimate, EveryVertexThatIsLeftHasATriangleAlsoOnAnIsland) {
+    Sheet sheet = dome(12);
+    const auto rows = sheet.points.rows();
+    sheet.points.conservativeResize(rows + 4, 3);
+    sheet.points.bottomRows(4) << 3, 0, 0, 3.01, 0, 0, 3.01, 0.01, 0, 3, 0.01, 0;
+    const int a = static_cast<int>(rows);
+    sheet.triangles.conservativeResize(sheet.triangles.rows() + 2, 3);
+    sheet.triangles.bottomRows(2) << a, a + 1, a + 2, a, a + 2, a + 3;
+    const Decimated coarse =
+        decimate(sheet.triangles, sheet.points,
+                 std::vector<double>(static_cast<std::size_t>(sheet.points.rows()), 0.3), {});
+    const std::set<int> used(coarse.triangles.data(),
+                             coarse.triangles.data() + coarse.triangles.size());
+    EXPECT_TRUE(used.count(coarse.collapsed_to[static_cast<std::size_t>(a)]));
+    for (const int v : coarse.kept) EXPECT_TRUE(used.count(v)) << v;
+}
+
 }  // namespace
 }  // namespace risorius::geom

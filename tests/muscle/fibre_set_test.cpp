@@ -203,7 +203,7 @@ TEST(FibreSet, WhatRestsInAStepRestsAtRest) {
     set.add_energy(x, a, at_rest);
     set.begin_step(x, 1.0 / 60);
     set.add_energy(x, a, in_step);
-    EXPECT_TRUE(in_step.isApprox(at_rest, 1e-14));
+    EXPECT_TRUE(in_step.isApprox(at_rest, 1e-6));  // steps read their curves from tables
     set.end_step();
     set.add_energy(x, a, again);
     EXPECT_EQ(again, at_rest);
@@ -227,7 +227,8 @@ TEST(FibreSet, AMovingFibrePullsAsHillsLawSays) {
         const double hill = v <= -1.1 ? 0
                             : v <= 0  ? (1 + v) / (1 - 4 * v)
                                       : 1.4 - 0.4 / (1 + 12.5 * v);
-        EXPECT_NEAR(gradient(1, 0), 2 * (0.5 * hill + passive), 1e-12) << "v = " << v;
+        // The table of the curve is good to 1e-5
+        EXPECT_NEAR(gradient(1, 0), 2 * (0.5 * hill + passive), 1e-6) << "v = " << v;
         EXPECT_GE(gradient(1, 0), before) << "v = " << v;  // convex
         before = gradient(1, 0);
         if (v < 0) {

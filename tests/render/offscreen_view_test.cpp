@@ -289,6 +289,45 @@ TEST(OffscreenView, ThePupilTurnsWithTheEye) {
     EXPECT_LT(there, 0.6 * ahead);
 }
 
+TEST(OffscreenView, ALidThatHasUnrolledIsNotShadedByTheCreaseItCameFrom) {
+    // A groove across the skin above the left eye, gone when the eye is shut
+    RoundHead head;
+    for (const auto& [id, y] : {std::pair{"ps_l", 0.026}, {"pi_l", 0.014}})
+        head.scene.landmarks[id] = RoundHead::on_skin(0.03, y);
+    head.scene.landmarks["en_l"] = RoundHead::on_skin(0.018, 0.02);
+    head.scene.landmarks["ex_l"] = RoundHead::on_skin(0.042, 0.02);
+    const Points flat = head.scene.rest;
+    const Vec3 groove = RoundHead::on_skin(0.03, 0.040);
+    for (Eigen::Index v = 0; v < flat.rows(); ++v)
+        if (std::abs(flat(v, 1) - groove.y()) < 0.003 && std::abs(flat(v, 0) - 0.03) < 0.015 &&
+            flat.row(v).norm() > 0.999 * kHeadRadius_m && flat(v, 2) > 0)
+            head.scene.rest.row(v) *= 0.86;
+    Pose shut;
+    shut.positions = flat;
+    // The margins meet
+    const auto nearest = [&](const Vec3& p) {
+        Eigen::Index best = 0;
+        for (Eigen::Index v = 0; v < flat.rows(); ++v)
+            if ((flat.row(v).transpose() - p).norm() < (flat.row(best).transpose() - p).norm())
+                best = v;
+        return best;
+    };
+    shut.positions.row(nearest(RoundHead::on_skin(0.03, 0.026))) =
+        flat.row(nearest(RoundHead::on_skin(0.03, 0.014)));
+
+    OffscreenView as_at_rest(head.scene, small());
+    const auto brightness_at = [&](OffscreenView& view) {
+        return brightness(mean_colour(view.draw(shut), view.project(groove), 1));
+    };
+    const double shaded = brightness_at(as_at_rest);
+    head.scene.shut = flat;
+    OffscreenView told(head.scene, small());
+    EXPECT_GT(brightness_at(told), shaded + 10);
+    Pose open;
+    open.positions = head.scene.rest;
+    EXPECT_EQ(fingerprint(told.draw(open)), fingerprint(as_at_rest.draw(open)));
+}
+
 TEST(OffscreenView, AClosedSurfaceHidesTheTeeth) {
     RoundHead with, without;
     without.scene.surfaces.pop_back();

@@ -101,6 +101,22 @@ TEST(CutLips, CutsCoarseScansToo) {
     EXPECT_LT((cut.seam.front() - coarse.head.landmark("ch_r")).norm(), coarse.head.mm(12));
 }
 
+TEST(CutLips, WhatAScannerSawBetweenTheLipsIsLaidBackOntoThem) {
+    geom::PolygonMesh mesh = scan().mesh;
+    const Head& head = scan().head;
+    int between = 0;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if ((head.vertices.row(v).transpose() - head.landmark("sto")).norm() <
+            (head.vertices.row(between).transpose() - head.landmark("sto")).norm())
+            between = v;
+    mesh.positions(between, 2) -= head.mm(60);
+    const Head spiked = place_head(scan().rig, mesh, "scan");
+    const CutLips cut = cut_lips(mesh, spiked, {0}, "scan");
+    EXPECT_EQ(cut.laid_back, 1);
+    EXPECT_GT(cut.mesh.positions(between, 2), scan().mesh.positions(between, 2) - head.mm(3));
+    EXPECT_EQ(lips().laid_back, 0);
+}
+
 TEST(CutLips, RefusesAHeadWithoutSkinBetweenTheCorners) {
     try {
         cut_lips(adult().mesh, adult_placed(), {}, "head.obj");

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "geom/mirror.h"
 #include "sim/adult_face.h"
 
 namespace risorius::sim {
@@ -73,7 +74,7 @@ TEST_F(Muscles, ALeftMuscleMovesTheLeftSide) {
         const double left = of_side(u, Side::kLeft), right = of_side(u, Side::kRight);
         // Muscles that end in the skin of the midline draw it along with its other side.
         const bool midline = ending_in_the_midline.count(muscle.id) > 0;
-        EXPECT_GT(left, (midline ? 1.4 : 5) * right)
+        EXPECT_GT(left, (midline ? 1.4 : 4) * right)
             << muscle.id << " left " << left << " right " << right;
     }
 }
@@ -87,6 +88,30 @@ TEST_F(Muscles, LeftAndRightAreMirrorImages) {
             EXPECT_LT((Vec3(-l.x(), l.y(), l.z()) - r).norm(), 0.3 + 0.1 * l.norm())
                 << muscle << " at " << id;
         }
+    }
+}
+
+TEST_F(Muscles, BothSidesTogetherMoveAsMirrorImages) {
+    // The skin of both sides, by pairs of vertices of the simulated surface
+    const Face& one = face();
+    const geom::MirrorPairs mirror =
+        geom::find_mirror_pairs(one.simulated_skin(), one.head().vertices, Vec3::UnitX(), 0.0);
+    ASSERT_TRUE(mirror.found());
+    for (const char* unit : {"AU9", "AU12", "AU45"}) {
+        const Points u = moved_mm(one, settled(face(), with_unit(unit)));
+        double worst = 0, squares = 0;
+        long count = 0;
+        for (std::size_t v = 0; v < mirror.partner.size(); ++v) {
+            if (mirror.partner[v] < 0) continue;
+            const Vec3 here = u.row(static_cast<long>(v)).transpose(),
+                       there = u.row(mirror.partner[v]).transpose();
+            const double off = (here - mirror.reflect(there)).norm();
+            worst = std::max(worst, off);
+            squares += off * off;
+            ++count;
+        }
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 0.03) << unit;
+        EXPECT_LT(worst, 0.2) << unit;
     }
 }
 

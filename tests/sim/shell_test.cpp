@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
 #include "geom/surface_topology.h"
 #include "sim/adult_face.h"
 #include "sim/attachments.h"
@@ -101,6 +106,46 @@ TEST(Shell, IsFinestAtLipsAndLids) {
     };
     EXPECT_LT(spacing("ls"), 0.7 * spacing("mc_l"));
     EXPECT_LT(spacing("ps_l"), 0.7 * spacing("mef"));
+}
+
+TEST(Shell, IsItsOwnMirrorImageOnASymmetricHead) {
+    const Shell& shell = adult().shell;
+    const int count = static_cast<int>(shell.vertex.size());
+    ASSERT_EQ(shell.mirrored.size(), shell.vertex.size());
+    const auto reflected = [](Vec3 p) { return Vec3(-p.x(), p.y(), p.z()); };
+    for (int v = 0; v < count; ++v) {
+        const int w = shell.mirrored[v];
+        EXPECT_EQ(shell.mirrored[w], v);
+        EXPECT_EQ(shell.fixed[v], shell.fixed[w]);
+        for (const Layer layer : {kDeep, kMiddle, kSkin})
+            EXPECT_LT((adult().mesh.nodes.row(node_of(v, layer)).transpose() -
+                       reflected(adult().mesh.nodes.row(node_of(w, layer)).transpose()))
+                          .norm(),
+                      2e-5)
+                << v;
+    }
+    std::set<std::array<int, 4>> tets, images;
+    for (long t = 0; t < adult().mesh.tets.rows(); ++t) {
+        std::array<int, 4> here, there;
+        for (int k = 0; k < 4; ++k) {
+            here[k] = adult().mesh.tets(t, k);
+            there[k] = kLayers * shell.mirrored[here[k] / kLayers] + here[k] % kLayers;
+        }
+        std::sort(here.begin(), here.end());
+        std::sort(there.begin(), there.end());
+        tets.insert(here);
+        images.insert(there);
+    }
+    EXPECT_EQ(tets, images);
+}
+
+TEST(Shell, AHeadThatIsNotSymmetricHasOneAllTheSame) {
+    rig::Head head = adult().head;
+    for (long v = 0; v < head.vertices.rows(); ++v)
+        head.vertices(v, 1) += 1.5e-3 * std::sin(0.1e3 * head.vertices(v, 0));
+    const Shell shell = build_shell(head, adult().jaw, adult().lids, {300});
+    EXPECT_TRUE(shell.mirrored.empty());
+    EXPECT_NEAR(static_cast<double>(shell.vertex.size()), 300, 15);
 }
 
 TEST(Tissue, EveryTetStandsUpright) {

@@ -135,5 +135,15 @@ TEST(MetricBuilder, ABlockIsAddedOnceHoweverItsNodesAreOrdered) {
     EXPECT_TRUE(lower.isApprox(expected));
 }
 
+TEST(SparseCholesky, AFactorKeptInFloatSolvesToAHundredThousandth) {
+    const Eigen::SparseMatrix<double> a = spring_grid(12, 5);
+    const Points b = random_points(144, 6);
+    Points exact, single;
+    SparseCholesky(a).solve(b, exact);
+    SparseCholesky(a, Precision::kSingle).solve(b, single);
+    EXPECT_LT((single - exact).norm(), 1e-5 * exact.norm());
+    EXPECT_GT((single - exact).norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace risorius::solve

@@ -39,6 +39,18 @@ TEST(TetSolid, RestIsFreeOfStress) {
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(TetSolid, FloatForcesAreThoseOfDoubleToAMillionthAndRestIsExact) {
+    const TetSolid solid = tissue_of(kTetBlock);
+    const Points x = shaken(kTetBlock.rest, 8e-4, 7);
+    Points exact = Points::Zero(kTetBlock.nodes(), 3), single = exact, at_rest = exact;
+    const double energy = solid.add_energy(x, exact);
+    EXPECT_NEAR(solid.add_energy(x, single, solve::Precision::kSingle), energy, 1e-6 * energy);
+    EXPECT_LT((single - exact).norm(), 1e-6 * exact.norm());
+    EXPECT_GT((single - exact).norm(), 0.0);
+    EXPECT_EQ(solid.add_energy(kTetBlock.rest, at_rest, solve::Precision::kSingle), 0.0);
+    EXPECT_TRUE(at_rest.isZero(0.0));
+}
+
 TEST(TetSolid, ForcesAreTheSlopeOfTheEnergy) {
     expect_gradient_is_exact(tissue_of(kTetBlock), shaken(kTetBlock.rest, 8e-4, 1));
 }

@@ -1,7 +1,9 @@
 #include "render/detail/occlusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/detail/shaders.h"
 
@@ -15,9 +17,9 @@ constexpr double kBias_m = 0.0010;
 
 }  // namespace
 
-std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>& normals,
-                                    int index_count, const Vec3& centre, double radius_m) {
-    const auto vertices = static_cast<std::size_t>(rest.rows());
+std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
+                            int index_count, const Vec3& centre, double radius_m) {
+    const auto vertices = static_cast<std::size_t>(positions.rows());
     std::vector<float> seen(vertices, 0.0F), weight(vertices, 0.0F);
 
     GLuint depth = 0, framebuffer = 0;
@@ -60,7 +62,8 @@ std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>
             const Vec3 normal(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
             const double cosine = normal.dot(towards);
             if (cosine <= 0) continue;
-            const Vec3 p = rest.row(static_cast<Eigen::Index>(v)).transpose() + kLift_m * normal;
+            const Vec3 p =
+                positions.row(static_cast<Eigen::Index>(v)).transpose() + kLift_m * normal;
             const Vec3 c = clip.block<3, 3>(0, 0) * p + clip.block<3, 1>(0, 3);
             const int px = static_cast<int>((c.x() * 0.5 + 0.5) * kSide);
             const int py = static_cast<int>((c.y() * 0.5 + 0.5) * kSide);
@@ -78,6 +81,33 @@ std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteRenderbuffers(1, &depth);
     return seen;
+}
+
+SkyAboutEyes::SkyAboutEyes(const Scene& scene, std::vector<float> at_rest,
+                           const std::vector<float>& shut)
+    : at_rest_(std::move(at_rest)), seen_(at_rest_) {
+    constexpr double kWithin = 2.2, kUpTo = 3.0;  // radii of the eye
+    for (std::size_t v = 0; v < shut.size(); ++v)
+        for (int eye = 0; eye < 2; ++eye) {
+            const Eye& at = scene.eyes[static_cast<std::size_t>(eye)];
+            if (at.radius_m <= 0) continue;
+            const Vec3 off = scene.rest.row(static_cast<Eigen::Index>(v)).transpose() - at.centre;
+            const double t =
+                std::clamp((kUpTo - off.norm() / at.radius_m) / (kUpTo - kWithin), 0.0, 1.0);
+            // Where the reaches of both eyes overlap, each has its own part
+            if (t > 0)
+                near_.push_back(
+                    {static_cast<int>(v), eye, static_cast<float>(t) * (shut[v] - at_rest_[v])});
+        }
+}
+
+const std::vector<float>& SkyAboutEyes::seen(const std::array<double, 2>& closed) {
+    for (const Near& at : near_)
+        seen_[static_cast<std::size_t>(at.vertex)] = at_rest_[static_cast<std::size_t>(at.vertex)];
+    for (const Near& at : near_)
+        seen_[static_cast<std::size_t>(at.vertex)] +=
+            static_cast<float>(closed[static_cast<std::size_t>(at.eye)]) * at.change;
+    return seen_;
 }
 
 }  // namespace risorius::render

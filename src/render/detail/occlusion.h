@@ -1,16 +1,34 @@
-// How much of the sky each vertex sees in the rest pose, from depth renders along many directions.
+// How much of the sky each vertex sees, from depth renders along many directions: at rest, and about eyes that shut.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/types.h"
 #include "render/detail/gl_context.h"
+#include "render/scene.h"
 
 namespace risorius::render {
 
 /// Cosine-weighted share of unblocked directions, 0..1 per vertex. Draws the bound vertex array with the indices of the bound
 /// element buffer; the context must be current. One depth render of 512 x 512 per direction, 48 directions.
-std::vector<float> sky_seen_at_rest(const Points& rest, const std::vector<float>& normals,
-                                    int index_count, const Vec3& centre, double radius_m);
+std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
+                            int index_count, const Vec3& centre, double radius_m);
+
+/// What the skin sees while the lids close: crease and lid come to the light as one unrolls from the other. Between the eyes open
+/// and shut it changes with each eye's own closure; away from the eyes it is that of rest.
+class SkyAboutEyes {
+  public:
+    SkyAboutEyes(const Scene& scene, std::vector<float> at_rest, const std::vector<float>& shut);
+    const std::vector<float>& seen(const std::array<double, 2>& closed);
+
+  private:
+    struct Near {
+        int vertex, eye;
+        float change;
+    };
+    std::vector<Near> near_;
+    std::vector<float> at_rest_, seen_;
+};
 
 }  // namespace risorius::render

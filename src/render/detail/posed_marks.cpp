@@ -17,6 +17,11 @@ double smoothstep(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
+double opening(const LidMarks& lids) {
+    const double width = (lids.outer - lids.inner).norm();
+    return lids.known && width > 0 ? (lids.upper - lids.lower).norm() / width : 0.0;
+}
+
 }  // namespace
 
 PosedMarks::PosedMarks(const Scene& scene) {
@@ -65,6 +70,9 @@ PosedMarks::PosedMarks(const Scene& scene) {
         const std::string side = eye == 0 ? "_l" : "_r";
         lids_[eye] = {nearest("en" + side), nearest("ex" + side), nearest("ps" + side),
                       nearest("pi" + side)};
+        Pose rest;
+        rest.positions = scene.rest;
+        rest_opening_[eye] = opening(lids(rest, static_cast<int>(eye)));
     }
 }
 
@@ -95,6 +103,11 @@ LidMarks PosedMarks::lids(const Pose& pose, int eye) const {
     marks.upper = pose.positions.row(v[2]).transpose();
     marks.lower = pose.positions.row(v[3]).transpose();
     return marks;
+}
+
+double PosedMarks::lids_closed(const Pose& pose, int eye) const {
+    const double rest = rest_opening_[static_cast<std::size_t>(eye)];
+    return rest > 0 ? std::clamp(1 - opening(lids(pose, eye)) / rest, 0.0, 1.0) : 0.0;
 }
 
 std::vector<float> PosedMarks::inside_mouth(const Scene& scene,

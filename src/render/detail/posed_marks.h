@@ -29,6 +29,8 @@ class PosedMarks {
     /// Closed lips have no gap, however the rest pose holds them.
     MouthGap mouth_gap(const Pose& pose) const;
     LidMarks lids(const Pose& pose, int eye) const;
+    /// How far the lids have closed since rest, 0..1.
+    double lids_closed(const Pose& pose, int eye) const;
 
     /// 1 for a skin vertex inside the closed mouth, 0 outside, from its place and how little sky it sees.
     std::vector<float> inside_mouth(const Scene& scene, const std::vector<float>& sky_seen) const;
@@ -36,7 +38,8 @@ class PosedMarks {
   private:
     int stos_ = -1, stoi_ = -1, ch_l_ = -1, ch_r_ = -1;  ///< nearest skin vertices
     double rest_gap_m_ = 0.0;
-    Vec3 mouth_rest_ = Vec3::Zero();  ///< fallback without lip landmarks
+    std::array<double, 2> rest_opening_{};  ///< height / width of the eyes
+    Vec3 mouth_rest_ = Vec3::Zero();        ///< fallback without lip landmarks
     std::array<std::array<int, 4>, 2> lids_{{{-1, -1, -1, -1}, {-1, -1, -1, -1}}};
 };
 
