@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <random>
 
+#include "core/dense_algebra.h"
 #include "solve/force_term.h"
 
 namespace risorius::testing_of {
@@ -112,8 +113,7 @@ inline void expect_projection(const solve::ForceTerm& term, const solve::Implici
                               const Points& x) {
     ASSERT_EQ(step.start.rows(), x.rows()) << "a step of other points";
     const Eigen::MatrixXd positive = hessian(term, step, x, solve::Curvature::kPositive);
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(positive).eigenvalues();
+    const Eigen::VectorXd values = symmetric_eigenvalues(positive);
     EXPECT_GE(values.minCoeff(), -1e-9 * values.cwiseAbs().maxCoeff());
 }
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 
+#include "core/dense_algebra.h"
 #include "solve/force_term.h"
 
 namespace risorius::testing_of {
@@ -17,6 +17,14 @@ Eigen::MatrixXd dense_second(long nodes, auto&& add) {
     add(builder);
     const Eigen::MatrixXd lower = builder.build();
     return lower.selfadjointView<Eigen::Lower>();
+}
+
+/// Least and greatest u^T part u / u^T whole u and those between, ascending; `whole` is positive definite.
+inline Eigen::VectorXd shares(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whole) {
+    const SymmetricEigen modes = symmetric_eigen(whole);
+    const Eigen::MatrixXd unit =
+        modes.vectors * modes.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    return symmetric_eigenvalues(unit.transpose() * part * unit);
 }
 
 /// `add_energy(x, gradient)` returns E and adds dE/dx. Central differences of step `h`; `tolerance` is a share of the
@@ -42,11 +50,7 @@ void expect_slope_of_gradient(const Eigen::MatrixXd& second, const Points& x, au
 
 /// Nowhere negative, and nowhere below the exact one.
 inline void expect_positive_part(const Eigen::MatrixXd& positive, const Eigen::MatrixXd& exact) {
-    const auto least = [](const Eigen::MatrixXd& m) {
-        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly)
-            .eigenvalues()
-            .minCoeff();
-    };
+    const auto least = [](const Eigen::MatrixXd& m) { return symmetric_eigenvalues(m).minCoeff(); };
     const double rounding = 1e-11 * positive.cwiseAbs().maxCoeff();
     EXPECT_LT(least(exact), -rounding) << "nothing to take away: the check would say nothing";
     EXPECT_GT(least(positive), -rounding);

@@ -1,9 +1,9 @@
 #include "app/piece_guess.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "geom/fitted_sphere.h"
 #include "geom/surface_topology.h"
 #include "geom/weld.h"
 
@@ -18,16 +18,9 @@ constexpr double kBehindLids_mm = 12;
 
 bool is_eye(const std::vector<Vec3>& points, const Vec3& expected, double mm) {
     if (points.size() < 20) return false;
-    Eigen::MatrixXd system(static_cast<long>(points.size()), 4);
-    Eigen::VectorXd right(static_cast<long>(points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec3 p = (points[i] - expected) / mm;
-        system.row(static_cast<long>(i)) << 2 * p.x(), 2 * p.y(), 2 * p.z(), 1.0;
-        right[static_cast<long>(i)] = p.squaredNorm();
-    }
-    const Eigen::Vector4d sphere = system.colPivHouseholderQr().solve(right);
-    const Vec3 centre = sphere.head<3>();
-    const double radius = std::sqrt(std::max(0.0, sphere[3] + centre.squaredNorm()));
+    const geom::Sphere sphere = geom::fitted_sphere(points);
+    const Vec3 centre = (sphere.centre - expected) / mm;
+    const double radius = sphere.radius / mm;
     double squared = 0;
     for (const Vec3& p : points)
         squared += std::pow(((p - expected) / mm - centre).norm() - radius, 2);

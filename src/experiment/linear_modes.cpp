@@ -1,20 +1,15 @@
 #include "experiment/linear_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "core/dense_algebra.h"
 
 namespace risorius::experiment {
 namespace {
 
 using Complex = std::complex<double>;
-
-std::vector<Complex> eigenvalues(const Eigen::MatrixXd& matrix) {
-    const Eigen::VectorXcd values =
-        Eigen::EigenSolver<Eigen::MatrixXd>(matrix, /*computeEigenvectors=*/false).eigenvalues();
-    return {values.begin(), values.end()};
-}
 
 /// Of the eigenvalues of a complex matrix: those of ((Re, -Im), (Im, Re)) are they and their conjugates.
 double largest(const Eigen::Matrix4cd& matrix) {

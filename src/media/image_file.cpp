@@ -1,11 +1,13 @@
-// PNG pictures through OpenCV, which keeps the bytes of 8-bit pixels as they are.
+// PNG pictures through libpng, which keeps the bytes of 8-bit sRGB pixels as they are; OpenCV's reader of all formats would load
+// 77 more libraries at every start of the program.
 #include "media/image_file.h"
+
+#include <png.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
@@ -34,6 +36,24 @@ bool chunks_are_whole(const std::vector<unsigned char>& bytes) {
     return false;
 }
 
+png_image described(int width_px, int height_px, png_uint_32 format) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(width_px);
+    png.height = static_cast<png_uint_32>(height_px);
+    png.format = format;
+    return png;
+}
+
+std::vector<std::uint8_t> without_alpha(const Image& image) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+        rgb.insert(rgb.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+                   image.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    return rgb;
+}
+
 }  // namespace
 
 bool has_transparency(const Image& image) {
@@ -47,19 +67,17 @@ void write_png(const Image& image, const std::filesystem::path& file) {
         image.rgba.size() != Image(image.width_px, image.height_px).rgba.size())
         throw Error(file.string(), "a picture of at least 1 x 1 pixels",
                     std::to_string(image.width_px) + " x " + std::to_string(image.height_px));
-    const cv::Mat rgba(image.height_px, image.width_px, CV_8UC4,
-                       const_cast<std::uint8_t*>(image.rgba.data()));
-    cv::Mat stored;
-    cv::cvtColor(rgba, stored, has_transparency(image) ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGBA2BGR);
-    std::vector<unsigned char> bytes;
-    bool encoded = false;
-    try {
-        encoded = cv::imencode(".png", stored, bytes);
-    } catch (const cv::Exception& error) {
-        throw RunError(file.string() + ": cannot be encoded as PNG: " + error.what());
-    }
-    if (!encoded) throw RunError(file.string() + ": cannot be encoded as PNG");
-    detail::write_whole(file, bytes.data(), bytes.size());
+    const std::vector<std::uint8_t> opaque =
+        has_transparency(image) ? std::vector<std::uint8_t>() : without_alpha(image);
+    png_image png = described(image.width_px, image.height_px,
+                              opaque.empty() ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB);
+    png.flags = PNG_IMAGE_FLAG_FAST;
+    const void* const pixels = opaque.empty() ? image.rgba.data() : opaque.data();
+    std::vector<unsigned char> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
+    png_alloc_size_t size = bytes.size();
+    if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
+        throw RunError(file.string() + ": cannot be encoded as PNG: " + png.message);
+    detail::write_whole(file, bytes.data(), size);
 }
 
 Image read_png(const std::filesystem::path& file) {
@@ -69,22 +87,17 @@ Image read_png(const std::filesystem::path& file) {
         throw Error(file.string(), "a PNG picture", "another kind of file");
     if (!chunks_are_whole(bytes)) throw Error(file.string(), "a PNG picture", "one cut short");
 
-    cv::Mat stored;
-    try {
-        stored = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {
-        stored.release();
-    }
-    if (stored.empty()) throw Error(file.string(), "a PNG picture", "damaged data");
-    if (stored.depth() != CV_8U)
+    png_image png = described(0, 0, PNG_FORMAT_RGBA);
+    if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+        throw Error(file.string(), "a PNG picture", "damaged data");
+    if (png.format & PNG_FORMAT_FLAG_LINEAR) {
+        png_image_free(&png);
         throw Error(file.string(), "a PNG picture of 8 bits per channel", "16 bits per channel");
-
-    Image image(stored.cols, stored.rows);
-    cv::Mat rgba(image.height_px, image.width_px, CV_8UC4, image.rgba.data());
-    const int conversion = stored.channels() == 1   ? cv::COLOR_GRAY2RGBA
-                           : stored.channels() == 3 ? cv::COLOR_BGR2RGBA
-                                                    : cv::COLOR_BGRA2RGBA;
-    cv::cvtColor(stored, rgba, conversion);
+    }
+    png.format = PNG_FORMAT_RGBA;
+    Image image(static_cast<int>(png.width), static_cast<int>(png.height));
+    if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))
+        throw Error(file.string(), "a PNG picture", "damaged data");
     return image;
 }
 

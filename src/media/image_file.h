@@ -1,4 +1,4 @@
-// Pictures to and from files (OpenCV): PNG with or without alpha.
+// Pictures to and from files (libpng): PNG with or without alpha.
 #pragma once
 
 #include <filesystem>

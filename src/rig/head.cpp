@@ -1,10 +1,10 @@
 #include "rig/head.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "geom/fitted_sphere.h"
 #include "geom/weld.h"
 #include "rig/landmark_drop.h"
 
@@ -64,16 +64,11 @@ Triangles apply_weld(Triangles triangles, const std::vector<int>& welded) {
 void fit_eye(const Points& vertices, const std::vector<int>& members, EyeGeometry& eye) {
     std::vector<int> used = members;
     for (int pass = 0; pass < 3; ++pass) {
-        Eigen::MatrixXd system(static_cast<long>(used.size()), 4);
-        Eigen::VectorXd right(static_cast<long>(used.size()));
-        for (std::size_t i = 0; i < used.size(); ++i) {
-            const Vec3 p = vertices.row(used[i]).transpose();
-            system.row(static_cast<long>(i)) << 2 * p.x(), 2 * p.y(), 2 * p.z(), 1.0;
-            right[static_cast<long>(i)] = p.squaredNorm();
-        }
-        const Eigen::Vector4d solution = system.colPivHouseholderQr().solve(right);
-        eye.centre = solution.head<3>();
-        eye.radius_m = std::sqrt(std::max(0.0, solution[3] + eye.centre.squaredNorm()));
+        std::vector<Vec3> points;
+        for (const int v : used) points.push_back(vertices.row(v).transpose());
+        const geom::Sphere sphere = geom::fitted_sphere(points);
+        eye.centre = sphere.centre;
+        eye.radius_m = sphere.radius;
         std::vector<int> inside;
         for (int v : members) {
             const double off = (vertices.row(v).transpose() - eye.centre).norm() - eye.radius_m;

@@ -1,9 +1,9 @@
 #include "rig/landmark_check.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense_algebra.h"
 #include "rig/head_frame.h"
 
 namespace risorius::rig {
@@ -48,7 +48,7 @@ std::vector<LandmarkPrediction> predict_each(const std::map<std::string, Vec3>& 
         system(i, n) = system(n, i) = 1.0;
         for (int k = 0; k < 3; ++k) system(i, n + 1 + k) = system(n + 1 + k, i) = from(i, k);
     }
-    const Eigen::MatrixXd inverse = Eigen::FullPivLU<Eigen::MatrixXd>(system).inverse();
+    const Eigen::MatrixXd inverse = inverse_of(system);
     const Points weights = inverse.topLeftCorner(n, n) * to;
     const double middle = middle_plane(in_head);
     std::vector<LandmarkPrediction> out;

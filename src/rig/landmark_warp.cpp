@@ -1,6 +1,6 @@
 #include "rig/landmark_warp.h"
 
-#include <Eigen/LU>
+#include "core/dense_algebra.h"
 
 namespace risorius::rig {
 
@@ -15,7 +15,7 @@ LandmarkWarp::LandmarkWarp(const Points& from, const Points& to, double smoothin
         for (int k = 0; k < 3; ++k) system(i, n + 1 + k) = system(n + 1 + k, i) = from(i, k);
         right.row(i) = to.row(i);
     }
-    weights_ = system.fullPivLu().solve(right);
+    weights_ = solved_for(system, right);
 }
 
 Vec3 LandmarkWarp::operator()(const Vec3& p) const {

@@ -3,9 +3,9 @@
 // by L-BFGS; its metric has a block for the tissue and one for the jaw, second derivatives of the jaw's own energy and of riding
 // tissue (at rest).
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/dense_algebra.h"
 #include "sim/face_tissue.h"
 #include "sim/muscle_placement.h"
 
@@ -110,9 +110,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     }
     solids_relaxed_ = false;
     prescribe({});
-    const Eigen::SelfAdjointEigenSolver<JawMatrix> parts(0.5 * (stiffness + stiffness.transpose()));
-    stiffness = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() *
-                parts.eigenvectors().transpose();
+    stiffness = positive_part(0.5 * (stiffness + stiffness.transpose()));
     std::erase_if(ride_stiffness_, [&](const auto& known) { return known.first == h; });
     ride_stiffness_.push_back({h, stiffness});
 }

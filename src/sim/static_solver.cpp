@@ -1,9 +1,9 @@
 #include "sim/static_solver.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense_algebra.h"
 #include "solve/force_term.h"
 #include "solve/point_sums.h"
 #include "solve/supernodal_cholesky.h"
@@ -49,7 +49,7 @@ class FixedPoint {
         }
         constexpr double kRidge = 1e-12;
         products.diagonal() += kRidge * products.diagonal();
-        const Eigen::VectorXd gamma = products.ldlt().solve(right);
+        const Eigen::VectorXd gamma = solved_symmetric(products, right);
         Points out = x;
         for (int i = 0; i < count; ++i)
             if (std::isfinite(gamma[i]))

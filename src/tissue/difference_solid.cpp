@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/cross_matrix.h"
+#include "core/dense_algebra.h"
 
 namespace risorius::tissue {
 
@@ -41,7 +42,7 @@ Mat3 volume_gradient(const Mat3& r) {
     return c;
 }
 
-Mat3 positive_part(const Mat3& symmetric) {
+Mat3 without_negative(const Mat3& symmetric) {
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
            eigen.eigenvectors().transpose();
@@ -343,7 +344,7 @@ void DifferenceSolid::add_hessian(const solve::ImplicitStep& step, const Points&
             alpha += rate * node.phi.cwiseProduct(metric - start.transpose() * start);
             k += rate * node.phi;
         }
-        TangentHessian h(exact ? alpha : positive_part(alpha), k, r);
+        TangentHessian h(exact ? alpha : without_negative(alpha), k, r);
         if (node.psi > 0) {
             h.add_volume(node.psi, r);
             if (exact) h.add_volume_curvature(node.psi * (r.determinant() - node.dv0), r);
@@ -368,7 +369,6 @@ void DifferenceSolid::add_hessian(const solve::ImplicitStep& step, const Points&
 }
 
 void DifferenceSolid::add_metric(double step_s, solve::MetricBuilder& metric) const {
-    using Mat9 = Eigen::Matrix<double, 9, 9>;
     for (int n = 0; n < grid_.size(); ++n) {
         const Node node = node_at(n);
         const Mat3 r = node.tangents(rest_);
@@ -385,14 +385,13 @@ void DifferenceSolid::add_metric(double step_s, solve::MetricBuilder& metric) co
                 pattern[i] = std::max(pattern[i], 2 * k(i, j) * node.g0(j, j));
             pattern[i] += 2 * node.psi * c.col(i).squaredNorm();
         }
-        Mat9 scaled = Mat9::Zero();
+        Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(9, 9);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 if (pattern[i] > 0 && pattern[j] > 0)
                     scaled.block<3, 3>(3 * i, 3 * j) =
                         h.block[i][j] / std::sqrt(pattern[i] * pattern[j]);
-        const double bound =
-            Eigen::SelfAdjointEigenSolver<Mat9>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[8];
+        const double bound = symmetric_eigenvalues(scaled)[8];
         for (int i = 0; i < 3; ++i) {
             if (!(pattern[i] > 0)) continue;
             const int pair[2] = {n, node.nodes[i + 1]};

@@ -1,6 +1,5 @@
 #include "tissue/grid_curve.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "tissue/grid_surface.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cassert>

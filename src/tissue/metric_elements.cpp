@@ -1,6 +1,6 @@
 #include "tissue/metric_elements.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 namespace risorius::tissue {
 
@@ -38,7 +38,8 @@ void add_to_nodes(const Element& element, const Tangents& r, const Mat2& stress,
 }
 
 Mat2 positive_part(const Mat2& s) {
-    const Eigen::SelfAdjointEigenSolver<Mat2> eigen(s);
+    Eigen::SelfAdjointEigenSolver<Mat2> eigen;
+    eigen.computeDirect(s);  // in closed form
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
            eigen.eigenvectors().transpose();
 }

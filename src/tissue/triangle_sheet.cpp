@@ -1,12 +1,13 @@
 #include "tissue/triangle_sheet.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "core/dense_algebra.h"
 #include "tissue/detail/sheet_edges.h"
 #include "tissue/hinge_angle.h"
 
@@ -167,15 +168,16 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
         // Least energy 1/2 kappa C kappa with B kappa = theta: 1/2 theta (B C^-1 B^T)^-1 theta. Folds that nearly depend
         // on each other (six corners near one conic) would make it stiff without bound.
         constexpr double kLeastShare = 1e-3;
-        const Eigen::MatrixXd compliance = B * C.inverse() * B.transpose();
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(compliance);
-        const double least = kLeastShare * eigen.eigenvalues().maxCoeff();
-        const Eigen::MatrixXd Q = eigen.eigenvectors() *
-                                  eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-                                  eigen.eigenvectors().transpose();
+        using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+        const Small compliance = B * C.inverse() * B.transpose();
+        const SymmetricEigen eigen = symmetric_eigen(compliance);
+        const double least = kLeastShare * eigen.values.maxCoeff();
+        const Small vectors = eigen.vectors;
+        const Small Q = vectors * eigen.values.cwiseMax(least).cwiseInverse().asDiagonal() *
+                        vectors.transpose();
         for (int e = 0; e < bend.count; ++e)
             for (int f = 0; f < bend.count; ++f) bend.Q(e, f) = signs[e] * signs[f] * Q(e, f);
-        const Eigen::MatrixXd by_fold = P * C.inverse() * B.transpose() * Q;
+        const Small by_fold = P * C.inverse() * B.transpose() * Q;
         for (int e = 0; e < bend.count; ++e) {
             bend.curvature.col(e) = signs[e] * by_fold.col(e);
             bend.curvature(2, e) /= std::numbers::sqrt2;

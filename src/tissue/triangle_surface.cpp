@@ -1,6 +1,5 @@
 #include "tissue/triangle_surface.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense_algebra.h"
 #include "solve/integrator.h"
 #include "solve/newton.h"
 #include "toy_terms.h"
@@ -177,7 +176,7 @@ TEST(BaraffWitkin, IsOneUndampedNewtonStepWithTheExactCurvature) {
     HessianBuilder builder(8, toy::first_fixed(8));
     system.add_hessian({h, h, x}, x, Curvature::kExact, builder);
     Eigen::MatrixXd A = Eigen::MatrixXd(builder.build()).selfadjointView<Eigen::Lower>();
-    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues()[0];
+    const double least = symmetric_eigenvalues(A)[0];
     ASSERT_LT(least + m / h / h, -1) << "the case is meant to be indefinite";
     Points force;
     system.force(0, x, v, force);
@@ -187,7 +186,7 @@ TEST(BaraffWitkin, IsOneUndampedNewtonStepWithTheExactCurvature) {
             b[3 * i + k] = i == 0 ? 0 : force(i, k) + m * v(i, k) / h;
             if (i > 0) A(3 * i + k, 3 * i + k) += m / h / h;
         }
-    const Eigen::VectorXd move = A.fullPivLu().solve(b);
+    const Eigen::VectorXd move = solved_for(A, b);
 
     const IntegratorReport report =
         make_integrator({.method = Method::kBaraffWitkin, .step_s = h})->advance(system, state, h);

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <random>
 #include <vector>
 
+#include "core/dense_algebra.h"
 #include "solve/metric_builder.h"
 
 namespace risorius::solve {
@@ -49,7 +49,7 @@ TEST(SparseCholesky, AgreesWithADenseFactor) {
         factor.solve(b, x);
         Eigen::MatrixXd dense = a;
         dense = Eigen::MatrixXd(dense.selfadjointView<Eigen::Lower>());
-        const Eigen::MatrixXd expected = dense.llt().solve(Eigen::MatrixXd(b));
+        const Eigen::MatrixXd expected = solved_for(dense, b);
         // condition about 1e4, rounding 1e-16
         EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff())
             << "n = " << n;

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "cell_solids.h"
+#include "core/dense_algebra.h"
 #include "solve/integrator.h"
 #include "solve/real_time_step.h"
 #include "tissue/gravity.h"
@@ -76,8 +76,7 @@ std::pair<double, double> eigenvalues(const Hanging& body, const Points& x,
     EXPECT_LT((B - B.transpose()).norm(), 1e-5 * B.norm());
     const Eigen::MatrixXd L = H.llt().matrixL();
     const Eigen::MatrixXd both = L.transpose() * B * L;
-    const Eigen::VectorXd w =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(both, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd w = symmetric_eigenvalues(both);
     return {w.minCoeff(), w.maxCoeff()};
 }
 

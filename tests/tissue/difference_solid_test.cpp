@@ -5,7 +5,9 @@
 #include <array>
 #include <limits>
 
+#include "core/dense_algebra.h"
 #include "force_term_checks.h"
+#include "second_derivative_checks.h"
 #include "solve/metric_builder.h"
 #include "tissue/grid_shape.h"
 
@@ -274,10 +276,7 @@ TEST(DifferenceSolid, PositivePartIsPositiveWhereTheSecondDerivativeIsNot) {
     const Points x = 0.33 * shaken_rest(solid, 0.1, 15);
     const ImplicitStep step{.end_s = 0, .step_s = kForever, .start = solid.rest};
     const auto least = [&](Curvature curvature) {
-        const Eigen::VectorXd values =
-            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian(term, step, x, curvature),
-                                                           Eigen::EigenvaluesOnly)
-                .eigenvalues();
+        const Eigen::VectorXd values = symmetric_eigenvalues(hessian(term, step, x, curvature));
         return values[0] / values[values.size() - 1];
     };
     EXPECT_LT(least(Curvature::kExact), -1e-3);
@@ -309,10 +308,7 @@ TEST(DifferenceSolid, MetricBoundsTheSecondDerivativeAtRest) {
             term, {.end_s = 0, .step_s = step, .start = solid.rest}, solid.rest, Curvature::kExact);
         // Largest share of the bound that is used; the small diagonal stands for the mass that holds the body in place.
         metric.diagonal().array() += 1e-9 * metric.diagonal().maxCoeff();
-        const double used = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-                                stiffness, metric, Eigen::EigenvaluesOnly)
-                                .eigenvalues()
-                                .maxCoeff();
+        const double used = testing_of::shares(stiffness, metric).maxCoeff();
         EXPECT_LT(used, 1.0 + 1e-9);
         EXPECT_GT(used, 0.5);  // a bound far too large would cost as many times the iterations
     }

@@ -1,7 +1,7 @@
 // Tethers, contacts and dead loads: what holds and pushes the tissue from outside.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "tissue/contacts.h"
 #include "tissue/dead_loads.h"
