@@ -112,8 +112,10 @@ class FaceTissue {
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
     const tissue::Contacts& contacts() const { return contacts_; }
-    /// The same as find_contacts() for equilibria: contacts are firmer and remember nothing.
+    /// The same as find_contacts() for equilibria: contacts harden with depth and remember nothing.
     void find_rest_contacts(const Points& x);
+    /// The same on the way there: as in steps that have learned nothing.
+    void find_soft_contacts(const Points& x);
     /// After coming to rest at x: depths and volumes, and steps from here press as hard.
     StepFigures end_rest(const Points& x);
     /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.

@@ -6,7 +6,8 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kFirmer = 6;  // contacts at rest / those of a step, which learn how hard to press
+// Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
+constexpr double kHardens_m = 0.004e-3;
 
 }  // namespace
 
@@ -40,15 +41,20 @@ void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& acti
 }
 
 void FaceTissue::find_rest_contacts(const Points& x) {
-    contacts_.set_firm(search_.find(x, mandible_, gaze_), kFirmer);
+    contacts_.set_firm(search_.find(x, mandible_, gaze_), kHardens_m);
     note_contacts();
+}
+
+void FaceTissue::find_soft_contacts(const Points& x) {
+    contacts_.forget();
+    find_contacts(x);
 }
 
 StepFigures FaceTissue::end_rest(const Points& x) {
     StepFigures figures;
     put_depths(x, figures);
     figures.muscle_volume_error = solids_->greatest_volume_error(x);
-    contacts_.remember_firm(x, kFirmer);
+    contacts_.remember_firm(x);
     return figures;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dense_algebra.h"
 #include "solve/force_term.h"
@@ -17,6 +18,13 @@ constexpr double kLoose_n_per_m = 1e-6;
 // Farther from equilibrium the exact curvature is hardly ever positive.
 constexpr double kFar_m = 0.5e-3;
 constexpr double kGain = 0.2;  // a round that leaves more than this share of |B g| has B made anew
+constexpr double kStale =
+    5;  // so has one that begins with this much more than the last left: other contacts
+// Planes stand for what is near: how far a node may go in one iteration is halved after rounds that do not come nearer,
+// doubled after those that do.
+constexpr double kFirstStep_m = 1e-3, kShortestStep_m = 0.1e-3;
+constexpr double kNearer = 0.7, kForgetting = 1.1;
+constexpr int kFarRound = 6;          // iterations while it is far
 constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
 constexpr int kRoughRound = 20, kRoughRounds = 6;
 constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
@@ -127,7 +135,7 @@ void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptio
         if (solve::longest_row(move_) < kFar_m) return;
     }
     for (int round = 0; round < kRoughRounds && figures.iterations < options.iterations; ++round) {
-        tissue_.find_rest_contacts(x);
+        tissue_.find_soft_contacts(x);
         const Points start = x;
         const StepFigures part = tissue_.implicit_step(
             kRoughStep_s, start, start, activation,
@@ -159,6 +167,8 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
     FixedPoint fixed_point;
     solve::Curvature curvature = solve::Curvature::kPositive;
     bool solved = true;  // the last round, with the planes it had
+    double last_left = std::numeric_limits<double>::infinity(), nearest = last_left;
+    double longest_step = kFirstStep_m;
     const auto left_at = [&] {
         energy(x, activation, gradient_);
         ++figures.evaluations;
@@ -168,22 +178,31 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
     while (true) {
         tissue_.find_rest_contacts(where);
         if (!known_ || !solved) factorise(x, activation, curvature);
-        const double left = left_at();
+        double left = left_at();
+        if (left > options.tolerance_m && left > kStale * last_left) {
+            factorise(x, activation, curvature);
+            left = left_at();
+        }
         figures.last_step_rms_m =
             std::sqrt(solve::dot(move_, move_) / static_cast<double>(x.rows()));
         move_ = x - where;
         figures.converged =
             left <= options.tolerance_m && solve::longest_row(move_) <= options.tolerance_m;
         if (figures.converged || figures.iterations >= options.iterations) break;
-        const solve::StepReport report = search_.minimise(
-            energy_at, metric, x,
-            {.iterations = std::min(options.round, options.iterations - figures.iterations),
-             .memory = options.memory,
-             .step_cap_m = options.step_cap_m,
-             .tolerance_rms_m = 1e-3 * options.tolerance_m});
+        const bool nearer = left < kNearer * nearest;
+        nearest = nearer ? left : kForgetting * nearest;
+        longest_step = nearer ? std::min(2 * longest_step, options.step_cap_m)
+                              : std::max(0.5 * longest_step, kShortestStep_m);
+        const solve::StepReport report =
+            search_.minimise(energy_at, metric, x,
+                             {.iterations = std::min(left > kFar_m ? kFarRound : options.round,
+                                                     options.iterations - figures.iterations),
+                              .memory = options.memory,
+                              .step_cap_m = longest_step,
+                              .tolerance_rms_m = 1e-3 * options.tolerance_m});
         figures.iterations += std::max(1, report.iterations);
         figures.evaluations += report.evaluations;
-        const double still = left_at();
+        const double still = last_left = left_at();
         solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
         curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
         if (!solved) fixed_point.forget();

@@ -20,7 +20,7 @@ namespace risorius::sim {
 
 struct StaticOptions {
     int iterations = 400;       ///< of L-BFGS, at most
-    double tolerance_m = 2e-6;  ///< converged when |B g| is no longer on any node
+    double tolerance_m = 1e-6;  ///< converged when |B g| is no longer on any node
     int round = 12;             ///< iterations between searches for contacts
     int memory = 8;
     double step_cap_m = 6e-3;

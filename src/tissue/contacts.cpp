@@ -9,13 +9,26 @@ namespace risorius::tissue {
 
 namespace {
 
-constexpr double kGreatestShift_m = 1e-3;  // what cannot be pushed out is not pushed ever harder: letting go, it would leap
-constexpr double kForgetting = 0.25;       // of the shift that a contact without penetration loses
+// What cannot be pushed out is not pushed ever harder: letting go, it would leap.
+constexpr double kGreatestShift_m = 1e-3;
+constexpr double kFlow = 0.05;        // of its opening that a bridge gives way per solve
+constexpr double kForgetting = 0.25;  // of the shift that a contact without penetration loses
 
 // Of pairs that stick: share dc they have opened, 0 when they do not pull.
 double opened(const Contacts::Contact& contact, double gap) {
     if (!contact.let_go_m || contact.stick_n <= 0) return 0;
     return std::clamp((gap - *contact.let_go_m) / contact.stick_m, 0.0, 1.0);
+}
+
+// E, dE/dd and d2E/dd2 of a contact d deep, d > 0.
+struct Pressed {
+    double energy_j, force_n, stiffness_n_per_m;
+};
+Pressed pressed(const Contacts::Contact& contact, double d) {
+    const double k = contact.stiffness_n_per_m;
+    if (contact.hardens_m <= 0) return {0.5 * k * d * d, k * d, k};
+    const double per_m = k / contact.hardens_m;
+    return {per_m * d * d * d / 3, per_m * d * d, 2 * per_m * d};
 }
 
 }  // namespace
@@ -47,6 +60,10 @@ void Contacts::remember(const Points& x) {
                 contact.let_go_m = now;
             else if (contact.let_go_m && now > *contact.let_go_m + contact.stick_m)
                 contact.let_go_m.reset();
+            else if (
+                contact
+                    .let_go_m)  // saliva flows: a bridge that is left alone does not pull for ever
+                *contact.let_go_m += kFlow * std::max(0.0, now - *contact.let_go_m);
         }
         if (contact.shift_m > 0 || contact.let_go_m)
             memory_.push_back({contact.slot, contact.shift_m, contact.let_go_m});
@@ -55,18 +72,19 @@ void Contacts::remember(const Points& x) {
               [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
 }
 
-void Contacts::set_firm(std::vector<Contact> contacts, double firmer) {
+void Contacts::set_firm(std::vector<Contact> contacts, double hardens_m) {
     contacts_ = std::move(contacts);
-    for (Contact& contact : contacts_) contact.stiffness_n_per_m *= firmer;
+    for (Contact& contact : contacts_) contact.hardens_m = hardens_m;
 }
 
-void Contacts::remember_firm(const Points& x, double firmer) {
+void Contacts::remember_firm(const Points& x) {
     memory_.clear();
     for (const Contact& contact : contacts_) {
         const double depth = contact.rest_gap_m - gap(contact, x);
         if (contact.slot < 0 || depth <= 0) continue;
-        memory_.push_back(
-            {contact.slot, std::min((firmer - 1) * depth, kGreatestShift_m), std::nullopt});
+        const double shift = pressed(contact, depth).force_n / contact.stiffness_n_per_m - depth;
+        if (shift > 0)
+            memory_.push_back({contact.slot, std::min(shift, kGreatestShift_m), std::nullopt});
     }
     std::sort(memory_.begin(), memory_.end(),
               [](const Memory& a, const Memory& b) { return a.slot < b.slot; });
@@ -82,7 +100,8 @@ double Contacts::gap(const Contact& contact, const Points& x) {
 double Contacts::pull_n(const Contact& contact, const Points& x) {
     const double now = gap(contact, x);
     const double u = opened(contact, now);
-    return contact.stiffness_n_per_m * std::min(0.0, now - contact.rest_gap_m - contact.shift_m) +
+    const double depth = contact.rest_gap_m + contact.shift_m - now;
+    return (depth > 0 ? -pressed(contact, depth).force_n : 0.0) +
            contact.stick_n * 6.75 * u * (1 - u) * (1 - u);
 }
 
@@ -90,13 +109,14 @@ double Contacts::add_energy(const Points& x, Points& gradient) const {
     double energy = 0;
     for (const Contact& contact : contacts_) {
         const double now = gap(contact, x);
-        const double depth = now - contact.rest_gap_m - contact.shift_m;
+        const double depth = contact.rest_gap_m + contact.shift_m - now;
         const double u = opened(contact, now);
-        if (depth >= 0 && u <= 0) continue;
+        if (depth <= 0 && u <= 0) continue;
         double pull = 0;
-        if (depth < 0) {
-            energy += 0.5 * contact.stiffness_n_per_m * depth * depth;
-            pull += contact.stiffness_n_per_m * depth;
+        if (depth > 0) {
+            const Pressed by = pressed(contact, depth);
+            energy += by.energy_j;
+            pull -= by.force_n;
         }
         if (u > 0) {
             energy += contact.stick_n * contact.stick_m * 6.75 * u * u *
@@ -113,9 +133,9 @@ double Contacts::add_energy(const Points& x, Points& gradient) const {
 
 void Contacts::add_hessian(const Points& x, solve::HessianBuilder& hessian) const {
     for (const Contact& contact : contacts_) {
-        const bool apart = gap(contact, x) >= contact.rest_gap_m + contact.shift_m;
-        const Mat3 block =
-            (apart ? 0.0 : contact.stiffness_n_per_m) * contact.normal * contact.normal.transpose();
+        const double depth = contact.rest_gap_m + contact.shift_m - gap(contact, x);
+        const double stiffness = depth > 0 ? pressed(contact, depth).stiffness_n_per_m : 0.0;
+        const Mat3 block = stiffness * contact.normal * contact.normal.transpose();
         hessian.add(contact.node, contact.node, block);
         for (int i = 0; i < contact.count; ++i) {
             hessian.add(contact.node, contact.others[i], -contact.weights[i] * block);

@@ -7,10 +7,12 @@
 // them, usually zero), or by none and p is a point of it. g is the rest gap min(0, gap at rest), so
 // that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by what is left of the
 // penetration, so that steps on end press as hard as they must without a stiffness that would slow the solver.
+// Contacts that harden have E = kc/(3 h) |d|^3 for d < 0 instead: as firm at d = -h, firmer below, and without the kink at
+// touching on which Newton's method stumbles.
 //
 // Es: what was pressed together sticks a little. Opened by u dc beyond where it was let go, it pulls with
 //   T = Tmax 27/4 u (1-u)^2,   0 < u < 1,   Tmax at u = 1/3
-// and is free from u = 1 on.
+// and is free from u = 1 on. Held open it flows: from solve to solve the pull fades.
 #pragma once
 
 #include <optional>
@@ -42,6 +44,7 @@ class Contacts {
         double stick_n = 0;                ///< Tmax; 0: it does not stick
         double stick_m = 0;                ///< dc
         double shift_m = 0;                ///< s >= 0, from memory
+        double hardens_m = 0;              ///< h; 0: the law is linear
         std::optional<double> let_go_m{};  ///< gap from which on it sticks, from memory
     };
 
@@ -54,10 +57,10 @@ class Contacts {
     void remember(const Points& x);
     void forget() { memory_.clear(); }
 
-    /// For solvers that a stiff contact does not slow: the same list without memory, `firmer` times as stiff.
-    void set_firm(std::vector<Contact> contacts, double firmer);
+    /// For solvers that know the second derivative: the same list without memory, hardening with depth.
+    void set_firm(std::vector<Contact> contacts, double hardens_m);
     /// After such a solve: what makes the next list from set() press as hard.
-    void remember_firm(const Points& x, double firmer);
+    void remember_firm(const Points& x);
 
     static double gap(const Contact& contact, const Points& x);  ///< m
     /// dE/dgap, N: < 0 pushes apart, > 0 sticks.

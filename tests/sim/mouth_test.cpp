@@ -23,7 +23,7 @@ double turn_of_red_deg(const Points& from, const Points& to, const char* rim, co
 }
 
 TEST(Mouth, LipsAndTeethHardlyPassThroughEachOther) {
-    for (const char* unit : {"AU24", "AU18"}) {
+    for (const char* unit : {"AU24", "AU14", "AU28_lower"}) {
         StepFigures figures;
         settled(adult(), with_unit(unit), &figures);
         EXPECT_LE(figures.lip_depth_m, 0.3e-3) << unit;
@@ -46,8 +46,8 @@ TEST(Mouth, PressedLipsDoNotSinkInAsTimePasses) {
 TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
     const Points& rest = adult().head().vertices;
     const FacePose lower = settled(adult(), with_unit("AU28_lower"));
-    // Less than the upper one
-    EXPECT_GT(turn_of_red_deg(rest, lower.vertices, "stoi", "li"), 4);
+    // Less than the upper one, which it may not pass through
+    EXPECT_GT(turn_of_red_deg(rest, lower.vertices, "stoi", "li"), 1.5);
     EXPECT_LT(at(moved_mm(adult(), lower), "stoi").z(), -1.5);
     const FacePose upper = settled(adult(), with_unit("AU28_upper"));
     EXPECT_LT(turn_of_red_deg(rest, upper.vertices, "stos", "ls"), -15);

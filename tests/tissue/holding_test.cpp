@@ -156,6 +156,48 @@ TEST(Contacts, WhatWasPressedSticksALittleAndThenLetsGo) {
     EXPECT_EQ(pull_at(1e-4), 0.0);
 }
 
+TEST(Contacts, WhatSticksIsFreeOfPullWhenHeldOpenForLong) {
+    Contacts::Contact contact;
+    contact.stiffness_n_per_m = 50;
+    contact.slot = 0;
+    contact.stick_n = 1e-3;
+    contact.stick_m = 6e-4;
+    Points x = Points::Zero(1, 3);
+    Contacts contacts;
+    const auto pull_at = [&](double height) {
+        x(0, 2) = height;
+        contacts.set({contact});
+        const double pull = Contacts::pull_n(contacts.list()[0], x);
+        contacts.remember(x);
+        return pull;
+    };
+    pull_at(-1e-4);
+    const double first = pull_at(1e-4);
+    EXPECT_GT(first, 0.5e-3);
+    for (int i = 0; i < 100; ++i) pull_at(1e-4);
+    EXPECT_LT(pull_at(1e-4), 0.02 * first);
+}
+
+TEST(Contacts, ThoseThatHardenStartWithoutAKinkAndHandOverTheirForceToSteps) {
+    Contacts::Contact contact;
+    contact.stiffness_n_per_m = 100;
+    contact.slot = 1;
+    Points x = Points::Zero(1, 3);
+    Contacts firm;
+    firm.set_firm({contact}, 1e-4);
+    const auto push_at = [&](double depth_m) {
+        x(0, 2) = -depth_m;
+        return -Contacts::pull_n(firm.list()[0], x);
+    };
+    EXPECT_NEAR(push_at(1e-4), 0.01, 1e-12) << "there as firm as the linear law";
+    EXPECT_LT(push_at(1e-6), 0.02 * 100 * 1e-6);
+    const double push = push_at(5e-4);
+    EXPECT_NEAR(push, 25 * 0.01, 1e-9);
+    firm.remember_firm(x);
+    firm.set({contact});
+    EXPECT_NEAR(-Contacts::pull_n(firm.list()[0], x), push, 1e-9);
+}
+
 TEST(Contacts, BetweenTissueAndTissuePushBothAlike) {
     Points x = kHeldBlock.rest;
     x.row(17) -= Eigen::RowVector3d(0, 0, 8e-3);
