@@ -1,7 +1,9 @@
 // Each muscle pulls the skin where anatomy says it does.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <utility>
 
 #include "geom/mirror.h"
 #include "sim/adult_face.h"
@@ -19,8 +21,22 @@ class Muscles : public testing::Test {
     static Points moved(const track::Drive& drive) {
         return moved_mm(face(), settled(face(), drive));
     }
-    static Points moved(const std::string& muscle, std::optional<Side> side = std::nullopt) {
-        return moved(with_muscle(muscle, 1.0, side));
+    struct Contraction {
+        Points moved;         ///< mm
+        double mean_stretch;  ///< of the muscle's fibres
+    };
+    /// A full one, found once for all tests of a process.
+    static const Contraction& contraction(const std::string& muscle, std::optional<Side> side) {
+        static std::map<std::pair<std::string, std::optional<Side>>, Contraction> known;
+        const auto key = std::pair(muscle, side);
+        if (!known.contains(key)) {
+            Points u = moved(with_muscle(muscle, 1.0, side));
+            known[key] = {std::move(u), face().mean_stretch(muscle)};
+        }
+        return known[key];
+    }
+    static const Points& moved(const std::string& muscle, std::optional<Side> side = std::nullopt) {
+        return contraction(muscle, side).moved;
     }
     /// The skin vertex that moves most.
     static long furthest(const Points& u) {
@@ -55,12 +71,12 @@ class Muscles : public testing::Test {
 TEST_F(Muscles, EachOfTheTwentyEightMovesTheSkin) {
     ASSERT_EQ(mimetic().size(), 28u);
     for (const rig::Muscle& muscle : mimetic()) {
-        const Points u = moved(muscle.id);
+        const auto& [u, mean_stretch] = contraction(muscle.id, std::nullopt);
         EXPECT_TRUE(u.allFinite()) << muscle.id;
         const double most = u.row(furthest(u)).norm();
         EXPECT_GT(most, 0.5) << muscle.id;
         EXPECT_LT(most, 25) << muscle.id;
-        EXPECT_LT(face().mean_stretch(muscle.id), 0.97) << muscle.id << " does not shorten";
+        EXPECT_LT(mean_stretch, 0.97) << muscle.id << " does not shorten";
     }
 }
 
@@ -118,8 +134,8 @@ TEST_F(Muscles, BothSidesTogetherMoveAsMirrorImages) {
 TEST_F(Muscles, MoreActivationMovesMore) {
     for (const char* muscle : {"zygomaticus_major", "frontalis_medial", "depressor_anguli_oris"}) {
         double before = 0;
-        for (double a : {0.25, 0.5, 0.75, 1.0}) {
-            const Points u = moved(with_muscle(muscle, a));
+        for (double a : {0.3, 0.6, 1.0}) {
+            const Points u = a < 1 ? moved(with_muscle(muscle, a)) : moved(muscle);
             const double most = u.row(furthest(u)).norm();
             EXPECT_GT(most, before) << muscle << " at " << a;
             before = most;
