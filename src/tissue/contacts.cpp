@@ -9,8 +9,9 @@ namespace risorius::tissue {
 
 namespace {
 
-constexpr double kGreatestShift_m = 1e-3;  // what cannot be pushed out is not pushed ever harder: letting go, it would leap
-constexpr double kForgetting = 0.25;       // of the shift that a contact without penetration loses
+constexpr double kGreatestShift_m =
+    1e-3;  // what cannot be pushed out is not pushed ever harder: letting go, it would leap
+constexpr double kForgetting = 0.25;  // of the shift that a contact without penetration loses
 
 // Of pairs that stick: share dc they have opened, 0 when they do not pull.
 double opened(const Contacts::Contact& contact, double gap) {
