@@ -55,7 +55,19 @@ Follow::Follow(const rig::Head& head, const rig::RigDescription& rig,
         LidMember member;
         member.upper = upper < lower;
         member.share = member.upper ? 1.0 : 0.0;
-        member.place = std::clamp(lids[side].place_of(p), 0.0, 1.0);
+        // A hair turns as its root does, which lies straight towards the eye's middle
+        const std::vector<Vec3>& margin =
+            member.upper ? lids[side].upper_margin() : lids[side].lower_margin();
+        const Vec3 off = p - lids[side].centre();
+        const Vec3 root =
+            *std::min_element(margin.begin(), margin.end(), [&](const Vec3& a, const Vec3& b) {
+                const auto across = [&](const Vec3& m) {
+                    return (m - lids[side].centre()).cross(off).norm() /
+                           (m - lids[side].centre()).norm();
+                };
+                return across(a) < across(b);
+            });
+        member.place = std::clamp(lids[side].place_of(root), 0.0, 1.0);
         lid_vertices_.push_back({v, side, member, 1.0, kNotKept});
         int nearest = -1;
         double least = 1e300;
