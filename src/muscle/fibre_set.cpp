@@ -84,34 +84,50 @@ double FibreSet::length(int segment) const {
 void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     assert(h > 0);
     step_s_ = h;
-    start_length_m_.assign(points_.size(), 0);
-    start_force_.assign(points_.size(), 0);
+    in_step_.resize(points_.size());
     const auto each_segment = [&](const auto& visit) {
         for (const Fibre& fibre : fibres_)
             for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p)
-                visit(p, static_cast<std::size_t>(p));
+                visit(fibre, p, static_cast<std::size_t>(p));
     };
     place_points(x);
-    each_segment([&](int p, std::size_t segment) { start_length_m_[segment] = length(p); });
+    each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
+        const double l0 = optimal_length_m_[segment];
+        const double way = h * fibre.greatest_speed_hz * l0;
+        in_step_[segment] = {1 / l0, length(p), 1 / way, 0, 0, fibre.f0_n * l0};
+    });
     if (&expected != &x) place_points(expected);
-    each_segment([&](int p, std::size_t segment) {
-        start_force_[segment] = curves_.active(length(p) / optimal_length_m_[segment]).force;
+    each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
+        StepSegment& step = in_step_[segment];
+        step.force = fibre.f0_n * curves_.active(length(p) * step.inverse_optimal).force;
+        step.work = step.force / step.inverse_way;
     });
 }
 
-LengthCurves::Value FibreSet::active(const Fibre& fibre, int segment, double l) const {
-    const auto s = static_cast<std::size_t>(segment);
-    if (step_s_ == 0) return curves_.active(l / optimal_length_m_[s]);
-    const double reach = step_s_ * fibre.greatest_speed_hz;  // h vmax
-    const double v = (l - start_length_m_[s]) / (reach * optimal_length_m_[s]);
-    const CurveTable::Value velocity = velocity_table_.at(v);
-    return {start_force_[s] * velocity.value, start_force_[s] * reach * velocity.integral};
+inline FibreSet::Pull FibreSet::at_rest(const Fibre& fibre, double a, int segment, double l) const {
+    const double l0 = optimal_length_m_[static_cast<std::size_t>(segment)];
+    const LengthCurves::Value passive = curves_.passive(l / l0);
+    const LengthCurves::Value active =
+        a == 0.0 ? LengthCurves::Value{0.0, 0.0} : curves_.active(l / l0);
+    return {fibre.f0_n * (a * active.force + passive.force),
+            fibre.f0_n * l0 * (a * active.integral + passive.integral)};
 }
 
-LengthCurves::Value FibreSet::passive(double lam) const {
-    if (step_s_ == 0 || lam <= 1.0) return curves_.passive(lam);
-    const CurveTable::Value value = passive_table_.at(lam);
-    return {value.value, value.integral};
+inline FibreSet::Pull FibreSet::in_step(const Fibre& fibre, double a, int segment, double l) const {
+    const StepSegment& step = in_step_[static_cast<std::size_t>(segment)];
+    Pull pull{0.0, 0.0};
+    const double lam = l * step.inverse_optimal;
+    if (lam > 1.0) {
+        const CurveTable::Value passive = passive_table_.at(lam);
+        pull = {fibre.f0_n * passive.value, step.stiffness * passive.integral};
+    }
+    if (a != 0.0) {
+        const CurveTable::Value velocity =
+            velocity_table_.at((l - step.start_m) * step.inverse_way);
+        pull.tension_n += a * step.force * velocity.value;
+        pull.energy_j += a * step.work * velocity.integral;
+    }
+    return pull;
 }
 
 double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
@@ -124,20 +140,16 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
     for (const Fibre& fibre : fibres_) {
         const double a = activation[fibre.column];
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
-            const double l0 = optimal_length_m_[static_cast<std::size_t>(p)];
-            const double l = length(p);
-            const double lam = l / l0;
+            const Lanes d = position_[p + 1] - position_[p];
+            const double l = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
             // A relaxed, slack segment does nothing; most segments of most frames are that.
-            if (a == 0.0 && lam <= 1.0) continue;
-            const LengthCurves::Value passive = this->passive(lam);
-            const LengthCurves::Value pulled =
-                a == 0.0 ? LengthCurves::Value{0.0, 0.0} : active(fibre, p, l);
-            energy += fibre.f0_n * l0 * (a * pulled.integral + passive.integral);
+            if (a == 0.0 && l <= optimal_length_m_[static_cast<std::size_t>(p)]) continue;
+            const Pull pull = step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, l);
+            energy += pull.energy_j;
             if (!(l > 0)) continue;  // no direction to pull along
-            const double tension = fibre.f0_n * (a * pulled.force + passive.force);
-            const Lanes pull = (tension / l) * (position_[p + 1] - position_[p]);
-            force_[p] -= pull;
-            force_[p + 1] += pull;
+            const Lanes along = (pull.tension_n / l) * d;
+            force_[p] -= along;
+            force_[p + 1] += along;
         }
     }
     for (std::size_t p = 0; p < points_.size(); ++p) {

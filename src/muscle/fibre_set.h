@@ -96,19 +96,29 @@ class FibreSet {
   private:
     void place_points(const Points& x) const;
     double length(int segment) const;
-    /// Per unit of activation and F0; the integral per unit of l0 too.
-    LengthCurves::Value active(const Fibre& fibre, int segment, double l) const;
-    LengthCurves::Value passive(double lam) const;
+    /// What a segment pulls with and its energy, J, at length l.
+    struct Pull {
+        double tension_n, energy_j;
+    };
+    Pull at_rest(const Fibre& fibre, double a, int segment, double l) const;
+    Pull in_step(const Fibre& fibre, double a, int segment, double l) const;
 
     std::vector<FibrePoint> points_;
     std::vector<Fibre> fibres_;
     LengthCurves curves_;
     Curve velocity_;
-    CurveTable velocity_table_, passive_table_;     ///< of steps
-    std::vector<double> optimal_length_m_;          ///< l0 of the segment that begins at a point
-    double step_s_ = 0;                             ///< h, 0 at rest
-    std::vector<double> start_length_m_;            ///< l_n, likewise
-    std::vector<double> start_force_;               ///< fl(lam_n), likewise
+    CurveTable velocity_table_, passive_table_;  ///< of steps
+    std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at a point
+    double step_s_ = 0;                          ///< h, 0 at rest
+    struct StepSegment {
+        double inverse_optimal;  ///< 1 / l0
+        double start_m;          ///< l_n
+        double inverse_way;      ///< 1 / (h vmax l0)
+        double force;            ///< F0 fl(lam_n)
+        double work;             ///< that times h vmax l0
+        double stiffness;        ///< F0 l0
+    };
+    std::vector<StepSegment> in_step_;              ///< likewise
     Points body_position_;                          ///< P x 3, of points that ride on bodies
     mutable solve::PaddedPoints x_, gradient_;      ///< nodes
     mutable solve::PaddedPoints position_, force_;  ///< points

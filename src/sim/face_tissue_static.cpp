@@ -7,7 +7,7 @@ namespace risorius::sim {
 namespace {
 
 // Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
-constexpr double kHardens_m = 0.004e-3;
+constexpr double kHardens_m = 0.0025e-3;
 
 }  // namespace
 
