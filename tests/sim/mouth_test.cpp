@@ -23,7 +23,7 @@ double turn_of_red_deg(const Points& from, const Points& to, const char* rim, co
 }
 
 TEST(Mouth, LipsAndTeethHardlyPassThroughEachOther) {
-    for (const char* unit : {"AU24", "AU14", "AU28_lower"}) {
+    for (const char* unit : {"AU18", "AU24", "AU14", "AU28_lower"}) {
         StepFigures figures;
         settled(adult(), with_unit(unit), &figures);
         EXPECT_LE(figures.lip_depth_m, 0.3e-3) << unit;
