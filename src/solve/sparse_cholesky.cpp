@@ -1,11 +1,10 @@
 #include "solve/sparse_cholesky.h"
 
-#include <suitesparse/cholmod.h>
-
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
 
+#include "solve/detail/cholmod_view.h"
 #include "solve/lanes.h"
 
 namespace risorius::solve {
@@ -91,17 +90,7 @@ void SparseCholesky::Impl::factorise(const Eigen::SparseMatrix<double>& A) {
     Eigen::SparseMatrix<double> lower = A.triangularView<Eigen::Lower>();
     lower.makeCompressed();
 
-    cholmod_sparse view{};
-    view.nrow = view.ncol = static_cast<std::size_t>(n);
-    view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-    view.p = lower.outerIndexPtr();
-    view.i = lower.innerIndexPtr();
-    view.x = lower.valuePtr();
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = view.packed = 1;
+    cholmod_sparse view = detail::view_of(lower);
 
     Cholmod cholmod;
     cholmod.factor = cholmod_analyze(&view, &cholmod.common);

@@ -130,52 +130,48 @@ TEST(Contacts, WhatIsLeftOfAPenetrationIsPushedOutStepByStep) {
     EXPECT_EQ(contacts.list()[0].shift_m, 0.0);
 }
 
-TEST(Contacts, WhatWasPressedSticksALittleAndThenLetsGo) {
+/// A node over a plane that it sticks to, from one solve to the next.
+struct StickyNode {
     Contacts::Contact contact;
-    contact.stiffness_n_per_m = 50;
-    contact.slot = 0;
-    contact.stick_n = 1e-3;
-    contact.stick_m = 6e-4;
     Points x = Points::Zero(1, 3);
     Contacts contacts;
-    const auto pull_at = [&](double height) {
-        x(0, 2) = height;
+
+    StickyNode() {
+        contact.stiffness_n_per_m = 50;
+        contact.slot = 0;
+        contact.stick_n = 1e-3;
+        contact.stick_m = 6e-4;
+    }
+    /// N, once a solve has ended at that height.
+    double pull_at(double height_m) {
+        x(0, 2) = height_m;
         contacts.set({contact});
         const double pull = Contacts::pull_n(contacts.list()[0], x);
         contacts.remember(x);
         return pull;
-    };
-    EXPECT_EQ(pull_at(2e-4), 0.0);   // never pressed
-    EXPECT_LT(pull_at(-1e-4), 0.0);  // pressed
-    contacts.set({contact});
-    x(0, 2) = 1.5e-4;
-    expect_gradient_is_exact(contacts, x);
-    EXPECT_NEAR(pull_at(1e-4), 1e-3, 1e-9);  // a third of the way from where it was let go
-    EXPECT_GT(pull_at(3e-4), 0.0);
-    EXPECT_EQ(pull_at(6e-4), 0.0);  // torn
-    EXPECT_EQ(pull_at(1e-4), 0.0);
+    }
+};
+
+TEST(Contacts, WhatWasPressedSticksALittleAndThenLetsGo) {
+    StickyNode node;
+    EXPECT_EQ(node.pull_at(2e-4), 0.0);   // never pressed
+    EXPECT_LT(node.pull_at(-1e-4), 0.0);  // pressed
+    node.contacts.set({node.contact});
+    node.x(0, 2) = 1.5e-4;
+    expect_gradient_is_exact(node.contacts, node.x);
+    EXPECT_NEAR(node.pull_at(1e-4), 1e-3, 1e-9);  // a third of the way from where it was let go
+    EXPECT_GT(node.pull_at(3e-4), 0.0);
+    EXPECT_EQ(node.pull_at(6e-4), 0.0);  // torn
+    EXPECT_EQ(node.pull_at(1e-4), 0.0);
 }
 
 TEST(Contacts, WhatSticksIsFreeOfPullWhenHeldOpenForLong) {
-    Contacts::Contact contact;
-    contact.stiffness_n_per_m = 50;
-    contact.slot = 0;
-    contact.stick_n = 1e-3;
-    contact.stick_m = 6e-4;
-    Points x = Points::Zero(1, 3);
-    Contacts contacts;
-    const auto pull_at = [&](double height) {
-        x(0, 2) = height;
-        contacts.set({contact});
-        const double pull = Contacts::pull_n(contacts.list()[0], x);
-        contacts.remember(x);
-        return pull;
-    };
-    pull_at(-1e-4);
-    const double first = pull_at(1e-4);
+    StickyNode node;
+    node.pull_at(-1e-4);
+    const double first = node.pull_at(1e-4);
     EXPECT_GT(first, 0.5e-3);
-    for (int i = 0; i < 100; ++i) pull_at(1e-4);
-    EXPECT_LT(pull_at(1e-4), 0.02 * first);
+    for (int i = 0; i < 100; ++i) node.pull_at(1e-4);
+    EXPECT_LT(node.pull_at(1e-4), 0.02 * first);
 }
 
 TEST(Contacts, ThoseThatHardenStartWithoutAKinkAndHandOverTheirForceToSteps) {
