@@ -628,6 +628,11 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
     }
 }
 
+void Face::scale_lips(const rig::LipsDescription& lips) {
+    impl_->statics->moved();
+    impl_->tissue.lip_drive().scale(lips);
+}
+
 std::vector<SolidFigures> Face::solid_figures() const {
     return impl_->tissue.solids().figures(impl_->now.x, impl_->now.activation);
 }
