@@ -34,6 +34,9 @@ class LipDrive {
     LipDrive(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
              const TissueMesh& mesh, const std::vector<Attachment>& attachments);
 
+    /// Forgets all nodes but those that `row` sends to rows below `rows`, and calls them by these.
+    void keep(const std::vector<int>& row, int rows);
+
     /// How far each lip is turned and pushed, from here on.
     void drive(const Eigen::VectorXd& activation);
     /// Targets and directions with the mandible there; within a step only targets go with it.
