@@ -51,9 +51,20 @@ double exact_step(double t_s, double step_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 10, 10, 0.0};
-    if (name == "video") return {"video", 800, 80, 4, 0.0025e-3, kStep_s, kStep_s / 2};
-    if (name == "fine") return {"fine", 1700, 120, 4, 0.0025e-3, kStep_s, kStep_s / 2};
+    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_iterations = 8};
+    if (name == "video")
+        return {.name = "video",
+                .iterations = 80,
+                .least_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .longest_piece_s = kStep_s / 2};
+    if (name == "fine")
+        return {.name = "fine",
+                .shell_vertices = 1700,
+                .iterations = 120,
+                .least_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .longest_piece_s = kStep_s / 2};
     throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
 }
 
@@ -118,6 +129,7 @@ struct Face::Impl {
           channels(rig.channels()) {
         tissue.prepare(motion.effective_step_s());
         tissue.step_in(quality.precision);
+        tissue.refine_mouth(quality.mouth_iterations);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
         skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);

@@ -103,6 +103,16 @@ void LipDrive::scale(const rig::LipsDescription& lips) {
     turn_ = {-1, -1};  // nothing driven yet
 }
 
+void LipDrive::keep(const std::vector<int>& row, int rows) {
+    const auto keep_of = [&](auto& members) {
+        for (auto& member : members) member.node = row[static_cast<std::size_t>(member.node)];
+        std::erase_if(members,
+                      [&](const auto& member) { return member.node < 0 || member.node >= rows; });
+    };
+    keep_of(turned_);
+    keep_of(pushed_);
+}
+
 void LipDrive::drive(const Eigen::VectorXd& activation) {
     const auto of = [&](int column) {
         return column < 0 ? 0.0 : std::clamp(activation[column], 0.0, 1.0);

@@ -36,6 +36,9 @@ class LipDrive {
 
     /// How far activation 1 goes on this head, of the standard way; the turn and the push of both lips.
     void scale(const rig::LipsDescription& lips);
+    /// Forgets all nodes but those that `row` sends to rows below `rows`, and calls them by these.
+    void keep(const std::vector<int>& row, int rows);
+
     /// How far each lip is turned and pushed, from here on.
     void drive(const Eigen::VectorXd& activation);
     /// Targets and directions with the mandible there; within a step only targets go with it.

@@ -51,6 +51,9 @@ class TetSolid {
     /// scale * sum V mu G G^T: the Laplacian of stiffness damping.
     void add_laplacian(solve::MetricBuilder& builder, double scale) const;
 
+    const Tets& tets() const { return tets_; }
+    const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< per tet
+    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< likewise
     int size() const { return static_cast<int>(tets_.rows()); }
     int inverted_count(const Points& x) const;          ///< tets with J <= 0
     double volume(const Points& x) const;               ///< signed, m^3
