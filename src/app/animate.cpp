@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/frame_table.h"
+#include "app/marked_pictures.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/shot.h"
@@ -30,7 +31,7 @@ namespace {
 class Output {
   public:
     Output(const fs::path& out, const Shot& shot, bool still) : out_(out) {
-        if (!still) video_.emplace(out, shot.video());
+        if (!still) video_.emplace(out, shot.video);
     }
     void append(Image image) {
         if (video_)
@@ -158,10 +159,15 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     FrameTableOptions columns{.landmarks = options.landmarks,
                               .project = [&](const Vec3& world) { return view.project(world); },
                               .emg = {}};
+    for (std::size_t side = 0; side < 2; ++side)
+        columns.eye_forward[side] = face.head().eyes[side].forward;
+    columns.photodiode = options.marks.photodiode.has_value();
     const auto driven = [&](double t_s) { return face.driven(timeline.at(t_s)); };
     track::SimulatedEmg emg(channels, driven);
     if (options.emg) columns.emg = [&](double t_s) { return emg.at(t_s); };
-    FrameTable table(channels, LandmarkPoints(face.head(), files.rig), std::move(columns));
+    FrameTable table(channels, LandmarkPoints(face.head(), files.rig),
+                     track::UnitIntensity(script, files.rig.facs), std::move(columns));
+    MarkedPictures pictures(options.marks, script, shot.script.fps);
     media::Sha256 hash;
     int most_inverted_tets = 0;
     const auto simulate = [&](int frame) {
@@ -189,6 +195,8 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
         watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
         const Stopwatch drawing;
         Image image = view.draw(pose);
+        table.add_picture(pictures.measure(image), pictures.lit(frame));
+        pictures.mark(frame, image);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawing.seconds();
         const Stopwatch encoding;

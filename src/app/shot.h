@@ -17,9 +17,7 @@ struct Shot {
     render::ViewOptions view;
 
     double time_s(int frame) const { return first_s + static_cast<double>(frame) / script.fps; }
-    media::VideoOptions video() const {
-        return {.width_px = view.width_px, .height_px = view.height_px, .fps = script.fps};
-    }
+    media::VideoOptions video;
     std::string background_text() const;  ///< as a script writes it
 };
 

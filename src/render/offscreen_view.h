@@ -59,6 +59,8 @@ class OffscreenView {
 
     /// Pixel position (x right, y down, from the top left corner) of a world point.
     Vec2 project(const Vec3& world) const;
+    /// The camera as OpenGL has it: x right and y up in [-w, w] in the picture.
+    Eigen::Matrix4d clip_from_world() const;
 
   private:
     struct Impl;

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/known_names.h"
 #include "muscle/activation.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
@@ -54,7 +55,10 @@ Quality quality_named(const std::string& name) {
     if (name == "preview") return {"preview", 800, 10, 10, 0.0};
     if (name == "video") return {"video", 800, 80, 4, 0.0025e-3, kStep_s, kStep_s / 2};
     if (name == "fine") return {"fine", 1700, 120, 4, 0.0025e-3, kStep_s, kStep_s / 2};
-    throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
+    throw Error(
+        "--quality",
+        "\"preview\", \"video\" or \"fine\"" + did_you_mean(name, {"preview", "video", "fine"}),
+        "\"" + name + "\"");
 }
 
 struct Face::Impl {

@@ -156,8 +156,10 @@ class Reader {
             const ActionUnit& unit = *facs_.find(part.use.unit);
             const auto add = [&](std::optional<Side> on, double share, double delay) {
                 Expansion drives = Expansion::none(channels_);
-                drives.add(expand(unit, on, channels_), share * part.use.value * event.intensity);
-                event.parts.push_back({std::move(drives), std::min(delay, 0.9)});
+                const double value = share * part.use.value * event.intensity;
+                drives.add(expand(unit, on, channels_), value);
+                event.parts.push_back(
+                    {std::move(drives), std::min(delay, 0.9), {part.use.unit, on, value}});
             };
             if (event.asymmetry == 0 || side || !unit.sided) {
                 add(side, 1, part.delay);

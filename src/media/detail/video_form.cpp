@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "core/error.h"
-#include "core/json_cursor.h"
+#include "core/known_names.h"
 
 namespace risorius::media::detail {
 
@@ -22,9 +22,8 @@ void check_one_of(const std::string& place, const std::string& what, const Names
     if (std::find(names.begin(), names.end(), found) != names.end()) return;
     std::string expected = what + ", one of";
     for (const char* name : names) expected += std::string(" ") + name;
-    const std::string near = nearest_name(found, {names.begin(), names.end()});
-    throw Error(place, expected,
-                risorius::quoted(found) + (near.empty() ? "" : " (did you mean " + risorius::quoted(near) + "?)"));
+    throw Error(place, expected + did_you_mean(found, {names.begin(), names.end()}),
+                risorius::quoted(found));
 }
 
 void check_range(const std::string& place, const char* what, int value, int min, int max) {
