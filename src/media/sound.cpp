@@ -119,7 +119,12 @@ Sound SoundFile::read() {
         else if (packet_->stream_index == stream_->index)
             check(avcodec_send_packet(codec_.get(), packet_.get()));
         av_packet_unref(packet_.get());
-        while (check(avcodec_receive_frame(codec_.get(), piece_.get()))) take(sound);
+        while (check(avcodec_receive_frame(codec_.get(), piece_.get()))) {
+            if (sound.samples.empty() && piece_->best_effort_timestamp != AV_NOPTS_VALUE)
+                sound.start_s =
+                    static_cast<double>(piece_->best_effort_timestamp) * av_q2d(stream_->time_base);
+            take(sound);
+        }
     }
     if (sound.samples.empty()) throw Error(name_, "a file with sound", "no samples in it");
     return sound;

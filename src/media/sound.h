@@ -12,7 +12,9 @@ namespace risorius::media {
 struct Sound {
     int rate_hz = 48000;
     int channels = 1;
-    int bits = 16;               ///< of a sample in its file: 16, 24, or 32 for floating point
+    int bits = 16;  ///< of a sample in its file: 16, 24, or 32 for floating point
+    double start_s =
+        0;  ///< time stamp of the first sample; Matroska and WebM round it to a millisecond
     std::string container;       ///< by FFmpeg's name: "wav", "flac", "matroska,webm"
     std::vector<float> samples;  ///< interleaved, 1 = full scale; 16 and 24 bits are held exactly
 

@@ -54,7 +54,7 @@ std::vector<std::int16_t> click(int length, int at, int rate_hz) {
     return out;
 }
 
-/// Where a click sounds, s: the shift that fits best (cross-correlation with the click).
+/// When a click sounds, s, by time stamps and samples: the shift that fits best (cross-correlation with the click).
 double click_time_s(const Sound& heard) {
     const int half = heard.rate_hz / 1000;
     const std::vector<std::int16_t> shape = click(2 * half + 1, half, heard.rate_hz);
@@ -71,7 +71,7 @@ double click_time_s(const Sound& heard) {
             at = i;
         }
     }
-    return static_cast<double>(at) / heard.rate_hz;
+    return heard.start_s + static_cast<double>(at) / heard.rate_hz;
 }
 
 Image grey_frame(int value) { return flat(kWidth, kHeight, value, value, value); }

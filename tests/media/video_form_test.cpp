@@ -203,7 +203,8 @@ TEST(VideoForm, RefusesWhatAFormDoesNotHave) {
               "f/: expected an ending whose pixel format can be chosen, .mp4, .mov or .webm, found "
               "a folder of PNG frames");
     EXPECT_EQ(refusal("a.mp4", {.pixels = "yuv420"}),
-              "a.mp4: expected a pixel format, one of yuv420p yuv444p (did you mean \"yuv420p\"?), found \"yuv420\"");
+              "a.mp4: expected a pixel format, one of yuv420p yuv444p (did you mean \"yuv420p\"?), "
+              "found \"yuv420\"");
     EXPECT_EQ(refusal("a.mkv", {.keyframe_interval = 5}),
               "a.mkv: expected an ending whose key frames can be chosen, .mp4, .mov or .webm (in "
               "others every frame is one), found \".mkv\"");

@@ -31,6 +31,7 @@ const char* muxer_of(Form form) {
 struct Encoder::Impl {
     std::string name;
     int fps = 0;
+    bool webm = false;
     AVFormatContext* format = nullptr;
     AVStream *video = nullptr, *audio = nullptr;
     std::optional<PictureCoder> pictures;
@@ -67,6 +68,7 @@ struct Encoder::Impl {
               bool alpha) {
         silence_ffmpeg();
         fps = options.fps;
+        webm = form == Form::kWebm;
         packet.reset(av_packet_alloc());
         if (!packet) throw std::bad_alloc();
         const std::string url = ffmpeg_url(file.string());
@@ -108,7 +110,14 @@ struct Encoder::Impl {
 
     void write_packets() {
         while (pictures->receive(packet.get())) write(video, pictures->codec().time_base);
-        while (sound && sound->receive(packet.get())) write(audio, sound->codec().time_base);
+        while (sound && sound->receive(packet.get())) {
+            // WebM counts from the first sample put in, priming included, and says in CodecDelay how much of it that is.
+            if (webm) {
+                packet->pts += sound->codec().initial_padding;
+                packet->dts += sound->codec().initial_padding;
+            }
+            write(audio, sound->codec().time_base);
+        }
     }
 
     /// The sample at which the sound of the frames so far ends.
