@@ -7,6 +7,7 @@
 
 #include "app/frame_table.h"
 #include "app/marked_pictures.h"
+#include "app/pass_writer.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/shot.h"
@@ -168,6 +169,11 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     FrameTable table(channels, LandmarkPoints(face.head(), files.rig),
                      track::UnitIntensity(script, files.rig.facs), std::move(columns));
     MarkedPictures pictures(options.marks, script, shot.script.fps);
+    std::optional<PassWriter> passes;
+    if (!options.passes.empty())
+        passes.emplace(beside(options.out, ".passes"), options.passes, scene,
+                       view.clip_from_world(), shot.view.width_px, shot.view.height_px,
+                       LandmarkPoints(face.head(), files.rig));
     media::Sha256 hash;
     int most_inverted_tets = 0;
     const auto simulate = [&](int frame) {
@@ -197,6 +203,7 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
         Image image = view.draw(pose);
         table.add_picture(pictures.measure(image), pictures.lit(frame));
         pictures.mark(frame, image);
+        if (passes) passes->add(frame, pose.positions);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawing.seconds();
         const Stopwatch encoding;
@@ -212,6 +219,7 @@ RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     StagedFile frame_table(beside(options.out, ".frames.tsv"), table.text());
     const Stopwatch closing;
     output.finish();
+    if (passes) passes->commit();
     record.timing.encode_s += closing.seconds();
     record.timing.total_s = total.seconds();
     write_text(beside(options.out, ".json"), record.json().dump(2) + "\n");

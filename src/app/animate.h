@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/run_record.h"
 #include "app/watch.h"
@@ -41,10 +42,11 @@ struct AnimateOptions {
     std::optional<std::int64_t>
         audio_offset;  ///< samples from the first frame to its first, of its own rate
     SyncMarks marks{};
-    std::string quality = "video";  ///< sim::quality_named
-    bool landmarks = false;         ///< their places in the table
-    bool emg = false;               ///< what electrodes would record, in the table
-    int threads = 2;                ///< 1, or more to simulate beside drawing; same frames
+    std::vector<std::string> passes;  ///< pass_names(): ground truth as pictures, into OUT.passes
+    std::string quality = "video";    ///< sim::quality_named
+    bool landmarks = false;           ///< their places in the table
+    bool emg = false;                 ///< what electrodes would record, in the table
+    int threads = 2;                  ///< 1, or more to simulate beside drawing; same frames
 };
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/pass_writer.h"
 #include "core/error.h"
 #include "core/existing_file.h"
 #include "core/known_names.h"
@@ -119,6 +120,12 @@ Shot plan_shot(const AnimateOptions& options) {
         if (side < 16 || side > 8192)
             throw Error("--size", "a width and a height in [16, 8192]", std::to_string(side));
     check_marks(options.marks, shot);
+    for (const std::string& pass : options.passes) {
+        index_of_name("--passes", pass, pass_names());
+        if (pass == "flow" && options.still_s)
+            throw Error("--passes", "passes of one frame with --still",
+                        "\"flow\", to the next one");
+    }
     shot.video = video_options(options, shot);
     if (!options.still_s) {
         media::check_target(options.out, shot.video);

@@ -163,6 +163,13 @@ void add_render(CLI::App& app) {
         ->capture_default_str();
     add_coding(*command, options);
     add_marks(*command, options.marks);
+    command
+        ->add_option("--passes", options.passes,
+                     "Ground truth of every frame into the folder OUT.passes: segmentation, depth, "
+                     "normals, flow (pixels to the next frame, from the mesh itself), masks (face "
+                     "oval, eyes, mouth); several with commas. PNG and OpenEXR, results.json names "
+                     "the parts")
+        ->delimiter(',');
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"
