@@ -210,33 +210,46 @@ std::vector<float> SurfacePasses::normals(const SeenSurface& seen) const {
     return out;
 }
 
+Vec3 SurfacePasses::in_picture(const Vec3& world) const {
+    const Eigen::Vector4d clip = clip_from_world_ * world.homogeneous();
+    return {(clip.x() / clip.w() * 0.5 + 0.5) * width_, (0.5 - clip.y() / clip.w() * 0.5) * height_,
+            clip.z() / clip.w()};
+}
+
+bool SurfacePasses::is_seen(const SeenSurface& seen, const Vec3& place, double above_m) const {
+    if (!(place.x() >= 0 && place.y() >= 0 && place.x() < width_ && place.y() < height_))
+        return false;
+    const std::size_t pixel =
+        static_cast<std::size_t>(place.y()) * static_cast<std::size_t>(width_) +
+        static_cast<std::size_t>(place.x());
+    // Lengths along the axis in depth of clip space: z / w changes by (z_row - z w_row) / w
+    const double z = place.z(), z_slope = clip_from_world_.row(2).head<3>().norm(),
+                 w_slope = clip_from_world_.row(3).head<3>().norm();
+    double w = 1;
+    if (w_slope > 0) {
+        // z = (A d + B) / d for the distance d along the axis, of which A is the limit far away
+        const Eigen::RowVector4d zr = clip_from_world_.row(2), wr = clip_from_world_.row(3);
+        const double slope = zr.head<3>().dot(wr.head<3>()) / (w_slope * w_slope);
+        w = (zr[3] - slope * wr[3]) / (z - slope);
+    }
+    const double closer = above_m * std::abs(z_slope - z * w_slope) / std::abs(w);
+    return seen.nearness[pixel] > z - closer;
+}
+
 std::vector<float> SurfacePasses::flow(const SeenSurface& from, const SeenSurface& to) const {
     std::vector<float> out(3 * from.triangle.size(), 0);
-    const double depth_slope = clip_from_world_.row(2).head<3>().norm();
-    const double perspective = clip_from_world_.row(3).head<3>().norm();
     for (std::size_t i = 0; i < from.triangle.size(); ++i) {
         float* flow = out.data() + 3 * i;
         if (from.triangle[i] < 0) {
             flow[2] = to.triangle[i] < 0 ? 1 : 0;
             continue;
         }
-        const Eigen::Vector4d clip = clip_from_world_ * at(from, i, to.positions).homogeneous();
-        const double x = (clip.x() / clip.w() * 0.5 + 0.5) * width_,
-                     y = (0.5 - clip.y() / clip.w() * 0.5) * height_;
-        const auto column = static_cast<int>(i % static_cast<std::size_t>(width_)),
-                   row = static_cast<int>(i / static_cast<std::size_t>(width_));
-        flow[0] = static_cast<float>(x - (column + 0.5));
-        flow[1] = static_cast<float>(y - (row + 0.5));
-        const int there_x = static_cast<int>(std::floor(x)),
-                  there_y = static_cast<int>(std::floor(y));
-        if (there_x < 0 || there_y < 0 || there_x >= width_ || there_y >= height_) continue;
-        // A millimetre along the axis in depth of clip space: d(z / w)
-        const double z = clip.z() / clip.w();
-        const double closer = kSamePlace_m * std::abs(depth_slope - z * perspective) / clip.w();
-        const std::size_t there =
-            static_cast<std::size_t>(there_y) * static_cast<std::size_t>(width_) +
-            static_cast<std::size_t>(there_x);
-        flow[2] = to.nearness[there] > z - closer ? 1 : 0;
+        const Vec3 place = in_picture(at(from, i, to.positions));
+        const std::size_t row = i / static_cast<std::size_t>(width_),
+                          column = i % static_cast<std::size_t>(width_);
+        flow[0] = static_cast<float>(place.x() - (static_cast<double>(column) + 0.5));
+        flow[1] = static_cast<float>(place.y() - (static_cast<double>(row) + 0.5));
+        flow[2] = is_seen(to, place, kSamePlace_m) ? 1 : 0;
     }
     return out;
 }

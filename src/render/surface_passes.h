@@ -60,6 +60,11 @@ class SurfacePasses {
     /// where it is hidden or outside. The background stays.
     std::vector<float> flow(const SeenSurface& from, const SeenSurface& to) const;
 
+    /// Pixels to the right and down, and depth in clip space.
+    Vec3 in_picture(const Vec3& world) const;
+    /// Whether nothing is nearer than a place of in_picture() by more than so much; false outside.
+    bool is_seen(const SeenSurface& seen, const Vec3& place, double above_m) const;
+
     int width_px() const { return width_; }
     int height_px() const { return height_; }
 
