@@ -42,11 +42,14 @@ struct AnimateOptions {
     std::optional<std::int64_t>
         audio_offset;  ///< samples from the first frame to its first, of its own rate
     SyncMarks marks{};
-    std::vector<std::string> passes;  ///< pass_names(): ground truth as pictures, into OUT.passes
-    std::string quality = "video";    ///< sim::quality_named
-    bool landmarks = false;           ///< their places in the table
-    bool emg = false;                 ///< what electrodes would record, in the table
-    int threads = 2;                  ///< 1, or more to simulate beside drawing; same frames
+    std::vector<std::string> passes;    ///< pass_names(): ground truth as pictures, into OUT.passes
+    std::optional<double> turntable_s;  ///< the face of this time, turned once round
+    std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
+    std::vector<double> times_s;    ///< ascending: these moments instead of every frame
+    std::string quality = "video";  ///< sim::quality_named
+    bool landmarks = false;         ///< their places in the table
+    bool emg = false;               ///< what electrodes would record, in the table
+    int threads = 2;                ///< 1, or more to simulate beside drawing; same frames
 };
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for

@@ -46,6 +46,10 @@ media::VideoOptions video_options(const AnimateOptions& options, const Shot& sho
     return video;
 }
 
+std::string times_of(const Shot& shot) {
+    return "a time in [0, " + format_number(shot.script.duration_s) + "]";
+}
+
 /// A still has neither sound nor an encoder.
 void check_still(const AnimateOptions& options) {
     const media::VideoOptions& video = options.video;
@@ -119,6 +123,11 @@ Shot plan_shot(const AnimateOptions& options) {
     for (int side : {shot.view.width_px, shot.view.height_px})
         if (side < 16 || side > 8192)
             throw Error("--size", "a width and a height in [16, 8192]", std::to_string(side));
+    const bool compared = shot.view.show == render::Show::kError;
+    if (compared != options.against.has_value())
+        throw compared ? Error("--show error", "a script to compare with, by --against", "none")
+                       : Error("--against", "--show error, which compares",
+                               "--show " + options.show.value_or(asked.show));
     check_marks(options.marks, shot);
     for (const std::string& pass : options.passes) {
         index_of_name("--passes", pass, pass_names());
@@ -127,14 +136,29 @@ Shot plan_shot(const AnimateOptions& options) {
                         "\"flow\", to the next one");
     }
     shot.video = video_options(options, shot);
+    if (!options.times_s.empty()) {
+        shot.times_s = options.times_s;
+        shot.frames = static_cast<int>(options.times_s.size());
+        shot.first_s = options.times_s.front();
+        for (const double time_s : options.times_s)
+            if (!(time_s >= 0 && time_s <= shot.script.duration_s))
+                throw Error("--times", times_of(shot), format_number(time_s));
+        return shot;
+    }
+    if (options.turntable_s) {
+        if (options.still_s) throw Error("--turntable", "no --still beside it", "both");
+        if (!(*options.turntable_s >= 0 && *options.turntable_s <= shot.script.duration_s))
+            throw Error("--turntable", times_of(shot), format_number(*options.turntable_s));
+        shot.first_s = *options.turntable_s;
+        shot.still_time = true;
+    }
     if (!options.still_s) {
         media::check_target(options.out, shot.video);
         return shot;
     }
     check_still(options);
     if (!(*options.still_s >= 0 && *options.still_s <= shot.script.duration_s))
-        throw Error("--still", "a time in [0, " + format_number(shot.script.duration_s) + "]",
-                    format_number(*options.still_s));
+        throw Error("--still", times_of(shot), format_number(*options.still_s));
     if (options.out.extension() != ".png")
         throw Error(options.out.string(), "an ending of .png for a still",
                     "\"" + options.out.extension().string() + "\"");

@@ -70,7 +70,8 @@ std::vector<float> colours_of(const SkinValues& values) {
     return rgb;
 }
 
-constexpr const char* kShowNames[] = {"skin", "muscles"};  // in the order of Show
+constexpr const char* kShowNames[] = {"skin",   "muscles", "wire",
+                                      "strain", "error",   "landmarks"};  // in the order of Show
 
 }  // namespace
 

@@ -24,8 +24,13 @@ struct Background {
 enum class Show {
     kSkin,     ///< the face as one sees it
     kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
+    // The skin, and what who draws puts onto it: values of a pose, or lines and marks over the picture
+    kWire,       ///< the mesh's edges
+    kStrain,     ///< principal strain of the skin
+    kError,      ///< distance from where the skin is in another run
+    kLandmarks,  ///< their places and names
 };
-/// "skin", "muscles"
+/// "skin", "muscles", "wire", "strain", "error", "landmarks"
 const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the names for an unknown one.
 Show show_named(const std::string& name, const std::string& place);

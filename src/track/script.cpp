@@ -28,7 +28,8 @@ ScriptView read_view(const JsonCursor& json) {
     if (const auto v = json.find("camera"))
         view.camera = v->one_of(
             {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"});
-    if (const auto v = json.find("show")) view.show = v->one_of({"skin", "muscles"});
+    if (const auto v = json.find("show"))
+        view.show = v->one_of({"skin", "muscles", "wire", "strain", "landmarks"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);

@@ -144,10 +144,16 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
-    command->add_option("--show", options.show,
-                        "Another sight of the face: skin, or muscles, which are coloured by their "
-                        "activation under translucent skin");
+    command->add_option(
+        "--show", options.show,
+        "Another sight of the face: skin; muscles, coloured by their activation under "
+        "translucent skin; wire, the edges of the mesh; strain of the skin, -0.4 to "
+        "0.4; error, the distance from another script's face, 0 to 5 mm; landmarks");
+    command->add_option("--against", options.against, "With --show error: the other script");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
+    command->add_option(
+        "--turntable", options.turntable_s,
+        "The face of this time, in seconds, turned once round while the video lasts");
     command
         ->add_option("--quality", options.quality,
                      "How carefully to simulate: preview, video or fine")
