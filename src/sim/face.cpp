@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/known_names.h"
 #include "muscle/activation.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
@@ -65,7 +66,10 @@ Quality quality_named(const std::string& name) {
                 .least_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
                 .longest_piece_s = kStep_s / 2};
-    throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
+    throw Error(
+        "--quality",
+        "\"preview\", \"video\" or \"fine\"" + did_you_mean(name, {"preview", "video", "fine"}),
+        "\"" + name + "\"");
 }
 
 struct Face::Impl {

@@ -104,8 +104,8 @@ class MuscleSolids {
 
     /// What binds the tissue to the muscles where these are in x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
     struct Spring {
-        int nodes[4];
-        double weights[4];
+        int nodes[4] = {};
+        double weights[4] = {};
         int count;
         Vec3 target;
         double stiffness_n_per_m;
