@@ -1,4 +1,4 @@
-// From a script to a video: the function to read first.
+// From a script to a video: plans it, hands it to film() and keeps what comes out.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Simulates, draws and measures; the pictures are handed on.
+// From a script to pictures: the function to read first.
 #include "app/film.h"
 
 #include <algorithm>

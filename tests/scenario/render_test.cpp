@@ -186,9 +186,11 @@ TEST(Render, FrameRatesShareTheirCommonTimes) {
     ASSERT_EQ(finest.rows.size(), 15u);
     ASSERT_EQ(between.rows.size(), 12u);
     for (std::size_t row = 0; row < between.rows.size(); row += 4)  // 4 / 48 s = 5 / 60 s
-        for (std::size_t column = 1; column < finest.names.size(); ++column)
+        for (std::size_t column = 1; column < finest.names.size(); ++column) {
+            if (finest.names[column] == "motion_energy") continue;  // since the frame before
             EXPECT_EQ(between.rows[row][column], finest.rows[5 * row / 4][column])
                 << finest.names[column] << " in row " << row;
+        }
 }
 
 TEST(Render, AStillIsTheFrameOfItsTime) {
@@ -226,8 +228,10 @@ TEST(Render, ShowsTheMusclesWhenTheScriptOrTheCommandAsks) {
 
     const Outcome refused = run("render '" + script.string() + "' --show bones -o x.mp4", kRoot);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_EQ(refused.errors,
-              "risorius: --show: expected one of \"skin\", \"muscles\", found \"bones\"\n");
+    EXPECT_EQ(
+        refused.errors,
+        "risorius: --show: expected one of \"skin\", \"muscles\", \"wire\", \"strain\", \"error\", "
+        "\"landmarks\", found \"bones\"\n");
 }
 
 TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
