@@ -136,6 +136,8 @@ Shot plan_shot(const AnimateOptions& options) {
                         "\"flow\", to the next one");
     }
     shot.video = video_options(options, shot);
+    // Scales, lines and marks are drawn in 8 bits
+    shot.view.deep = shot.video.bits == 16 && shot.view.show == render::Show::kSkin;
     if (!options.times_s.empty()) {
         shot.times_s = options.times_s;
         shot.frames = static_cast<int>(options.times_s.size());

@@ -136,6 +136,7 @@ struct OffscreenView::Impl {
         glGenBuffers(1, &frame_buffer);
         glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
         glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+        if (options.deep) picture.keep_deep(options.background);
         if (const GLenum error = glGetError(); error != GL_NO_ERROR)
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }

@@ -41,6 +41,7 @@ struct ViewOptions {
     std::string camera =
         "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
     Show show = Show::kSkin;
+    bool deep = false;  ///< pictures with 16 bits besides, without the scale of values
     Background background{};
     int supersampling =
         2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square

@@ -110,6 +110,27 @@ TEST(SurfacePasses, FlowTellsWhatBecomesHidden) {
     EXPECT_EQ(passes.parts(after)[pixel_at(60, 40)], static_cast<std::uint16_t>(Part::kTongue));
 }
 
+TEST(DeepPicture, IsThePictureWithMoreBits) {
+    const Scene scene = RoundHead().scene;
+    for (const bool transparent : {false, true}) {
+        ViewOptions options;
+        options.width_px = options.height_px = 64;
+        options.background.transparent = transparent;
+        options.deep = true;
+        OffscreenView view(scene, options);
+        Pose pose;
+        pose.positions = scene.rest;
+        const Image image = view.draw(pose);
+        ASSERT_EQ(image.deep.size(), image.rgba.size());
+        int between = 0;
+        for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+            EXPECT_NEAR(image.deep[i] / 257.0, image.rgba[i], 1.0);
+            between += image.deep[i] % 257 != 0;
+        }
+        EXPECT_GT(between, 2000) << "values that 8 bits do not have";
+    }
+}
+
 TEST(SurfacePasses, CoverWhatThePictureShows) {
     const Scene scene = RoundHead().scene;
     ViewOptions options;

@@ -72,6 +72,9 @@ void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, Image& im
     glReadPixels(0, 0, tile.width * supersampling_, tile.height * supersampling_, GL_RGBA,
                  GL_UNSIGNED_BYTE, samples_.data());
     resolve(samples_, supersampling_, tile, image);
+    if (!deep_) return;
+    if (image.deep.empty()) image.deep.resize(image.rgba.size());
+    deep_->resolve(samples_, supersampling_, tile, image);
 }
 
 }  // namespace risorius::render

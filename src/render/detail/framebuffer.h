@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/image.h"
+#include "render/detail/deep_resolve.h"
 #include "render/detail/gl_context.h"
 #include "render/detail/resolve.h"
 
@@ -37,6 +39,9 @@ class TiledPicture {
   public:
     TiledPicture(int width_px, int height_px, int supersampling);
 
+    /// From now on pictures get 16 bits besides, over this background.
+    void keep_deep(const Background& background) { deep_.emplace(background); }
+
     std::vector<Tile> tiles() const;
     int tile_width_samples() const { return tile_width_ * supersampling_; }
     int tile_height_samples() const { return tile_height_ * supersampling_; }
@@ -50,6 +55,7 @@ class TiledPicture {
   private:
     int width_, height_, supersampling_, tile_width_, tile_height_;
     std::vector<std::uint8_t> samples_;
+    std::optional<DeepResolve> deep_;
 };
 
 }  // namespace risorius::render
