@@ -133,7 +133,10 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
-    LipDrive& lip_drive() { return *lip_drive_; }
+    void scale_lips(const rig::LipsDescription& lips) {
+        lip_drive_->scale(lips);
+        mouth_.reset();
+    }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
