@@ -50,6 +50,8 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
     visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
     visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
+    visit("crease_shear_ratio", tissue.crease_shear_ratio, Range{1e-4, 100});
+    visit("malar_shear_ratio", tissue.malar_shear_ratio, Range{1e-4, 100});
     visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }

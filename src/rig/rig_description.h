@@ -69,6 +69,8 @@ struct TissueDescription {
     double lip_shear_ratio =
         0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 3.8;
+    double crease_shear_ratio = 0.1;  ///< superficial tissue and skin beside the nasolabial fold
+    double malar_shear_ratio = 3;     ///< fat pad of the cheekbone, and the skin over it
     double fibre_passive_strain =
         1.5;                   ///< strain at which a relaxed fibre pulls with its isometric force
     double force_scale = 1.5;  ///< on every muscle, on top of its strength
