@@ -7,6 +7,7 @@
 
 #include "app/fit_landmarks.h"
 #include "app/fit_page.h"
+#include "app/fit_strengths.h"
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/piece_guess.h"
@@ -175,8 +176,23 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
 
     // Make every muscle as strong as it has to be on this head
     if (options.calibrate) {
-        report.strengths = calibrate_strength(face, rig, watch);
-        for (const MuscleStrength& found : report.strengths) {
+        const auto stages = [&](double begin, double end) {
+            Watch part = watch;
+            part.progress = [&watch, begin, end](double done, const std::string& what) {
+                watch.tell(begin + (end - begin) * done, what);
+            };
+            return part;
+        };
+        const Watch alone = stages(0, 0.4), together = stages(0.4, 1);
+        report.strengths = calibrate_strength(face, rig, alone);
+        const StrengthFit fit =
+            fit_strengths(face, rig, read_landmark_ways(standard / "landmark_ways.json"), {},
+                          options.out.string(), together);
+        report.difference_before = fit.difference_before;
+        report.difference = fit.difference;
+        rig.lips = fit.lips;
+        for (MuscleStrength& found : report.strengths) {
+            found.strength *= fit.factor.at(found.muscle);
             const double strength = std::round(1e4 * found.strength) / 1e4;
             for (rig::SolidMuscle& solid : rig.solids)
                 if (solid.muscle == found.muscle) solid.strength = strength;
@@ -254,6 +270,7 @@ Json FitReport::json() const {
     json["lips_cut"] = lips_cut;
     json["eyes"] = eyes;
     json["teeth"] = teeth;
+    json["expressions"] = {{"difference_before", difference_before}, {"difference", difference}};
     json["strengths"] = Json::array();
     for (const MuscleStrength& m : strengths)
         json["strengths"].push_back({{"muscle", m.muscle},

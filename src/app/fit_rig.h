@@ -44,6 +44,8 @@ struct FitReport {
     BoneFigures bone;
     bool eyes = false, teeth = false, lips_cut = false;
     std::vector<MuscleStrength> strengths;
+    /// Of the standard expressions from those of the standard head, before and after the muscles were scaled together: fit_strengths.h
+    double difference_before = 0, difference = 0;
     std::vector<std::string> notes;
 
     Json json() const;

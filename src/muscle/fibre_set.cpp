@@ -104,6 +104,20 @@ void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     });
 }
 
+void FibreSet::go_on(const FibreSet& whole, std::span<const int> fibres,
+                     std::span<const int> points) {
+    assert(fibres.size() == fibres_.size() && points.size() == points_.size());
+    step_s_ = whole.step_s_;
+    in_step_.resize(points_.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const auto from = static_cast<std::size_t>(points[p]);
+        if (step_s_ > 0) in_step_[p] = whole.in_step_[from];
+        body_position_.row(static_cast<Eigen::Index>(p)) = whole.body_position_.row(points[p]);
+    }
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+        fibres_[f].f0_n = whole.fibres_[static_cast<std::size_t>(fibres[f])].f0_n;
+}
+
 inline FibreSet::Pull FibreSet::at_rest(const Fibre& fibre, double a, int segment, double l) const {
     const double l0 = optimal_length_m_[static_cast<std::size_t>(segment)];
     const LengthCurves::Value passive = curves_.passive(l / l0);

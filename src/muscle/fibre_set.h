@@ -65,6 +65,8 @@ class FibreSet {
     /// length at `expected`, the likely end of the step.
     void begin_step(const Points& x, const Points& expected, double h);
     void begin_step(const Points& x, double h) { begin_step(x, x, h); }
+    /// The same step as that of `whole`, which this set is a part of: its fibres and points by their numbers there.
+    void go_on(const FibreSet& whole, std::span<const int> fibres, std::span<const int> points);
     /// From here on E is that at rest.
     void end_step() { step_s_ = 0; }
 

@@ -63,6 +63,14 @@ void visit_fields(SkinDescription& skin, Visit visit) {
     visit("wrinkles", skin.wrinkles, Range{0, 10});
 }
 template <typename Visit>
+void visit_fields(LipsDescription& lips, Visit visit) {
+    for (const auto& [key, ratio] : {std::pair{"upper_turn", &lips.upper_turn},
+                                     {"lower_turn", &lips.lower_turn},
+                                     {"upper_push", &lips.upper_push},
+                                     {"lower_push", &lips.lower_push}})
+        visit(key, *ratio, Range{0.05, 4});
+}
+template <typename Visit>
 void visit_fields(LookDescription& look, Visit visit) {
     visit("skin_tone", look.skin_tone);
     visit("lip_tone", look.lip_tone);
@@ -205,7 +213,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
-                        "strength", "solids", "jaw", "eyes", "activation"});
+                        "strength", "solids", "lips", "jaw", "eyes", "activation"});
     rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
@@ -240,6 +248,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
         if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
     }
 
+    read_fields(anatomy, "lips", rig.lips);
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
     read_fields(anatomy, "activation", rig.activation);
@@ -291,6 +300,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
     anatomy["strength"] = strength;
     if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids);
+    anatomy["lips"] = fields_of(rig.lips);
     anatomy["jaw"] = fields_of(rig.jaw);
     anatomy["eyes"] = fields_of(rig.eyes);
     if (rig.activation.law != ActivationDescription().law)

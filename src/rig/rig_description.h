@@ -83,6 +83,11 @@ struct SkinDescription {
     double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
 };
 
+/// How far orbicularis oris turns and pushes the lips of this head, of the way of the standard head. [0.05, 4]
+struct LipsDescription {
+    double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1;
+};
+
 /// Appearance generated for heads without textures; colours sRGB 0..1.
 struct LookDescription {
     Vec3 skin_tone{0.80, 0.60, 0.50};
@@ -103,6 +108,7 @@ struct RigDescription {
     Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
     std::vector<SolidMuscle> solids;  ///< muscles that are not bundles of fibres
+    LipsDescription lips;
     JawDescription jaw;
     EyesDescription eyes;
     ActivationDescription activation;

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/known_names.h"
 #include "muscle/activation.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
@@ -51,10 +52,24 @@ double exact_step(double t_s, double step_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
-    if (name == "preview") return {"preview", 800, 10, 10, 0.0};
-    if (name == "video") return {"video", 800, 80, 4, 0.0025e-3, kStep_s, kStep_s / 2};
-    if (name == "fine") return {"fine", 1700, 120, 4, 0.0025e-3, kStep_s, kStep_s / 2};
-    throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
+    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_iterations = 8};
+    if (name == "video")
+        return {.name = "video",
+                .iterations = 80,
+                .least_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .longest_piece_s = kStep_s / 2};
+    if (name == "fine")
+        return {.name = "fine",
+                .shell_vertices = 1700,
+                .iterations = 120,
+                .least_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .longest_piece_s = kStep_s / 2};
+    throw Error(
+        "--quality",
+        "\"preview\", \"video\" or \"fine\"" + did_you_mean(name, {"preview", "video", "fine"}),
+        "\"" + name + "\"");
 }
 
 struct Face::Impl {
@@ -118,6 +133,7 @@ struct Face::Impl {
           channels(rig.channels()) {
         tissue.prepare(motion.effective_step_s());
         tissue.step_in(quality.precision);
+        tissue.refine_mouth(quality.mouth_iterations);
         binding.emplace(head, jaw, shell);
         follow.emplace(head, rig, lids, *binding);
         skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
@@ -626,6 +642,11 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
                 impl_->tissue.fibres().set_f0(static_cast<int>(f),
                                               factor * impl_->tissue.fibres().fibres()[f].f0_n);
     }
+}
+
+void Face::scale_lips(const rig::LipsDescription& lips) {
+    impl_->statics->moved();
+    impl_->tissue.scale_lips(lips);
 }
 
 std::vector<SolidFigures> Face::solid_figures() const {

@@ -17,6 +17,8 @@ constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 // one direction only: half of it in steps of motion leaves twice the error in the same iterations, a thirtieth overshoots.
 constexpr double kContactShare = 0.1, kSettlingContactShare = 0.5;
 
+constexpr double kMouth_mm = 20;  // around the line between the lips, of the average adult
+
 }  // namespace
 
 FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
@@ -46,10 +48,9 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_tissue();
     build_skin();
     build_tethers();
-    muscle::HillShape hill;
-    hill.passive_strain = rig_.tissue.fibre_passive_strain;
+    hill_.passive_strain = rig_.tissue.fibre_passive_strain;
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
-    fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill);
+    fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
     lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
     find_cheeks(jaw);
     mass_.resize(rest_.rows());
@@ -100,21 +101,22 @@ void FaceTissue::build_tissue() {
 }
 
 void FaceTissue::build_skin() {
-    Triangles sheet = shell_.triangles;
-    Eigen::VectorXd membrane(sheet.rows()), bending(sheet.rows());
-    for (long f = 0; f < sheet.rows(); ++f) {
+    sheet_ = shell_.triangles;
+    membrane_.resize(sheet_.rows());
+    bending_.resize(sheet_.rows());
+    for (long f = 0; f < sheet_.rows(); ++f) {
         Vec3 centre = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
             centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
-            sheet(f, k) = node_of(shell_.triangles(f, k), kSkin);
+            sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
         }
         const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_share(centre)) *
                              std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre)) *
                              cheek_ratio(centre);
-        membrane[f] = ratio * rig_.skin.membrane_n_per_m;
-        bending[f] = ratio * rig_.skin.bending_n_m;
+        membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
+        bending_[f] = ratio * rig_.skin.bending_n_m;
     }
-    skin_.emplace(sheet, mesh_.nodes, membrane, bending);
+    skin_.emplace(sheet_, mesh_.nodes, membrane_, bending_);
 }
 
 void FaceTissue::build_tethers() {
@@ -285,7 +287,36 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     solids_->begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
-    return end_step(newton_.minimise(energy, solve, x, options, likely), x);
+    const solve::StepReport report = newton_.minimise(energy, solve, x, options, likely);
+    refine(h, start, aim, activation, options, x);
+    return end_step(report, x);
+}
+
+TissuePart FaceTissue::make_mouth(double h) const {
+    std::vector<char> moves(static_cast<std::size_t>(nodes()), 0);
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
+        const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
+        if (shell_.fixed[v] || distance_to_polyline(p, lips_) > head_.mm(kMouth_mm)) continue;
+        for (Layer layer : {kDeep, kMiddle, kSkin})
+            moves[static_cast<std::size_t>(node_of(static_cast<int>(v), layer))] = 1;
+    }
+    std::vector<std::pair<int, double>> touching;
+    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
+        touching.push_back({search_.nodes()[i], kContactShare * search_.node_stiffness()[i]});
+    return TissuePart({mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_,
+                       *solids_, *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s},
+                      moves, h, touching);
+}
+
+void FaceTissue::refine(double h, const Points& start, const Points& aim,
+                        const Eigen::VectorXd& activation, const solve::QuasiNewtonOptions& options,
+                        Points& x) {
+    if (mouth_iterations_ == 0 || h >= kSettling_s) return;
+    if (!mouth_ || mouth_->step_s() != h) mouth_.emplace(make_mouth(h));
+    solve::QuasiNewtonOptions own = options;
+    own.iterations = mouth_iterations_;
+    own.least_iterations = 0;
+    mouth_->advance({h, start, aim, activation, precision_}, own, x);
 }
 
 void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {

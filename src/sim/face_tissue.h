@@ -27,6 +27,7 @@
 #include "sim/muscle_solids.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
+#include "sim/tissue_part.h"
 #include "sim/wrench.h"
 #include "solve/laplacian.h"
 #include "solve/quasi_newton.h"
@@ -87,6 +88,9 @@ class FaceTissue {
     /// What steps of motion are worked out in; equilibria are in double.
     void step_in(solve::Precision precision) { precision_ = precision; }
 
+    /// After the iterations of a step of motion so many more for the mouth alone, whose soft lips are the last to converge.
+    void refine_mouth(int iterations) { mouth_iterations_ = iterations; }
+
     void prescribe(const Prescribed& prescribed);
 
     /// Moves nodes with their bone, as far as they follow the mandible.
@@ -130,6 +134,10 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
+    void scale_lips(const rig::LipsDescription& lips) {
+        lip_drive_->scale(lips);
+        mouth_.reset();
+    }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
@@ -170,6 +178,10 @@ class FaceTissue {
                        const Eigen::VectorXd& activation, const Points& at, Points& gradient);
     void note_contacts();
     void put_depths(const Points& x, StepFigures& figures) const;
+    /// Of a step of motion, after its iterations.
+    void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
+                const solve::QuasiNewtonOptions& options, Points& x);
+    TissuePart make_mouth(double h) const;
     StepFigures end_step(const solve::StepReport& report, const Points& x);
     /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
     void move_mandible(const Rigid& moved);
@@ -192,8 +204,11 @@ class FaceTissue {
     Points rest_;
     std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
+    Triangles sheet_;                     // of skin nodes
+    Eigen::VectorXd membrane_, bending_;  // of its triangles
     std::optional<tissue::SkinSheet> skin_;
     std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    muscle::HillShape hill_;
     MusclePlacement muscles_;
     bool solids_relaxed_ = false;  // riding is measured on what gives way at once
     std::optional<muscle::FibreSet> fibres_;
@@ -212,6 +227,8 @@ class FaceTissue {
     solve::Precision precision_ = solve::Precision::kDouble;  // of steps of motion
     std::vector<Metric> metrics_;                             // one per step length used
     solve::QuasiNewton newton_;
+    int mouth_iterations_ = 0;
+    std::optional<TissuePart> mouth_;  // of the step length used last
     Points carried_, carried_gradient_;
 };
 

@@ -176,6 +176,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     move_mandible(to);
     x = unknowns.topRows(rows);
     carry_with_bone(x, from, to);
+    refine(h, start, aim, activation, options, x);
     return end_step(report, x);
 }
 

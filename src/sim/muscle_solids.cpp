@@ -432,6 +432,25 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
     return energy;
 }
 
+void MuscleSolids::add_springs(const Points& x, std::vector<Spring>& springs) const {
+    for (const Binding& binding : bindings_) {
+        Spring spring{.count = binding.tissue_count,
+                      .target = binding.apart_at_rest,
+                      .stiffness_n_per_m = binding.stiffness_n_per_m};
+        std::copy_n(binding.tissue, 4, spring.nodes);
+        std::copy_n(binding.tissue_weight, 4, spring.weights);
+        for (int k = 0; k < binding.solid_count; ++k) {
+            const int node = binding.solid[k];
+            spring.target +=
+                binding.solid_weight[k] * (placement_.nodes[static_cast<std::size_t>(node)].on_bone
+                                               ? bone_.row(node)
+                                               : x.row(first_ + node))
+                                              .transpose();
+        }
+        springs.push_back(spring);
+    }
+}
+
 void MuscleSolids::add_metric(solve::MetricBuilder& builder) const {
     // Tissue that let go of the bone is held by a muscle that is itself held; a muscle within the tissue is no stiffer than
     // it, and counting it costs iterations.

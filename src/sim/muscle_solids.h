@@ -102,6 +102,16 @@ class MuscleSolids {
     void add_surfaces(MuscleSurfaces& surfaces);
     void place_surfaces(const Points& x, Points& vertices) const;
 
+    /// What binds the tissue to the muscles where these are in x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
+    struct Spring {
+        int nodes[4] = {};
+        double weights[4] = {};
+        int count;
+        Vec3 target;
+        double stiffness_n_per_m;
+    };
+    void add_springs(const Points& x, std::vector<Spring>& springs) const;
+
   private:
     struct Part {
         SolidPart place;

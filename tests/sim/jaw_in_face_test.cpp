@@ -101,7 +101,8 @@ TEST(JawInFace, ChannelsAskMusclesForAboutWhatTheyAskBonesFor) {
 
 TEST(JawInFace, FewIterationsFindWhatManyFind) {
     // In the middle of a fast opening, at 0.5 m/s
-    Face careful = adult_face({"careful", 800, 200, 6, 1e-7});
+    Face careful = adult_face(
+        {.name = "careful", .iterations = 200, .least_iterations = 6, .tolerance_rms_m = 1e-7});
     careful.drive_jaw_by(track::JawDrive::kMuscles);
     track::Drive drive = openers();
     drive.excitation *= 0.3;

@@ -105,5 +105,30 @@ TEST(SecondDerivatives, OfTethersAndContactsAreTheSlopeOfTheirForces) {
         1e-9);
 }
 
+TEST(SecondDerivatives, OfContactsThatHardenAreTheSlopeOfTheirForces) {
+    const Points x = shaken(kSmall.rest, 1e-3, 24);
+    constexpr double kDepth_m = 2e-4, kHardens_m = 5e-5;
+    Contacts::Contact touching{.node = 0,
+                               .others = {3, 4, 5, 0},
+                               .weights = {0.5, 0.3, 0.2, 0},
+                               .count = 3,
+                               .normal = Vec3(1, 2, -1).normalized(),
+                               .stiffness_n_per_m = 40};
+    touching.point = touching.normal * (Contacts::gap(touching, x) + kDepth_m);
+    Contacts::Contact apart = touching;
+    apart.node = 1;
+    apart.point = apart.normal * -1.0;
+    Contacts contacts;
+    contacts.set_firm({touching, apart}, kHardens_m);
+    const Eigen::MatrixXd pushed = dense_second(
+        x.rows(), [&](solve::HessianBuilder& builder) { contacts.add_hessian(x, builder); });
+    expect_slope_of_gradient(
+        pushed, x, [&](const Points& y, Points& g) { return contacts.add_energy(y, g); }, kStep_m,
+        kTolerance);
+    // E = kc/(3 h) d^3: 2 kc d / h along the normal of the node that touches, nothing at the one that does not
+    EXPECT_NEAR(pushed.topLeftCorner(3, 3).trace(), 2 * 40 * kDepth_m / kHardens_m, 1e-6);
+    EXPECT_EQ(pushed.block(3, 3, 3, 3).norm(), 0);
+}
+
 }  // namespace
 }  // namespace risorius::tissue

@@ -64,6 +64,12 @@ void print(const app::FitReport& report) {
         std::printf("  %-40s %8.2f %8.2f %8.2f%s%s\n", m.muscle.c_str(), m.strength, m.stretch,
                     m.target_stretch, m.at_limit ? "  at the limit" : "",
                     m.converged ? "" : "  did not come to rest");
+    if (!report.strengths.empty())
+        std::printf(
+            "\n  expressions differ by %.2f from those of the standard head (%.2f before all "
+            "muscles "
+            "were scaled together)\n",
+            report.difference, report.difference_before);
     for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
 }
 

@@ -50,6 +50,78 @@ void run(RenderArguments& arguments) {
                 record.timing.encode_s);
 }
 
+void add_coding(CLI::App& command, app::AnimateOptions& options) {
+    constexpr const char* kCoding = "How the video is coded";
+    media::VideoOptions& video = options.video;
+    command
+        .add_option("--crf", video.crf,
+                    "Quality, less is better: H.264 0 to 51, 18 when not given; VP9 0 to 63, 24")
+        ->type_name("INT")
+        ->group(kCoding);
+    command
+        .add_option("--preset", video.preset,
+                    "Of H.264, ultrafast to placebo, medium when not given: slower is smaller")
+        ->group(kCoding);
+    command
+        .add_option(
+            "--pixels", video.pixels,
+            "yuv420p, which every player knows, or yuv444p, which keeps colour at full size")
+        ->group(kCoding);
+    command
+        .add_option(
+            "--keyframe-interval", video.keyframe_interval,
+            "Frames from one key frame to the next, a quarter of a second when not given; 1: "
+            "every frame stands alone")
+        ->type_name("INT")
+        ->group(kCoding);
+    command
+        .add_flag("--lossless", video.lossless,
+                  "Every pixel as it was drawn: H.264 or VP9 in RGB, or PNG in a transparent .mov")
+        ->group(kCoding);
+    command.add_option("--bits", video.bits, "Of PNG frames, 8 or 16 per channel")
+        ->type_name("INT")
+        ->group(kCoding);
+    command
+        .add_option(
+            "--audio", options.audio,
+            "A recording, WAV or FLAC: PCM in .mkv and .mov, AAC in .mp4, Opus in .webm. It is "
+            "cut, or filled up with silence, to the length of the video")
+        ->group(kCoding);
+    command
+        .add_option("--audio-offset", options.audio_offset,
+                    "Samples of the recording from the first frame to its first sample; below 0 it "
+                    "has begun before")
+        ->type_name("INT")
+        ->group(kCoding);
+}
+
+void add_marks(CLI::App& command, app::SyncMarks& marks) {
+    constexpr const char* kMarks = "Marks for machines that watch the screen";
+    command
+        .add_option("--photodiode", marks.photodiode,
+                    "A square in a corner, black or white: upper_left, upper_right, lower_left or "
+                    "lower_right")
+        ->group(kMarks);
+    command
+        .add_option(
+            "--photodiode-shows", marks.photodiode_shows,
+            "When it is white: frames, in every other one, or events, in the frame with which "
+            "an expression or blink begins")
+        ->capture_default_str()
+        ->group(kMarks);
+    command.add_option("--photodiode-size", marks.photodiode_px, "Side of the square, pixels")
+        ->capture_default_str()
+        ->group(kMarks);
+    command
+        .add_option("--frame-counter", marks.frame_counter,
+                    "The frame's number in a corner, as 24 black and white cells: white, black, 20 "
+                    "bits, a cell that makes the white bits even, white")
+        ->group(kMarks);
+    command.add_option("--frame-counter-size", marks.frame_counter_px, "Side of a cell, pixels")
+        ->capture_default_str()
+        ->group(kMarks);
+}
+
 }  // namespace
 
 void add_render(CLI::App& app) {
@@ -59,11 +131,12 @@ void add_render(CLI::App& app) {
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command->add_option("SCRIPT", options.script, "The script")->required();
     command
-        ->add_option("-o,--out", options.out,
-                     "What to write: .mp4, .mkv (lossless), a folder of PNG frames when it ends in "
-                     "/, or .png with "
-                     "--still. Beside it come OUT.json, how it was made, and OUT.frames.tsv, a row "
-                     "per frame")
+        ->add_option(
+            "-o,--out", options.out,
+            "What to write: .mp4 or .mov (H.264), .mkv (lossless), .webm (VP9), a folder of "
+            "PNG frames when it ends in /, or .png with --still. Beside it come OUT.json, how it "
+            "was made, and OUT.frames.tsv, a row "
+            "per frame")
         ->required();
     command->add_option("--rig", options.rig, "Another rig than the script's");
     command->add_option("--size", arguments->size, "Another size of the picture, as 1024x1024");
@@ -71,10 +144,16 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
-    command->add_option("--show", options.show,
-                        "Another sight of the face: skin, or muscles, which are coloured by their "
-                        "activation under translucent skin");
+    command->add_option(
+        "--show", options.show,
+        "Another sight of the face: skin; muscles, coloured by their activation under "
+        "translucent skin; wire, the edges of the mesh; strain of the skin, -0.4 to "
+        "0.4; error, the distance from another script's face, 0 to 5 mm; landmarks");
+    command->add_option("--against", options.against, "With --show error: the other script");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
+    command->add_option(
+        "--turntable", options.turntable_s,
+        "The face of this time, in seconds, turned once round while the video lasts");
     command
         ->add_option("--quality", options.quality,
                      "How carefully to simulate: preview, video or fine")
@@ -88,10 +167,23 @@ void add_render(CLI::App& app) {
             "--threads", options.threads,
             "1, or more to simulate beside drawing and to draw faster; the frames are the same")
         ->capture_default_str();
+    add_coding(*command, options);
+    add_marks(*command, options.marks);
+    command
+        ->add_option("--passes", options.passes,
+                     "Ground truth of every frame into the folder OUT.passes: segmentation, depth, "
+                     "normals, flow (pixels to the next frame, from the mesh itself), masks (face "
+                     "oval, eyes, mouth); several with commas. PNG and OpenEXR, results.json names "
+                     "the parts")
+        ->delimiter(',');
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"
-        "  risorius render samples/smile/script.json --still 1.0 --size 512x512 -o smile.png");
+        "  risorius render samples/smile/script.json --still 1.0 --size 512x512 -o smile.png\n"
+        "  risorius render mine/script.json --audio mine/voice.wav --audio-offset -480 -o "
+        "talk.mp4\n"
+        "  risorius render mine/script.json --fps 120 --lossless --photodiode lower_left "
+        "--frame-counter upper_left -o trial.mkv");
     command->callback([arguments] { run(*arguments); });
 }
 
