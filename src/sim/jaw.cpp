@@ -87,11 +87,11 @@ double Jaw::weight(const Vec3& p, double height_over_bite_m) const {
 Vec3 Jaw::floor_bulge(const Vec3& p) const {
     const double mm = 1e-3 * size_;
     const double below = border_height(p) - p.y();
-    const double aside = p.x() / (40 * mm);
-    const double share = smoothstep(0.0, 10 * mm, below) *
-                         (1.0 - smoothstep(10 * mm, 60 * mm, below)) * std::exp(-aside * aside) *
+    const double aside = p.x() / (30 * mm);
+    const double share = smoothstep(-4 * mm, 14 * mm, below) *
+                         (1.0 - smoothstep(14 * mm, 60 * mm, below)) * std::exp(-aside * aside) *
                          smoothstep(0.0, 15 * mm, p.z());
-    return 0.55 * share * Vec3(aside, -1, 0);
+    return 0.5 * share * Vec3(0.7 * aside, -1, 0);
 }
 
 namespace {
