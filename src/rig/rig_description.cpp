@@ -50,6 +50,8 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
     visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
     visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
+    visit("crease_shear_ratio", tissue.crease_shear_ratio, Range{1e-4, 100});
+    visit("malar_shear_ratio", tissue.malar_shear_ratio, Range{1e-4, 100});
     visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }
@@ -65,7 +67,8 @@ void visit_fields(LipsDescription& lips, Visit visit) {
     for (const auto& [key, ratio] : {std::pair{"upper_turn", &lips.upper_turn},
                                      {"lower_turn", &lips.lower_turn},
                                      {"upper_push", &lips.upper_push},
-                                     {"lower_push", &lips.lower_push}})
+                                     {"lower_push", &lips.lower_push},
+                                     {"puff", &lips.puff}})
         visit(key, *ratio, Range{0.05, 4});
 }
 template <typename Visit>
@@ -254,6 +257,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
     read_fields(json, "skin", rig.skin);
     read_fields(json, "look", rig.look);
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    for (track::ActionUnit& unit : rig.facs.units)
+        unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
     rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
     return rig;
 }

@@ -646,7 +646,7 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
 
 void Face::scale_lips(const rig::LipsDescription& lips) {
     impl_->statics->moved();
-    impl_->tissue.lip_drive().scale(lips);
+    impl_->tissue.scale_lips(lips);
 }
 
 std::vector<SolidFigures> Face::solid_figures() const {

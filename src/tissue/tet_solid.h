@@ -25,8 +25,8 @@ namespace risorius::tissue {
 /// One object serves one thread at a time: it keeps scratch arrays.
 class TetSolid {
   public:
-    static constexpr double kCrushed = 0.3;  ///< J_c
-    static constexpr double kHardens = 20;   ///< c
+    static constexpr double kCrushed = 0.2;  ///< J_c
+    static constexpr double kHardens = 4;    ///< c
 
     /// Moduli are one per tet. Throws std::invalid_argument when a tet has no positive volume at
     /// rest.
