@@ -1,12 +1,15 @@
 // From a script to a video: the function to read first.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/run_record.h"
 #include "app/watch.h"
+#include "media/video_writer.h"
 
 namespace risorius::app {
 
@@ -14,20 +17,39 @@ struct PictureSize {
     int width_px = 0, height_px = 0;
 };
 
+/// Patches for machines that watch the screen, by names of media::corner_names(). See media/sync_marks.h.
+struct SyncMarks {
+    std::optional<std::string> photodiode, frame_counter;
+    int photodiode_px = 64, frame_counter_px = 8;  ///< side of the square, and of a cell
+    std::string photodiode_shows =
+        "frames";  ///< "frames": white in even ones; "events": where one begins
+};
+
 /// What is not given is as the script says.
 struct AnimateOptions {
     std::filesystem::path script;
-    std::filesystem::path out;  ///< .mp4, .mkv, a folder "frames/", or .png for a still
+    std::filesystem::path
+        out;  ///< .mp4, .mov, .mkv, .webm, a folder "frames/", or .png for a still
     std::optional<std::filesystem::path> rig;
     std::optional<PictureSize> size;
     std::optional<int> fps;
     std::optional<std::string> camera;
     std::optional<std::string> show;  ///< render::show_names()
     std::optional<double> still_s;    ///< one picture, of this time, instead of a video
-    std::string quality = "video";    ///< sim::quality_named
-    bool landmarks = false;           ///< their places in the table
-    bool emg = false;                 ///< what electrodes would record, in the table
-    int threads = 2;                  ///< 1, or more to simulate beside drawing; same frames
+    media::VideoOptions
+        video{};  ///< how it is coded; size, rate, transparency and sound are set by what is shown
+    std::optional<std::filesystem::path> audio;  ///< WAV or FLAC
+    std::optional<std::int64_t>
+        audio_offset;  ///< samples from the first frame to its first, of its own rate
+    SyncMarks marks{};
+    std::vector<std::string> passes;    ///< pass_names(): ground truth as pictures, into OUT.passes
+    std::optional<double> turntable_s;  ///< the face of this time, turned once round
+    std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
+    std::vector<double> times_s;    ///< ascending: these moments instead of every frame
+    std::string quality = "video";  ///< sim::quality_named
+    bool landmarks = false;         ///< their places in the table
+    bool emg = false;               ///< what electrodes would record, in the table
+    int threads = 2;                ///< 1, or more to simulate beside drawing; same frames
 };
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for

@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
-#include "app/expression_drive.h"
-#include "app/landmark_points.h"
+#include "app/landmark_ways.h"
 #include "app/rig_files.h"
 #include "core/error.h"
 #include "sim/face.h"
@@ -14,45 +12,15 @@ namespace risorius::app {
 
 namespace {
 
-// One head and how its landmarks move, in atlas mm.
-class Mover {
-  public:
+// One head and how its landmarks move.
+struct Mover {
     Mover(const std::filesystem::path& file, const std::string& quality)
-        : files_(read_rig_files(file)),
-          face_(files_.rig, files_.mesh, sim::quality_named(quality), files_.place()),
-          points_(face_.head(), files_.rig) {
-        at_rest_.excitation = Eigen::VectorXd::Zero(files_.rig.channels().column_count());
-    }
-    std::vector<std::string> landmarks() const {
-        static const std::set<std::string> kInner{"brow", "eye", "nose", "lip"};
-        std::vector<std::string> out;
-        for (const rig::AtlasLandmark& landmark : files_.rig.atlas.landmarks)
-            if (kInner.count(landmark.region)) out.push_back(landmark.id);
-        return out;
-    }
-    Points displacements(const std::string& expression) {
-        const auto expansion = expansion_named(files_.rig, expression);
-        if (!expansion)
-            throw Error(files_.place(), "an expression of its tables", "\"" + expression + "\"");
-        const track::Drive drive = clamped_drive(*expansion, files_.rig.channels());
-        face_.start([&](double) { return at_rest_; });
-        face_.settle(drive.excitation, drive);
-        const Points vertices = face_.pose().vertices;
-        const std::vector<std::string> ids = landmarks();
-        Points out(static_cast<long>(ids.size()), 3);
-        for (std::size_t i = 0; i < ids.size(); ++i)
-            out.row(static_cast<long>(i)) =
-                (points_.at(ids[i], vertices) - points_.at(ids[i], face_.head().vertices))
-                    .transpose() *
-                (1e3 / face_.head().size);
-        return out;
-    }
-
-  private:
-    RigFiles files_;
-    sim::Face face_;
-    LandmarkPoints points_;
-    track::Drive at_rest_;
+        : files(read_rig_files(file)),
+          face(files.rig, files.mesh, sim::quality_named(quality), files.place()),
+          ways(face, files.rig, files.place()) {}
+    RigFiles files;
+    sim::Face face;
+    LandmarkWays ways;
 };
 
 }  // namespace
@@ -83,13 +51,14 @@ HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesy
                              const Watch& watch) {
     Mover own(rig, quality), other(like, quality);
     HeadComparison out{rig.generic_string(), like.generic_string(), {}};
-    const std::vector<std::string> ids = own.landmarks();
-    if (ids != other.landmarks())
+    const std::vector<std::string>& ids = own.ways.landmarks();
+    if (ids != other.ways.landmarks())
         throw Error(like.string(), "the same landmarks as " + rig.string(), "others");
     for (const std::string& name : names) {
         watch.tell(static_cast<double>(out.expressions.size()) / static_cast<double>(names.size()),
                    name);
-        const Points u = own.displacements(name), g = other.displacements(name);
+        const Points u = 1e3 * own.ways.settle(own.ways.drive(name)),
+                     g = 1e3 * other.ways.settle(other.ways.drive(name));
         HeadDifference one;
         one.expression = name;
         const double uu = u.squaredNorm(), gg = g.squaredNorm();

@@ -62,6 +62,12 @@ std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
                     part.use.value);
         return out;
     }
+    if (channels.find(unit.id)) {
+        for (const Side side : {Side::kLeft, Side::kRight})
+            if (!unit.side || *unit.side == side)
+                out.excitation[channels.column(unit.id, side)] = 1;
+        return out;
+    }
     return std::nullopt;
 }
 

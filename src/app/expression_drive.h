@@ -1,4 +1,5 @@
-// What brings about an expression that is known by name: an ARKit shape, an action unit or an expression of a rig's tables.
+// What brings about an expression that is known by name: an ARKit shape, an action unit or an expression of a rig's tables, or
+// one muscle at full excitation.
 #pragma once
 
 #include <optional>

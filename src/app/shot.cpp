@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/pass_writer.h"
 #include "core/error.h"
 #include "core/existing_file.h"
+#include "core/known_names.h"
+#include "media/sync_marks.h"
 
 namespace risorius::app {
 
@@ -20,6 +23,75 @@ std::string Shot::background_text() const {
     std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(0) & 255, byte(1) & 255, byte(2) & 255);
     return text;
 }
+
+namespace {
+
+media::VideoOptions video_options(const AnimateOptions& options, const Shot& shot) {
+    media::VideoOptions video = options.video;
+    video.width_px = shot.view.width_px;
+    video.height_px = shot.view.height_px;
+    video.fps = shot.script.fps;
+    video.alpha = shot.view.background.transparent;
+    if (options.audio_offset && !options.audio)
+        throw Error("--audio-offset", "a recording to place, by --audio", "none");
+    if (!options.audio) return video;
+    video.sound = std::make_shared<media::Sound>(media::read_recording(*options.audio));
+    video.sound_offset_samples = options.audio_offset.value_or(0);
+    const double at_s = static_cast<double>(video.sound_offset_samples) / video.sound->rate_hz;
+    const double length_s = static_cast<double>(video.sound->length()) / video.sound->rate_hz;
+    if (at_s >= shot.script.duration_s || at_s + length_s <= 0)
+        throw Error(
+            "--audio-offset", "some of the recording within the video",
+            std::to_string(video.sound_offset_samples) + " samples, " + format_number(at_s) + " s");
+    return video;
+}
+
+std::string times_of(const Shot& shot) {
+    return "a time in [0, " + format_number(shot.script.duration_s) + "]";
+}
+
+/// A still has neither sound nor an encoder.
+void check_still(const AnimateOptions& options) {
+    const media::VideoOptions& video = options.video;
+    for (const auto& [given, name] :
+         {std::pair{options.audio.has_value(), "--audio"},
+          std::pair{video.crf.has_value(), "--crf"},
+          std::pair{video.preset.has_value(), "--preset"},
+          std::pair{video.pixels.has_value(), "--pixels"},
+          std::pair{video.keyframe_interval.has_value(), "--keyframe-interval"},
+          std::pair{video.lossless, "--lossless"}})
+        if (given) throw Error(name, "a video to encode", "--still");
+}
+
+void check_marks(const SyncMarks& marks, const Shot& shot) {
+    const int smaller = std::min(shot.view.width_px, shot.view.height_px);
+    if (marks.photodiode) {
+        media::corner_named(*marks.photodiode, "--photodiode");
+        index_of_name("--photodiode-shows", marks.photodiode_shows, {"frames", "events"});
+        if (marks.photodiode_px < 2 || marks.photodiode_px > smaller / 2)
+            throw Error("--photodiode-size",
+                        "pixels in [2, " + std::to_string(smaller / 2) +
+                            "], half the smaller side of the picture",
+                        std::to_string(marks.photodiode_px));
+    }
+    if (!marks.frame_counter) return;
+    media::corner_named(*marks.frame_counter, "--frame-counter");
+    const int largest = shot.view.width_px / media::kCounterCells;
+    if (marks.frame_counter_px < 2 || marks.frame_counter_px > largest)
+        throw Error("--frame-counter-size",
+                    "pixels in [2, " + std::to_string(largest) + "], " +
+                        std::to_string(media::kCounterCells) + " cells side by side",
+                    std::to_string(marks.frame_counter_px));
+    const auto is_upper = [](const std::string& corner) { return corner.starts_with("upper"); };
+    if (marks.photodiode && (marks.photodiode == marks.frame_counter ||
+                             (is_upper(*marks.photodiode) == is_upper(*marks.frame_counter) &&
+                              media::kCounterCells * marks.frame_counter_px + marks.photodiode_px >
+                                  shot.view.width_px)))
+        throw Error("--frame-counter", "a place that the photodiode's square leaves free",
+                    "\"" + *marks.frame_counter + "\"");
+}
+
+}  // namespace
 
 Shot plan_shot(const AnimateOptions& options) {
     Shot shot;
@@ -47,25 +119,46 @@ Shot plan_shot(const AnimateOptions& options) {
     shot.view.threads = options.threads > 1 ? options.threads : 0;
 
     // Refuse now what would only fail after minutes
-    const auto& cameras = render::camera_names();
-    if (std::find(cameras.begin(), cameras.end(), shot.view.camera) == cameras.end()) {
-        std::string names;
-        for (const std::string& name : cameras) names += " \"" + name + "\"";
-        throw Error("--camera", "one of" + names, "\"" + shot.view.camera + "\"");
-    }
+    index_of_name("--camera", shot.view.camera, render::camera_names());
     for (int side : {shot.view.width_px, shot.view.height_px})
         if (side < 16 || side > 8192)
             throw Error("--size", "a width and a height in [16, 8192]", std::to_string(side));
-    if (!options.still_s) {
-        media::check_target(options.out, shot.video());
-        if (shot.view.background.transparent && options.out.extension() == ".mp4")
-            throw Error(options.out.string(), "an ending that keeps transparency, .mkv or /",
-                        "\".mp4\"");
+    const bool compared = shot.view.show == render::Show::kError;
+    if (compared != options.against.has_value())
+        throw compared ? Error("--show error", "a script to compare with, by --against", "none")
+                       : Error("--against", "--show error, which compares",
+                               "--show " + options.show.value_or(asked.show));
+    check_marks(options.marks, shot);
+    for (const std::string& pass : options.passes) {
+        index_of_name("--passes", pass, pass_names());
+        if (pass == "flow" && options.still_s)
+            throw Error("--passes", "passes of one frame with --still",
+                        "\"flow\", to the next one");
+    }
+    shot.video = video_options(options, shot);
+    if (!options.times_s.empty()) {
+        shot.times_s = options.times_s;
+        shot.frames = static_cast<int>(options.times_s.size());
+        shot.first_s = options.times_s.front();
+        for (const double time_s : options.times_s)
+            if (!(time_s >= 0 && time_s <= shot.script.duration_s))
+                throw Error("--times", times_of(shot), format_number(time_s));
         return shot;
     }
+    if (options.turntable_s) {
+        if (options.still_s) throw Error("--turntable", "no --still beside it", "both");
+        if (!(*options.turntable_s >= 0 && *options.turntable_s <= shot.script.duration_s))
+            throw Error("--turntable", times_of(shot), format_number(*options.turntable_s));
+        shot.first_s = *options.turntable_s;
+        shot.still_time = true;
+    }
+    if (!options.still_s) {
+        media::check_target(options.out, shot.video);
+        return shot;
+    }
+    check_still(options);
     if (!(*options.still_s >= 0 && *options.still_s <= shot.script.duration_s))
-        throw Error("--still", "a time in [0, " + format_number(shot.script.duration_s) + "]",
-                    format_number(*options.still_s));
+        throw Error("--still", times_of(shot), format_number(*options.still_s));
     if (options.out.extension() != ".png")
         throw Error(options.out.string(), "an ending of .png for a still",
                     "\"" + options.out.extension().string() + "\"");

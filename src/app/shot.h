@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/animate.h"
 #include "media/video_writer.h"
@@ -13,13 +14,17 @@ namespace risorius::app {
 struct Shot {
     track::ScriptHeader script;
     int frames = 0;
-    double first_s = 0;  ///< 0 but for a still
+    double first_s = 0;  ///< 0 but for a still and a turntable
     render::ViewOptions view;
 
-    double time_s(int frame) const { return first_s + static_cast<double>(frame) / script.fps; }
-    media::VideoOptions video() const {
-        return {.width_px = view.width_px, .height_px = view.height_px, .fps = script.fps};
+    std::vector<double> times_s;  ///< of every frame where they are not even
+    bool still_time = false;      ///< all frames show first_s
+
+    double time_s(int frame) const {
+        if (!times_s.empty()) return times_s[static_cast<std::size_t>(frame)];
+        return still_time ? first_s : first_s + static_cast<double>(frame) / script.fps;
     }
+    media::VideoOptions video;
     std::string background_text() const;  ///< as a script writes it
 };
 

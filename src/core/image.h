@@ -9,7 +9,8 @@ namespace risorius {
 struct Image {
     int width_px = 0;
     int height_px = 0;
-    std::vector<std::uint8_t> rgba;  ///< height x width x 4, rows from the top
+    std::vector<std::uint8_t> rgba;   ///< height x width x 4, rows from the top
+    std::vector<std::uint16_t> deep;  ///< the same in 16 bits, or nothing
 
     Image() = default;
     Image(int width, int height)

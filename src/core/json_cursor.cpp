@@ -75,18 +75,22 @@ std::string format_number(double value) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known) {
+    // Optimal string alignment: letters changed, added, left out, or swapped with their neighbour
     std::string best;
     std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
     for (std::string_view candidate : known) {
-        std::vector<std::size_t> row(candidate.size() + 1);
+        std::vector<std::size_t> before, last, row(candidate.size() + 1);
         for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
         for (std::size_t i = 1; i <= name.size(); ++i) {
-            std::size_t diagonal = row[0];
+            before = std::move(last);
+            last = row;
             row[0] = i;
             for (std::size_t j = 1; j <= candidate.size(); ++j) {
-                const std::size_t change = diagonal + (name[i - 1] != candidate[j - 1]);
-                diagonal = row[j];
-                row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+                row[j] = std::min(
+                    {last[j] + 1, row[j - 1] + 1, last[j - 1] + (name[i - 1] != candidate[j - 1])});
+                if (i > 1 && j > 1 && name[i - 1] == candidate[j - 2] &&
+                    name[i - 2] == candidate[j - 1])
+                    row[j] = std::min(row[j], before[j - 2] + 1);
             }
         }
         if (row.back() < best_distance) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "media/detail/png_samples.h"
 #include "media/detail/temporary_file.h"
 
 namespace risorius::media {
@@ -78,6 +79,34 @@ void write_png(const Image& image, const std::filesystem::path& file) {
     if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
         throw RunError(file.string() + ": cannot be encoded as PNG: " + png.message);
     detail::write_whole(file, bytes.data(), size);
+}
+
+void write_png16(const Image& image, const std::filesystem::path& file) {
+    const int channels = has_transparency(image) ? 4 : 3;
+    detail::PngSamples out{.width_px = image.width_px,
+                           .height_px = image.height_px,
+                           .channels = channels,
+                           .bits = 16,
+                           .srgb = true,
+                           .samples = {}};
+    out.samples.reserve(image.rgba.size() / 4 * static_cast<std::size_t>(channels));
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        if (channels == 4 || i % 4 != 3)
+            out.samples.push_back(image.deep.empty()
+                                      ? static_cast<std::uint16_t>(image.rgba[i] * 257)
+                                      : image.deep[i]);
+    detail::write_png_samples(out, file);
+}
+
+void write_grey_png(int width_px, int height_px, int bits,
+                    const std::vector<std::uint16_t>& samples, const std::filesystem::path& file) {
+    detail::write_png_samples({.width_px = width_px,
+                               .height_px = height_px,
+                               .channels = 1,
+                               .bits = bits,
+                               .srgb = false,
+                               .samples = samples},
+                              file);
 }
 
 Image read_png(const std::filesystem::path& file) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "media/detail/ffmpeg.h"
+#include "media/detail/rgb_pixels.h"
 
 namespace risorius::media {
 
@@ -51,6 +51,9 @@ void VideoReader::Impl::open(const std::filesystem::path& file) {
     const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
     if (index < 0 || !decoder) throw Error(name, "a video stream", "none that can be decoded");
     stream = format->streams[index];
+    // FFmpeg's own decoder of VP9 leaves transparency out.
+    if (decoder->id == AV_CODEC_ID_VP9 && av_dict_get(stream->metadata, "alpha_mode", nullptr, 0))
+        if (const AVCodec* whole = avcodec_find_decoder_by_name("libvpx-vp9")) decoder = whole;
 
     codec.reset(avcodec_alloc_context3(decoder));
     picture.reset(av_frame_alloc());
@@ -120,22 +123,9 @@ bool VideoReader::Impl::decode() {
 }
 
 Image VideoReader::Impl::convert() const {
-    Image image(picture->width, picture->height);
     const auto format_in = static_cast<AVPixelFormat>(picture->format);
-    if (format_in == AV_PIX_FMT_BGRA || format_in == AV_PIX_FMT_0RGB32) {
-        for (int y = 0; y < image.height_px; ++y) {
-            const std::uint8_t* from =
-                picture->data[0] + static_cast<std::ptrdiff_t>(y) * picture->linesize[0];
-            std::uint8_t* to = image.pixel(0, y);
-            for (int x = 0; x < image.width_px; ++x, from += 4, to += 4) {
-                to[0] = from[2];
-                to[1] = from[1];
-                to[2] = from[0];
-                to[3] = format_in == AV_PIX_FMT_BGRA ? from[3] : 255;
-            }
-        }
-        return image;
-    }
+    if (is_rgb_of_bytes(format_in)) return rgb_pixels_of(*picture);
+    Image image(picture->width, picture->height);
     const int flags =
         SWS_BICUBIC | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_ACCURATE_RND | SWS_BITEXACT;
     const ScalerPtr scaler(sws_getContext(picture->width, picture->height, format_in,

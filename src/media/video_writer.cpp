@@ -3,7 +3,6 @@
 #include "media/video_writer.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdio>
 #include <optional>
@@ -11,31 +10,16 @@
 #include "core/error.h"
 #include "media/detail/encoder.h"
 #include "media/detail/temporary_file.h"
+#include "media/detail/video_form.h"
 #include "media/image_file.h"
 
 namespace risorius::media {
 
 namespace fs = std::filesystem;
+using detail::Form;
+using detail::form_of;
 
 namespace {
-
-enum class Form { kMp4, kMatroska, kFolder };
-
-constexpr std::array<const char*, 10> kPresets = {"ultrafast", "superfast", "veryfast", "faster",
-                                                  "fast",      "medium",    "slow",     "slower",
-                                                  "veryslow",  "placebo"};
-
-Form form_of(const fs::path& target) {
-    if (!target.empty() && !target.has_filename()) return Form::kFolder;
-    std::string ending = target.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending == ".mp4") return Form::kMp4;
-    if (ending == ".mkv") return Form::kMatroska;
-    throw Error(target.string(),
-                "an ending of .mp4 (H.264), .mkv (lossless) or / (a folder of PNG frames)",
-                ending.empty() ? "no ending" : "\"" + target.extension().string() + "\"");
-}
 
 std::string frame_name(int frame) {
     char name[32];
@@ -76,30 +60,7 @@ std::string size_text(int width, int height) {
 void check_target(const fs::path& target, const VideoOptions& options) {
     const Form form = form_of(target);
     const std::string place = target.string();
-    const auto check_range = [&](const char* what, int value, int min, int max) {
-        if (value < min || value > max)
-            throw Error(place,
-                        std::string(what) + " in [" + std::to_string(min) + ", " +
-                            std::to_string(max) + "]",
-                        std::to_string(value));
-    };
-    const int smallest = form == Form::kMp4 ? 16 : 2;
-    const int largest = form == Form::kMp4 ? 8192 : 16384;
-    check_range("a width in pixels", options.width_px, smallest, largest);
-    check_range("a height in pixels", options.height_px, smallest, largest);
-    check_range("frames per second", options.fps, 1, 1000);
-    if (form == Form::kMp4) {
-        if (options.width_px % 2 != 0 || options.height_px % 2 != 0)
-            throw Error(place,
-                        "an even width and height for .mp4 (its colour is stored at half size)",
-                        size_text(options.width_px, options.height_px));
-        check_range("a quality (crf)", options.crf, 0, 51);
-        if (std::find(kPresets.begin(), kPresets.end(), options.preset) == kPresets.end()) {
-            std::string expected = "an encoder preset, one of";
-            for (const char* preset : kPresets) expected += std::string(" ") + preset;
-            throw Error(place, expected, "\"" + options.preset + "\"");
-        }
-    }
+    detail::check_options(place, form, options);
     if (form == Form::kFolder) {
         check_folder(target);
     } else if (fs::is_directory(target)) {
@@ -139,19 +100,27 @@ struct VideoWriter::Impl {
     void append(const Image& frame) {
         const bool transparent = has_transparency(frame);
         if (form == Form::kFolder) {
-            write_png(frame, temporary.path() / frame_name(frames));
+            const fs::path file = temporary.path() / frame_name(frames);
+            if (options.bits.value_or(8) == 16)
+                write_png16(frame, file);
+            else
+                write_png(frame, file);
             return;
         }
         if (form == Form::kMp4 && transparent)
             throw Error(target.string(),
-                        "opaque frames (.mkv and PNG frames keep transparency, .mp4 cannot)",
+                        "opaque frames (.mkv, .mov, .webm and PNG frames keep transparency, .mp4 "
+                        "cannot)",
                         "transparent pixels in frame " + std::to_string(frames));
         if (!encoder) {
-            alpha = transparent;
-            encoder = std::make_unique<detail::Encoder>(
-                temporary.path(), target.string(),
-                form == Form::kMp4 ? detail::Container::kMp4 : detail::Container::kMatroska,
-                options, alpha);
+            alpha = transparent || options.alpha;
+            if (alpha && !options.alpha) {
+                VideoOptions told = options;
+                told.alpha = true;
+                detail::check_options(target.string(), form, told);
+            }
+            encoder = std::make_unique<detail::Encoder>(temporary.path(), target.string(), form,
+                                                        options, alpha);
         }
         if (transparent && !alpha)
             throw Error(target.string(), "opaque frames, as the first one was",

@@ -1,29 +1,46 @@
-// Frames to video through the FFmpeg libraries: MP4 (H.264, yuv420p, BT.709, faststart) and lossless Matroska (FFV1),
-// or a folder of PNG frames; constant frame rate, frame n at n / fps.
+// Frames to video through the FFmpeg libraries, constant frame rate, frame n at n / fps:
 //
-// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Transparency is kept by PNG
-// frames and, when the first frame has any, by Matroska; MP4 refuses it. Matroska rounds times to a millisecond.
+//   .mp4    H.264; lossless: H.264 in RGB            AAC
+//   .mov    H.264; lossless: H.264 in RGB            PCM     with transparency ProRes 4444; lossless: PNG
+//   .mkv    FFV1, always lossless                    PCM     transparency too
+//   .webm   VP9; lossless: VP9 in RGB                Opus    transparency too, not lossless
+//   frames/ PNG, 8 or 16 bits                        none    transparency too
+//
+// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
+// millisecond.
 //
 // Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/image.h"
+#include "media/sound.h"
 
 namespace risorius::media {
 
+/// What is not given is as usual; what is given and the target's form does not have is an error.
 struct VideoOptions {
-    int width_px = 0;  ///< even for MP4
+    int width_px = 0;  ///< even where colour is stored at half size: yuv420p
     int height_px = 0;
     int fps = 60;
-    int crf = 18;  ///< H.264 quality, 0 (lossless) .. 51
-    std::string preset = "medium";
+    std::optional<int> crf = {};  ///< quality: H.264 0..51, 18; VP9 0..63, 24; less is better
+    std::optional<std::string> preset = {};  ///< of H.264, "medium": slower ones make smaller files
+    std::optional<std::string> pixels = {};  ///< "yuv420p", or "yuv444p": colour at full size
+    std::optional<int> keyframe_interval = {};  ///< frames, a quarter of a second
+    bool lossless = false;
+    std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
+    bool alpha = false;            ///< frames may be transparent though the first is not
+    std::shared_ptr<const Sound> sound =
+        {};  ///< cut or filled up with silence to the length of the video
+    std::int64_t sound_offset_samples =
+        0;  ///< from the first frame to its first sample; of its rate
 };
 
-/// Throws Error when the ending is not .mp4, .mkv or a folder ("frames/"), or the size does not fit the format.
+/// Throws Error when the ending is none of these, or size and options do not fit the format.
 void check_target(const std::filesystem::path& target, const VideoOptions& options);
 
 class VideoWriter {

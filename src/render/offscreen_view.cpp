@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/known_names.h"
 #include "render/detail/camera.h"
 #include "render/detail/colour_scale.h"
 #include "render/detail/framebuffer.h"
@@ -69,7 +70,8 @@ std::vector<float> colours_of(const SkinValues& values) {
     return rgb;
 }
 
-constexpr const char* kShowNames[] = {"skin", "muscles"};  // in the order of Show
+constexpr const char* kShowNames[] = {"skin",   "muscles", "wire",
+                                      "strain", "error",   "landmarks"};  // in the order of Show
 
 }  // namespace
 
@@ -79,12 +81,7 @@ const std::vector<std::string>& show_names() {
 }
 
 Show show_named(const std::string& name, const std::string& place) {
-    std::string known;
-    for (std::size_t i = 0; i < show_names().size(); ++i) {
-        if (name == kShowNames[i]) return static_cast<Show>(i);
-        known.append(i > 0 ? ", \"" : "\"").append(kShowNames[i]).append("\"");
-    }
-    throw Error(place, "one of " + known, "\"" + name + "\"");
+    return static_cast<Show>(index_of_name(place, name, show_names()));
 }
 
 struct OffscreenView::Impl {
@@ -251,5 +248,7 @@ Vec2 OffscreenView::project(const Vec3& world) const {
     return {(clip.x() / clip.w() * 0.5 + 0.5) * impl_->options.width_px,
             (0.5 - clip.y() / clip.w() * 0.5) * impl_->options.height_px};
 }
+
+Eigen::Matrix4d OffscreenView::clip_from_world() const { return impl_->camera.clip_from_world; }
 
 }  // namespace risorius::render

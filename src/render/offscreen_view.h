@@ -24,8 +24,13 @@ struct Background {
 enum class Show {
     kSkin,     ///< the face as one sees it
     kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
+    // The skin, and what who draws puts onto it: values of a pose, or lines and marks over the picture
+    kWire,       ///< the mesh's edges
+    kStrain,     ///< principal strain of the skin
+    kError,      ///< distance from where the skin is in another run
+    kLandmarks,  ///< their places and names
 };
-/// "skin", "muscles"
+/// "skin", "muscles", "wire", "strain", "error", "landmarks"
 const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the names for an unknown one.
 Show show_named(const std::string& name, const std::string& place);
@@ -59,6 +64,8 @@ class OffscreenView {
 
     /// Pixel position (x right, y down, from the top left corner) of a world point.
     Vec2 project(const Vec3& world) const;
+    /// The camera as OpenGL has it: x right and y up in [-w, w] in the picture.
+    Eigen::Matrix4d clip_from_world() const;
 
   private:
     struct Impl;

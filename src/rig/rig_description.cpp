@@ -50,6 +50,8 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
     visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
     visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
+    visit("crease_shear_ratio", tissue.crease_shear_ratio, Range{1e-4, 100});
+    visit("malar_shear_ratio", tissue.malar_shear_ratio, Range{1e-4, 100});
     visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }
@@ -59,6 +61,15 @@ void visit_fields(SkinDescription& skin, Visit visit) {
     visit("bending_n_m", skin.bending_n_m, Range{0, 1e3});
     visit("lid_membrane_ratio", skin.lid_membrane_ratio, Range{1e-4, 100});
     visit("wrinkles", skin.wrinkles, Range{0, 10});
+}
+template <typename Visit>
+void visit_fields(LipsDescription& lips, Visit visit) {
+    for (const auto& [key, ratio] : {std::pair{"upper_turn", &lips.upper_turn},
+                                     {"lower_turn", &lips.lower_turn},
+                                     {"upper_push", &lips.upper_push},
+                                     {"lower_push", &lips.lower_push},
+                                     {"puff", &lips.puff}})
+        visit(key, *ratio, Range{0.05, 4});
 }
 template <typename Visit>
 void visit_fields(LookDescription& look, Visit visit) {
@@ -203,7 +214,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
-                        "strength", "solids", "jaw", "eyes", "activation"});
+                        "strength", "solids", "lips", "jaw", "eyes", "activation"});
     rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
@@ -238,6 +249,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
         if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
     }
 
+    read_fields(anatomy, "lips", rig.lips);
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
     read_fields(anatomy, "activation", rig.activation);
@@ -245,6 +257,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
     read_fields(json, "skin", rig.skin);
     read_fields(json, "look", rig.look);
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    for (track::ActionUnit& unit : rig.facs.units)
+        unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
     rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
     return rig;
 }
@@ -289,6 +303,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
     anatomy["strength"] = strength;
     if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids);
+    anatomy["lips"] = fields_of(rig.lips);
     anatomy["jaw"] = fields_of(rig.jaw);
     anatomy["eyes"] = fields_of(rig.eyes);
     if (rig.activation.law != ActivationDescription().law)

@@ -69,6 +69,8 @@ struct TissueDescription {
     double lip_shear_ratio =
         0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 3.8;
+    double crease_shear_ratio = 0.1;  ///< superficial tissue and skin beside the nasolabial fold
+    double malar_shear_ratio = 3;     ///< fat pad of the cheekbone, and the skin over it
     double fibre_passive_strain =
         1.5;                   ///< strain at which a relaxed fibre pulls with its isometric force
     double force_scale = 1.5;  ///< on every muscle, on top of its strength
@@ -79,6 +81,12 @@ struct SkinDescription {
     double bending_n_m = 2.9e-5;
     double lid_membrane_ratio = 0.012;
     double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
+};
+
+/// How far orbicularis oris turns and pushes the lips of this head, of the way of the standard head, and how much of the mouth
+/// pressure of the standard action units puffs its cheeks. [0.05, 4]
+struct LipsDescription {
+    double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
 /// Appearance generated for heads without textures; colours sRGB 0..1.
@@ -101,6 +109,7 @@ struct RigDescription {
     Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
     std::vector<SolidMuscle> solids;  ///< muscles that are not bundles of fibres
+    LipsDescription lips;
     JawDescription jaw;
     EyesDescription eyes;
     ActivationDescription activation;

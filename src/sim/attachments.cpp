@@ -22,7 +22,7 @@ std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigD
         }
         out.push_back({v, std::exp(log_normal / weights) * mesh.area_m2[v],
                        std::exp(log_tangential / weights) * mesh.area_m2[v],
-                       jaw.weight(skin, shell.over_bite_m[v])});
+                       jaw.weight(skin, shell.over_bite_m[v]), jaw.floor_bulge(skin)});
     }
     return out;
 }

@@ -17,6 +17,12 @@ struct Attachment {
     double normal_n_per_m;
     double tangential_n_per_m;
     double jaw_weight;  ///< share of the mandible's motion its bone follows
+    Vec3 floor_bulge;   ///< m for every metre that the chin comes back
+
+    /// Where what lies at `rest` is held when the mandible has moved.
+    Vec3 target(const Vec3& rest, const Rigid& moved, double chin_back_m) const {
+        return rest + jaw_weight * (moved * rest - rest) + chin_back_m * floor_bulge;
+    }
 };
 
 /// One per shell vertex that is not fixed.

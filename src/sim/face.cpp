@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "core/known_names.h"
 #include "muscle/activation.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
@@ -65,7 +66,10 @@ Quality quality_named(const std::string& name) {
                 .least_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
                 .longest_piece_s = kStep_s / 2};
-    throw Error("--quality", "\"preview\", \"video\" or \"fine\"", "\"" + name + "\"");
+    throw Error(
+        "--quality",
+        "\"preview\", \"video\" or \"fine\"" + did_you_mean(name, {"preview", "video", "fine"}),
+        "\"" + name + "\"");
 }
 
 struct Face::Impl {
@@ -635,6 +639,11 @@ void Face::scale_muscle(const std::string& muscle, double factor) {
                 impl_->tissue.fibres().set_f0(static_cast<int>(f),
                                               factor * impl_->tissue.fibres().fibres()[f].f0_n);
     }
+}
+
+void Face::scale_lips(const rig::LipsDescription& lips) {
+    impl_->statics->moved();
+    impl_->tissue.scale_lips(lips);
 }
 
 std::vector<SolidFigures> Face::solid_figures() const {

@@ -140,6 +140,7 @@ class Face {
 
     /// Scales the force of every fibre of a muscle, for calibration.
     void scale_muscle(const std::string& muscle, double factor);
+    void scale_lips(const rig::LipsDescription& lips);
     /// Mean length of a muscle's fibres over their rest length, now.
     double mean_stretch(const std::string& muscle) const;
 

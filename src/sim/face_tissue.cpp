@@ -26,10 +26,12 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
                        const TissueMesh& mesh)
     : head_(head),
       rig_(rig),
+      jaw_(jaw),
       lids_(lids),
       shell_(shell),
       mesh_(mesh),
       lips_(lip_line(head)),
+      cheek_(head),
       attachments_(place_attachments(head, rig, jaw, shell, mesh)),
       search_(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m) {
     solids_.emplace(head, rig, jaw, shell, mesh, attachments_);
@@ -72,8 +74,14 @@ double FaceTissue::lip_share(const Vec3& p) const {
     return 1.0 - smoothstep(head_.mm(6), head_.mm(14), distance_to_polyline(p, lips_));
 }
 
+// Of the cheek's tissue to the rest, at a point.
+double FaceTissue::cheek_ratio(const Vec3& p) const {
+    return std::pow(rig_.tissue.crease_shear_ratio, cheek_.crease(p)) *
+           std::pow(rig_.tissue.malar_shear_ratio, cheek_.fat(p));
+}
+
 void FaceTissue::build_tissue() {
-    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner
+    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner, a cheek that folds
     Eigen::VectorXd mu(mesh_.tets.rows()), bulk(mesh_.tets.rows());
     const std::array<Vec3, 2> modiolus{Vec3(head_.landmark("nl3_l")),
                                        Vec3(head_.landmark("nl3_r"))};
@@ -82,6 +90,7 @@ void FaceTissue::build_tissue() {
         for (int k = 0; k < 4; ++k) centre += 0.25 * mesh_.nodes.row(mesh_.tets(t, k)).transpose();
         double ratio = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
                        std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+        ratio *= cheek_ratio(centre);
         for (const Vec3& knot : modiolus)
             if ((centre - knot).norm() < head_.mm(9)) ratio *= rig_.tissue.modiolus_shear_ratio;
         mu[t] = ratio * (mesh_.tet_layer[t] == kMiddle ? rig_.tissue.deep_shear_pa
@@ -102,7 +111,8 @@ void FaceTissue::build_skin() {
             sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
         }
         const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_share(centre)) *
-                             std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+                             std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre)) *
+                             cheek_ratio(centre);
         membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
         bending_[f] = ratio * rig_.skin.bending_n_m;
     }
@@ -182,10 +192,11 @@ void FaceTissue::prescribe(const Prescribed& prescribed) {
     mandible_ = moved;
     gaze_ = prescribed.gaze;
     std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    const double chin_back = jaw_.chin_back(moved);
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Attachment& a = attachments_[i];
         const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = rest + a.jaw_weight * (moved * rest - rest);
+        held[i].target = a.target(rest, moved, chin_back);
         held[i].normal = ((1 - a.jaw_weight) * mesh_.direction[a.shell_vertex] +
                           a.jaw_weight * (moved.linear() * mesh_.direction[a.shell_vertex]))
                              .normalized();

@@ -17,6 +17,7 @@
 #include "rig/head.h"
 #include "rig/rig_description.h"
 #include "sim/attachments.h"
+#include "sim/cheek.h"
 #include "sim/contact_search.h"
 #include "sim/jaw.h"
 #include "sim/jaw_dynamics.h"
@@ -133,6 +134,10 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
+    void scale_lips(const rig::LipsDescription& lips) {
+        lip_drive_->scale(lips);
+        mouth_.reset();
+    }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
@@ -162,6 +167,7 @@ class FaceTissue {
     };
     double lid_share(const Vec3& p) const;
     double lip_share(const Vec3& p) const;
+    double cheek_ratio(const Vec3& p) const;
     void build_tissue();
     void build_skin();
     void build_tethers();
@@ -186,10 +192,12 @@ class FaceTissue {
 
     const rig::Head& head_;
     const rig::RigDescription& rig_;
+    const Jaw& jaw_;
     const std::array<EyeLids, 2>& lids_;
     const Shell& shell_;
     const TissueMesh& mesh_;
     std::vector<Vec3> lips_;
+    CheekRegions cheek_;
     std::vector<Attachment> attachments_;
     std::optional<MuscleSolids> solids_;
     mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation

@@ -34,10 +34,10 @@ void put_jaw(const JawVector& q, Points& unknowns) {
 void FaceTissue::move_mandible(const Rigid& moved) {
     mandible_ = moved;
     std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    const double chin_back = jaw_.chin_back(moved);
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        if (attachments_[i].jaw_weight == 0) continue;
         const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = rest + attachments_[i].jaw_weight * (moved * rest - rest);
+        held[i].target = attachments_[i].target(rest, moved, chin_back);
     }
     const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
     fibres_->set_body_positions(bodies);
@@ -53,7 +53,8 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
     const std::vector<tissue::Tethers::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const double share = attachments_[i].jaw_weight;
-        if (share == 0) continue;
+        const Vec3& bulge = attachments_[i].floor_bulge;
+        if (share == 0 && bulge.isZero(0.0)) continue;
         // Nodes that ride, and what their tether pulls its target with
         for (Layer layer : {kDeep, kMiddle, kSkin}) {
             const int node = node_of(attachments_[i].shell_vertex, layer);
@@ -65,6 +66,8 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
         const Vec3 pull =
             t.kt_n_per_m * off + (t.kn_n_per_m - t.kt_n_per_m) * off.dot(t.normal) * t.normal;
         sum.add(-share * pull, mandible_ * Vec3(mesh_.nodes.row(t.node).transpose()));
+        // The bulge goes with the chin's way back, -z
+        sum.add(bulge.dot(pull) * Vec3::UnitZ(), mandible_ * jaw_.chin());
     }
     for (std::size_t p = 0; p < fibres_->points().size(); ++p) {
         const muscle::FibrePoint& point = fibres_->points()[p];

@@ -77,9 +77,21 @@ double Jaw::weight(const Vec3& p, double height_over_bite_m) const {
     double half = (1.5 + 10.5 * smoothstep(0.6 * corner, corner + 12 * mm, lateral)) * mm;
     half += 2.0 * mm * smoothstep(50 * mm, 62 * mm, lateral);
     double w = 1.0 - smoothstep(-half, half, height_over_bite_m);
-    w *= 1.0 - smoothstep(0.0, 48 * mm, border_height(p) - p.y());
+    // Below the mandible's border tissue follows it less, the nearer it is to the hyoid
+    const double below = std::max(0.0, border_height(p) - p.y()) / (9 * mm);
+    w /= 1.0 + below * below;
     w *= smoothstep(2 * mm, 25 * mm, p.z());
     return w;
+}
+
+Vec3 Jaw::floor_bulge(const Vec3& p) const {
+    const double mm = 1e-3 * size_;
+    const double below = border_height(p) - p.y();
+    const double aside = p.x() / (30 * mm);
+    const double share = smoothstep(-4 * mm, 14 * mm, below) *
+                         (1.0 - smoothstep(14 * mm, 60 * mm, below)) * std::exp(-aside * aside) *
+                         smoothstep(0.0, 15 * mm, p.z());
+    return 0.5 * share * Vec3(0.7 * aside, -1, 0);
 }
 
 namespace {

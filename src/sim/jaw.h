@@ -23,6 +23,13 @@ class Jaw {
     /// For skin whose side of the bite is known better than by its height (see bite_heights).
     double weight(const Vec3& p, double height_over_bite_m) const;
 
+    /// How far the floor of the mouth and the throat below it bulge for every metre that the chin comes back, m: tongue and
+    /// floor hardly change volume and give way downwards, the hyoid with them.
+    Vec3 floor_bulge(const Vec3& p) const;
+    /// How far the chin has come back, m.
+    double chin_back(const Rigid& motion) const { return (chin() - motion * chin()).z(); }
+    const Vec3& chin() const { return border_.front(); }
+
     /// Signed height over the line on which the lips meet and, behind them, the occlusal plane, m.
     double height_over_bite(const Vec3& p) const;
 

@@ -35,6 +35,7 @@ LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const 
         peripheral_[lip] =
             channels.column("orbicularis_oris_" + lip_names[lip] + "_peripheral", Side::kLeft);
     }
+    scale(rig.lips);
     const std::vector<Vec3> line = lip_line(head);
     const double half_width = 0.5 * (line.back().x() - line.front().x());
     // Height of the lip line over x, between its points
@@ -96,6 +97,12 @@ LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const 
     }
 }
 
+void LipDrive::scale(const rig::LipsDescription& lips) {
+    turn_scale_ = {lips.upper_turn, lips.lower_turn};
+    push_scale_ = {lips.upper_push, lips.lower_push};
+    turn_ = {-1, -1};  // nothing driven yet
+}
+
 void LipDrive::keep(const std::vector<int>& row, int rows) {
     const auto keep_of = [&](auto& members) {
         for (auto& member : members) member.node = row[static_cast<std::size_t>(member.node)];
@@ -119,7 +126,7 @@ void LipDrive::drive(const Eigen::VectorXd& activation) {
     if (turn_ == turned) return;
     for (Turned& member : turned_) {
         // Red lip goes up or down towards the other lip, its rim back
-        const double share = turn_[member.lip] * member.weight;
+        const double share = turn_scale_[member.lip] * turn_[member.lip] * member.weight;
         const double angle = (member.lip == kUpper ? 1 : -1) * share * kTurn_rad;
         Vec3 arm = Eigen::AngleAxisd(angle, Vec3::UnitX()) * (member.rest - member.axis);
         arm.z() *= 1 - share * kFlattened;
@@ -152,7 +159,7 @@ Vec3 LipDrive::pull(const Turned& member, const Points& x) const {
 
 Vec3 LipDrive::pull(const Pushed& member, const Points& x) const {
     const double ahead = (x.row(member.node).transpose() - member.target).dot(member.normal) -
-                         filled(push_[member.lip]) * member.way;
+                         filled(push_[member.lip]) * push_scale_[member.lip] * member.way;
     return push_[member.lip] * member.stiffness * std::min(0.0, ahead) * member.normal;
 }
 

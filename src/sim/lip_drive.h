@@ -34,6 +34,8 @@ class LipDrive {
     LipDrive(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
              const TissueMesh& mesh, const std::vector<Attachment>& attachments);
 
+    /// How far activation 1 goes on this head, of the standard way; the turn and the push of both lips.
+    void scale(const rig::LipsDescription& lips);
     /// Forgets all nodes but those that `row` sends to rows below `rows`, and calls them by these.
     void keep(const std::vector<int>& row, int rows);
 
@@ -71,6 +73,7 @@ class LipDrive {
     std::vector<Pushed> pushed_;
     std::array<int, 2> marginal_, peripheral_;  // columns of the activation
     std::array<double, 2> turn_{}, push_{};     // r and p
+    std::array<double, 2> turn_scale_{1, 1}, push_scale_{1, 1};
     Rigid mandible_ = Rigid::Identity();
 };
 

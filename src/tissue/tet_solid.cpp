@@ -66,6 +66,7 @@ double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradie
     using Point = typename solve::LanesOf<Real>::Point;
     constexpr int kWidth = Group<Real>::kWidth;
     constexpr Real kHalf = Real(0.5), kQuarter = Real(0.25);
+    constexpr Real kSpare = Real(1 - kCrushed), kMore = Real(kHardens);
     solve::PaddedRows<Real>& u = work.displacement;
     solve::PaddedRows<Real>& out = work.gradient;
     u.copy_difference(x, rest_);
@@ -114,14 +115,18 @@ double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradie
                          h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
         const Lane j_minus_1 = h[0][0] + h[1][1] + h[2][2] + minors + det;
 
-        const Lane cross = c[0][1] * c[0][1] + c[0][2] * c[0][2] + c[1][2] * c[1][2];
-        solve::add_lanes(energy, g.shear * kQuarter *
-                                         (c[0][0] * c[0][0] + c[1][1] * c[1][1] +
-                                          c[2][2] * c[2][2] + cross + cross) +
-                                     g.bulk * kHalf * j_minus_1 * j_minus_1);
+        const Lane spare = j_minus_1 + kSpare;
+        const Lane crushed = spare < Real(0) ? spare : Lane{};
 
-        // dE/dF = V mu F C + V K (J - 1) cof F, and times B^T a column per edge
-        const Lane pressure = g.bulk * j_minus_1;
+        const Lane cross = c[0][1] * c[0][1] + c[0][2] * c[0][2] + c[1][2] * c[1][2];
+        solve::add_lanes(
+            energy,
+            g.shear * kQuarter *
+                    (c[0][0] * c[0][0] + c[1][1] * c[1][1] + c[2][2] * c[2][2] + cross + cross) +
+                g.bulk * kHalf * (j_minus_1 * j_minus_1 + kMore * crushed * crushed));
+
+        // dE/dF = V mu F C + V K (J - 1 + c min(0, J - J_c)) cof F, and times B^T a column per edge
+        const Lane pressure = g.bulk * (j_minus_1 + kMore * crushed);
         Lane along[3][3];
         for (int i = 0; i < 3; ++i) {
             Lane p[3];

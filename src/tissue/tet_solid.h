@@ -2,9 +2,10 @@
 // solid.
 //
 //   F   deformation gradient     J = det F     V   rest volume, m^3     mu, K   shear and bulk
-//   modulus, Pa E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 ]
+//   modulus, Pa E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
 //
-// J is signed, so an inverted element is not a second zero of the energy.
+// J is signed, so an inverted element is not a second zero of the energy. Below J_c tissue is as good as crushed and hardens, so that
+// what presses on it runs out of force before an element turns over.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,9 @@ namespace risorius::tissue {
 /// One object serves one thread at a time: it keeps scratch arrays.
 class TetSolid {
   public:
+    static constexpr double kCrushed = 0.2;  ///< J_c
+    static constexpr double kHardens = 4;    ///< c
+
     /// Moduli are one per tet. Throws std::invalid_argument when a tet has no positive volume at
     /// rest.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,

@@ -1,5 +1,7 @@
 // The second derivative of TetSolid, tet by tet in the frame of its principal stretches:
-//   psi_i = mu s_i (s_i^2 - 1) + K (J - 1) s_j s_k
+//   psi_i = mu s_i (s_i^2 - 1) + K (J - 1 + c min(0, J - J_c)) s_j s_k
+#include <algorithm>
+
 #include "solve/force_term.h"
 #include "tissue/detail/principal_stretches.h"
 #include "tissue/tet_solid.h"
@@ -8,9 +10,11 @@ namespace risorius::tissue {
 
 namespace {
 
-detail::StretchModes modes_of(const Vec3& s, double mu, double bulk) {
+detail::StretchModes modes_of(const Vec3& s, double mu, double at_rest) {
     const double volume = s[0] * s[1] * s[2];
-    const double pressure = bulk * (volume - 1);
+    const double crushed = std::min(0.0, volume - TetSolid::kCrushed);
+    const double pressure = at_rest * (volume - 1 + TetSolid::kHardens * crushed);
+    const double bulk = at_rest * (crushed < 0 ? 1 + TetSolid::kHardens : 1);
     detail::StretchModes modes;
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;

@@ -28,7 +28,8 @@ ScriptView read_view(const JsonCursor& json) {
     if (const auto v = json.find("camera"))
         view.camera = v->one_of(
             {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"});
-    if (const auto v = json.find("show")) view.show = v->one_of({"skin", "muscles"});
+    if (const auto v = json.find("show"))
+        view.show = v->one_of({"skin", "muscles", "wire", "strain", "landmarks"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);
@@ -156,8 +157,10 @@ class Reader {
             const ActionUnit& unit = *facs_.find(part.use.unit);
             const auto add = [&](std::optional<Side> on, double share, double delay) {
                 Expansion drives = Expansion::none(channels_);
-                drives.add(expand(unit, on, channels_), share * part.use.value * event.intensity);
-                event.parts.push_back({std::move(drives), std::min(delay, 0.9)});
+                const double value = share * part.use.value * event.intensity;
+                drives.add(expand(unit, on, channels_), value);
+                event.parts.push_back(
+                    {std::move(drives), std::min(delay, 0.9), {part.use.unit, on, value}});
             };
             if (event.asymmetry == 0 || side || !unit.sided) {
                 add(side, 1, part.delay);

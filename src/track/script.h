@@ -59,6 +59,7 @@ struct ExpressionEvent {
     struct Part {
         Expansion drives;  ///< at the intensity of the event
         double delay = 0;  ///< ratio of the onset
+        UnitUse use;       ///< the same as a unit, its value that in the event
     };
     std::string expression;
     std::optional<Side> side;  ///< none: as the table says

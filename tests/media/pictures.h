@@ -6,6 +6,9 @@
 
 namespace risorius::media {
 
+/// Of the videos of the tests.
+inline constexpr int kWidth = 64, kHeight = 48;
+
 /// Noise that no codec can predict: pixel values of a linear congruential generator, opaque unless
 /// asked otherwise.
 inline Image noise(int width, int height, unsigned seed, bool opaque = true) {

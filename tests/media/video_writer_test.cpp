@@ -19,8 +19,6 @@ namespace {
 
 using Names = std::set<std::string>;
 
-constexpr int kWidth = 64, kHeight = 48;
-
 /// A frame that tells its number by its brightness, 4 levels apart, with a gradient for the encoder
 /// to work on.
 Image numbered_frame(int n) {
@@ -180,7 +178,7 @@ TEST(VideoWriter, Mp4HasItsIndexBeforeItsPictures) {
 
 TEST(VideoWriter, SameFramesMakeTheSameBytes) {
     const TemporaryFolder folder;
-    for (const char* ending : {".mp4", ".mkv"}) {
+    for (const char* ending : {".mp4", ".mov", ".mkv", ".webm"}) {
         write_numbered(folder / ("a" + std::string(ending)), 30);
         write_numbered(folder / ("b" + std::string(ending)), 30);
         const std::string a = bytes_of(folder / ("a" + std::string(ending)));
@@ -190,7 +188,7 @@ TEST(VideoWriter, SameFramesMakeTheSameBytes) {
 }
 
 TEST(VideoWriter, AbandonedWriterLeavesNothing) {
-    for (const char* name : {"new/a.mp4", "new/a.mkv", "new/frames/"}) {
+    for (const char* name : {"new/a.mp4", "new/a.mov", "new/a.mkv", "new/a.webm", "new/frames/"}) {
         const TemporaryFolder folder;
         {
             VideoWriter writer(folder / name, options());
@@ -246,7 +244,7 @@ class FileSizeLimit {
 
 TEST(VideoWriter, FailedWriteIsARunErrorAndLeavesNothing) {
     // Limits from below one frame of noise up to one that only the closing of the file passes.
-    for (const char* name : {"new/a.mp4", "new/a.mkv", "new/frames/"}) {
+    for (const char* name : {"new/a.mp4", "new/a.mov", "new/a.mkv", "new/a.webm", "new/frames/"}) {
         const TemporaryFolder folder;
         for (rlim_t limit : {10u, 1000u, 6000u}) {
             std::string message;
@@ -315,15 +313,15 @@ TEST(VideoWriter, Mp4RefusesTransparencyRatherThanLoseIt) {
     } catch (const Error& error) {
         EXPECT_EQ(error.what(),
                   (folder / "a.mp4").string() +
-                      ": expected opaque frames (.mkv and PNG frames keep transparency, "
-                      ".mp4 cannot), found transparent pixels in frame 0");
+                      ": expected opaque frames (.mkv, .mov, .webm and PNG frames keep "
+                      "transparency, .mp4 cannot), found transparent pixels in frame 0");
     }
 }
 
 TEST(VideoTarget, OfAnotherEndingListsTheOnesThereAre) {
     const std::string expected =
-        ": expected an ending of .mp4 (H.264), .mkv (lossless) or / (a folder of PNG frames), "
-        "found ";
+        ": expected an ending of .mp4 or .mov (H.264), .mkv (lossless), .webm (VP9) or / (a folder "
+        "of PNG frames), found ";
     EXPECT_EQ(message_of("a.avi", options()), "a.avi" + expected + "\".avi\"");
     EXPECT_EQ(message_of("out/smile", options()), "out/smile" + expected + "no ending");
     EXPECT_EQ(message_of("", options()), expected + "no ending");
@@ -413,7 +411,7 @@ TEST(VideoReader, NamesWhatIsWrongWithAFile) {
 
 TEST(VideoReader, RefusesAFileCutShort) {
     const TemporaryFolder folder;
-    for (const std::string ending : {".mp4", ".mkv"}) {
+    for (const std::string ending : {".mp4", ".mov", ".mkv", ".webm"}) {
         VideoWriter writer(folder / ("whole" + ending), options());
         for (unsigned n = 0; n < 10; ++n) writer.append(noise(kWidth, kHeight, n));
         writer.finish();

@@ -37,6 +37,27 @@ TEST(Jaw, AtRestDoesNotMove) {
     EXPECT_TRUE(jaw().motion(0, 0, 0).isApprox(Rigid::Identity(), 1e-15));
 }
 
+TEST(Jaw, FloorOfTheMouthBulgesBelowTheMandibleOnly) {
+    for (const char* above : {"li", "sl", "pg", "mc_l", "mar_l"})
+        EXPECT_TRUE(jaw().floor_bulge(head().landmark(above)).isZero(0.0)) << above;
+    const Vec3 throat = jaw().floor_bulge(head().landmark("cer"));
+    EXPECT_LT(throat.y(), -0.2);
+    EXPECT_NEAR(throat.x(), 0, 1e-3);
+    EXPECT_NEAR(jaw().chin_back(jaw().motion(0, 0, 0)), 0, 1e-12);
+    EXPECT_GT(jaw().chin_back(jaw().motion(1, 0, 0)), head().mm(20));
+    EXPECT_LT(jaw().chin_back(jaw().motion(0, 1, 0)), 0);
+}
+
+TEST(Jaw, OpeningSinksTheFloorOfTheMouth) {
+    // Measured on another head: 21 mm down, 14 mm back
+    const FacePose open = settled(face(), with_kinematic(Kinematic::kJawOpen, 1));
+    const int throat = rig::adult().vertex("cer");
+    const Vec3 moved = (open.vertices.row(throat) - head().vertices.row(throat)).transpose();
+    EXPECT_LT(moved.y(), -head().mm(10));
+    EXPECT_LT(moved.z(), -head().mm(6));
+    EXPECT_GT(moved.z(), -head().mm(25));
+}
+
 TEST(Jaw, OpeningLowersTheChinAndBringsItBack) {
     const Vec3 chin = head().landmark("pg");
     const Vec3 moved = jaw().motion(1, 0, 0) * chin - chin;

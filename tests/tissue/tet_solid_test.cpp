@@ -133,7 +133,25 @@ TEST(TetSolid, SqueezingThroughItselfIsCountedAsInverted) {
     // and is no second rest
     Points mirrored = rest, gradient = Points::Zero(4, 3);
     mirrored.col(2) *= -1;
-    EXPECT_NEAR(solid.add_energy(mirrored, gradient), 4e-9 * 3e4 / 2 * 4, 1e-12);
+    EXPECT_NEAR(solid.add_energy(mirrored, gradient), 4e-9 * 3e4 / 2 * (4 + 4 * 1.2 * 1.2), 1e-12);
+}
+
+TEST(TetSolid, HardensOnceItHasLessThanAFifthOfItsVolume) {
+    Points rest;
+    const TetSolid solid = lone_tet(&rest);
+    const auto energy_at = [&](double height) {
+        Points x = rest, gradient = Points::Zero(4, 3);
+        x.col(2) *= height;
+        return solid.add_energy(x, gradient);
+    };
+    const auto stiffness_at = [&](double height) {
+        const double step = 1e-3;
+        return (energy_at(height + step) - 2 * energy_at(height) + energy_at(height - step)) /
+               (step * step);
+    };
+    constexpr double kBulk_j = 4e-9 * 3e4;
+    EXPECT_NEAR(stiffness_at(0.19) - stiffness_at(0.21), 4 * kBulk_j, 0.02 * 4 * kBulk_j);
+    EXPECT_NEAR(energy_at(0.2 + 1e-7), energy_at(0.2 - 1e-7), 1e-6 * kBulk_j) << "without a jump";
 }
 
 TEST(TetSolid, MassIsDensityTimesVolume) {

@@ -2,7 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
+#include <set>
 
+#include "app/evaluate.h"
+#include "app/landmark_ways.h"
 #include "app/rig_files.h"
 #include "calibration.h"
 #include "core/error.h"
@@ -34,6 +37,24 @@ std::map<std::string, double> stretches(const app::RigFiles& files, const rig::R
     return out;
 }
 
+// How the landmarks go in every standard expression of the calibrated head.
+void write_ways(const std::filesystem::path& rig_file, const std::string& quality,
+                const std::filesystem::path& standard) {
+    const app::RigFiles files = app::read_rig_files(rig_file);
+    sim::Face face(files.rig, files.mesh, sim::quality_named(quality), files.place());
+    app::LandmarkWays ways(face, files.rig, files.place());
+    app::WayTable table;
+    // Those that lids and jaw bring about say nothing about the strength of muscles
+    const std::set<std::string> others{"eyeBlink", "eyeWide", "jawForward", "jawOpen"};
+    for (const std::string& name : app::twenty_four_expressions()) {
+        if (others.count(name)) continue;
+        const Points moved = ways.settle(ways.drive(name));
+        for (std::size_t i = 0; i < ways.landmarks().size(); ++i)
+            table[name][ways.landmarks()[i]] = moved.row(static_cast<long>(i)).transpose();
+    }
+    calibrate::write_ways(table, standard);
+}
+
 void print_changes(const std::vector<calibrate::Parameter>& parameters,
                    const Eigen::VectorXd& values) {
     std::printf("\nparameters that moved by more than half their spread:\n");
@@ -53,11 +74,11 @@ int main(int argc, char** argv) {
     std::vector<std::string> only;
     calibrate::Options options;
     double least = 0.05;
-    bool shapes_too = false;
+    bool shapes_too = false, ways_only = false;
     app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
         ->required();
-    app.add_option("--shapes", shapes_file, "Measured displacements")->required();
-    app.add_option("--only", only, "Expressions to calibrate on")->delimiter(',')->required();
+    app.add_option("--shapes", shapes_file, "Measured displacements");
+    app.add_option("--only", only, "Expressions to calibrate on")->delimiter(',');
     app.add_option("--standard", standard, "Folder of tables to write into")->required();
     app.add_option("--rounds", options.rounds)->capture_default_str();
     app.add_option("--keep", options.keep)->capture_default_str();
@@ -65,8 +86,17 @@ int main(int argc, char** argv) {
     app.add_option("--price", options.price)->capture_default_str();
     app.add_option("--quality", options.quality)->capture_default_str();
     app.add_flag("--write-shapes", shapes_too, "Write the activations found into facs.json, too");
+    app.add_flag("--ways-only", ways_only,
+                 "Only write how the landmarks of RIG go in every expression, landmark_ways.json: "
+                 "after a fit of RIG with the tables written before");
     CLI11_PARSE(app, argc, argv);
     try {
+        if (ways_only) {
+            write_ways(rig_file, "video", standard);
+            return 0;
+        }
+        if (shapes_file.empty() || only.empty())
+            throw Error("calibrate", "--shapes and --only, or --ways-only", "neither");
         const app::RigFiles files = app::read_rig_files(rig_file);
         const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
         const std::vector<app::MeasuredShape> shapes =

@@ -156,4 +156,12 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
     app::write_text(folder / "facs.json", text_of(facs, 2) + "\n");
 }
 
+void write_ways(const app::WayTable& ways, const std::filesystem::path& folder) {
+    const Json json = app::landmark_ways_json(
+        ways,
+        "How the landmarks of the head in calibration.json go in its calibrated expressions, mm at "
+        "atlas size; written by tools/calibrate");
+    app::write_text(folder / "landmark_ways.json", text_of(json, 2) + "\n");
+}
+
 }  // namespace risorius::calibrate

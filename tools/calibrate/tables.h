@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "app/landmark_ways.h"
 #include "calibration.h"
 
 namespace risorius::calibrate {
@@ -17,5 +18,8 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
 void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& result,
                   const rig::RigDescription& rig, double least,
                   const std::filesystem::path& folder);
+
+/// landmark_ways.json.
+void write_ways(const app::WayTable& ways, const std::filesystem::path& folder);
 
 }  // namespace risorius::calibrate

@@ -6,6 +6,7 @@
 #include "app/watch.h"
 #include "commands.h"
 #include "core/error.h"
+#include "core/known_names.h"
 
 namespace {
 
@@ -21,10 +22,15 @@ using risorius::quoted;
 // Mistakes on the command line in the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
     if (app.get_subcommands().empty()) {
-        std::string names;
-        for (const CLI::App* command : app.get_subcommands({})) names += " " + command->get_name();
-        return "command line: expected a command, one of" + names + ", found " +
-               (argc > 1 ? quoted(argv[1]) : "none");
+        std::string listed;
+        std::vector<std::string> names;
+        for (const CLI::App* command : app.get_subcommands({})) {
+            names.push_back(command->get_name());
+            listed += " " + names.back();
+        }
+        return "command line: expected a command, one of" + listed +
+               (argc > 1 ? risorius::did_you_mean(argv[1], names) + ", found " + quoted(argv[1])
+                         : ", found none");
     }
     const CLI::App& command = *app.get_subcommands().front();
     const std::string place = command.get_name(), text = error.what();
@@ -32,8 +38,14 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
         return place + ": expected " + text.substr(0, text.find(" is required")) + ", found none";
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
         const std::vector<std::string> extra = command.remaining(true);
-        return place + ": expected only what risorius " + place + " --help lists, found " +
-               quoted(extra.empty() ? text : extra.front());
+        const std::string found = extra.empty() ? text : extra.front();
+        std::vector<std::string> names;
+        if (found.starts_with("--"))
+            for (const CLI::Option* option : command.get_options())
+                for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        return place + ": expected only what risorius " + place + " --help lists" +
+               risorius::did_you_mean(found.substr(0, found.find('=')), names) + ", found " +
+               quoted(found);
     }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         return place + " " + text.substr(0, text.find(':')) + ": expected a value, found none";
@@ -59,6 +71,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("risorius COMMAND --help explains a command and gives an example.");
     cli::add_render(app);
+    cli::add_compare(app);
+    cli::add_sheet(app);
     cli::add_fit(app);
     cli::add_check(app);
     cli::add_info(app);

@@ -1,23 +1,14 @@
 // risorius render SCRIPT -o OUT
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "app/animate.h"
 #include "commands.h"
-#include "core/error.h"
+#include "render_options.h"
 
 namespace risorius::cli {
 
 namespace {
-
-app::PictureSize size_from(const std::string& text) {
-    app::PictureSize size;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width_px, &size.height_px, &rest) != 2)
-        throw Error("--size", "WIDTHxHEIGHT in pixels, as 1024x1024", "\"" + text + "\"");
-    return size;
-}
 
 struct RenderArguments {
     Common common;
@@ -26,10 +17,7 @@ struct RenderArguments {
 };
 
 void run(RenderArguments& arguments) {
-    const int threads = arguments.options.threads;
-    if (threads < 1 || threads > 256)
-        throw Error("--threads", "an integer in [1, 256]", std::to_string(threads));
-    if (!arguments.size.empty()) arguments.options.size = size_from(arguments.size);
+    settle_view(arguments.options, arguments.size);
     app::RunRecord record;
     {
         ProgressBar bar(arguments.common);
@@ -50,48 +38,82 @@ void run(RenderArguments& arguments) {
                 record.timing.encode_s);
 }
 
+void add_marks(CLI::App& command, app::SyncMarks& marks) {
+    constexpr const char* kMarks = "Marks for machines that watch the screen";
+    command
+        .add_option("--photodiode", marks.photodiode,
+                    "A square in a corner, black or white: upper_left, upper_right, lower_left or "
+                    "lower_right")
+        ->group(kMarks);
+    command
+        .add_option(
+            "--photodiode-shows", marks.photodiode_shows,
+            "When it is white: frames, in every other one, or events, in the frame with which "
+            "an expression or blink begins")
+        ->capture_default_str()
+        ->group(kMarks);
+    command.add_option("--photodiode-size", marks.photodiode_px, "Side of the square, pixels")
+        ->capture_default_str()
+        ->group(kMarks);
+    command
+        .add_option("--frame-counter", marks.frame_counter,
+                    "The frame's number in a corner, as 24 black and white cells: white, black, 20 "
+                    "bits, a cell that makes the white bits even, white")
+        ->group(kMarks);
+    command.add_option("--frame-counter-size", marks.frame_counter_px, "Side of a cell, pixels")
+        ->capture_default_str()
+        ->group(kMarks);
+}
+
 }  // namespace
 
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
     auto arguments = std::make_shared<RenderArguments>();
     app::AnimateOptions& options = arguments->options;
-    options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command->add_option("SCRIPT", options.script, "The script")->required();
     command
-        ->add_option("-o,--out", options.out,
-                     "What to write: .mp4, .mkv (lossless), a folder of PNG frames when it ends in "
-                     "/, or .png with "
-                     "--still. Beside it come OUT.json, how it was made, and OUT.frames.tsv, a row "
-                     "per frame")
+        ->add_option(
+            "-o,--out", options.out,
+            "What to write: .mp4 or .mov (H.264), .mkv (lossless), .webm (VP9), a folder of "
+            "PNG frames when it ends in /, or .png with --still. Beside it come OUT.json, how it "
+            "was made, and OUT.frames.tsv, a row "
+            "per frame")
         ->required();
     command->add_option("--rig", options.rig, "Another rig than the script's");
-    command->add_option("--size", arguments->size, "Another size of the picture, as 1024x1024");
     command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
     command->add_option(
-        "--camera", options.camera,
-        "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
-    command->add_option("--show", options.show,
-                        "Another sight of the face: skin, or muscles, which are coloured by their "
-                        "activation under translucent skin");
+        "--show", options.show,
+        "Another sight of the face: skin; muscles, coloured by their activation under "
+        "translucent skin; wire, the edges of the mesh; strain of the skin, -0.4 to "
+        "0.4; error, the distance from another script's face, 0 to 5 mm; landmarks");
+    command->add_option("--against", options.against, "With --show error: the other script");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
-    command
-        ->add_option("--quality", options.quality,
-                     "How carefully to simulate: preview, video or fine")
-        ->capture_default_str();
+    command->add_option(
+        "--turntable", options.turntable_s,
+        "The face of this time, in seconds, turned once round while the video lasts");
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
     command->add_flag("--emg", options.emg,
                       "Write into the table what surface electrodes would record of every muscle");
+    add_view(*command, options, arguments->size);
+    add_coding(*command, options);
+    add_marks(*command, options.marks);
     command
-        ->add_option(
-            "--threads", options.threads,
-            "1, or more to simulate beside drawing and to draw faster; the frames are the same")
-        ->capture_default_str();
+        ->add_option("--passes", options.passes,
+                     "Ground truth of every frame into the folder OUT.passes: segmentation, depth, "
+                     "normals, flow (pixels to the next frame, from the mesh itself), masks (face "
+                     "oval, eyes, mouth); several with commas. PNG and OpenEXR, results.json names "
+                     "the parts")
+        ->delimiter(',');
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"
-        "  risorius render samples/smile/script.json --still 1.0 --size 512x512 -o smile.png");
+        "  risorius render samples/smile/script.json --still 1.0 --size 512x512 -o smile.png\n"
+        "  risorius render mine/script.json --audio mine/voice.wav --audio-offset -480 -o "
+        "talk.mp4\n"
+        "  risorius render mine/script.json --fps 120 --lossless --photodiode lower_left "
+        "--frame-counter upper_left -o trial.mkv");
     command->callback([arguments] { run(*arguments); });
 }
 

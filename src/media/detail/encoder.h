@@ -1,21 +1,22 @@
-// One video stream into one file: H.264 in MP4 or FFV1 in Matroska. Knows nothing of temporary
-// names.
+// Pictures and their sound into one file. Knows nothing of temporary names.
+//
+// bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
+// milliseconds; the exact frame period stands in its DefaultDuration.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "core/image.h"
-#include "media/video_writer.h"
+#include "media/detail/video_form.h"
 
 namespace risorius::media::detail {
 
-enum class Container { kMp4, kMatroska };
-
 class Encoder {
   public:
-    /// `name` stands in messages, since `file` is a temporary name. `alpha` is for Matroska only.
-    Encoder(const std::filesystem::path& file, std::string name, Container container,
+    /// `name` stands in messages, since `file` is a temporary name. `form` is no folder.
+    Encoder(const std::filesystem::path& file, std::string name, Form form,
             const VideoOptions& options, bool alpha);
     ~Encoder();
     void append(const Image& frame);

@@ -9,6 +9,8 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/log.h>
 #include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
+#include <libswresample/swresample.h>
 #include <libswscale/swscale.h>
 }
 
@@ -19,10 +21,12 @@ struct Free {
     void operator()(AVFrame* p) const { av_frame_free(&p); }
     void operator()(AVPacket* p) const { av_packet_free(&p); }
     void operator()(SwsContext* p) const { sws_freeContext(p); }
+    void operator()(SwrContext* p) const { swr_free(&p); }
 };
 using CodecPtr = std::unique_ptr<AVCodecContext, Free>;
 using FramePtr = std::unique_ptr<AVFrame, Free>;
 using PacketPtr = std::unique_ptr<AVPacket, Free>;
+using SwrPtr = std::unique_ptr<SwrContext, Free>;
 using ScalerPtr = std::unique_ptr<SwsContext, Free>;
 
 inline std::string ffmpeg_text(int code) {

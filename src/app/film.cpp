@@ -1,0 +1,192 @@
+// Simulates, draws and measures; the pictures are handed on.
+#include "app/film.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/frame_table.h"
+#include "app/marked_pictures.h"
+#include "app/reference_run.h"
+#include "app/rig_files.h"
+#include "app/scene_from_rig.h"
+#include "app/sight.h"
+#include "app/stopwatch.h"
+#include "app/two_stages.h"
+#include "media/sha256.h"
+#include "render/offscreen_view.h"
+#include "sim/face.h"
+#include "track/simulated_emg.h"
+#include "track/timeline.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A jaw that follows its channels does so whatever the muscles that would move it do.
+std::vector<std::string> warnings_about(const track::ScriptDescription& script,
+                                        const rig::MuscleTable& muscles) {
+    std::vector<std::string> out;
+    if (script.header.jaw == track::JawDrive::kMuscles) return out;
+    for (const track::ChannelTrack& channel : script.channels)
+        for (const rig::Muscle& muscle : muscles.muscles)
+            if (muscle.id == track::split_side(channel.name).id &&
+                (muscle.group == "jaw" || muscle.group == "hyoid"))
+                out.push_back("channel " + channel.name +
+                              ": does not move the jaw, which follows jaw_open, jaw_forward and "
+                              "jaw_side unless the script says \"jaw\": \"muscles\"");
+    return out;
+}
+
+RunRecord describe(const AnimateOptions& options, const Shot& shot,
+                   const track::ScriptDescription& script, const RigFiles& files,
+                   const sim::Face& face) {
+    RunRecord record;
+    record.script = {options.script, media::sha256_of_file(options.script)};
+    for (const fs::path& recording : script.recordings)
+        record.recordings.push_back({recording, media::sha256_of_file(recording)});
+    record.rig = {files.file, media::sha256_of_file(files.file)};
+    record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
+    for (const fs::path& table : files.rig.table_files)
+        record.tables.push_back({table, media::sha256_of_file(table)});
+    record.out = options.out;
+    record.seed = shot.script.seed;
+    record.fps = shot.script.fps;
+    record.frames = shot.frames;
+    record.first_frame_s = shot.first_s;
+    record.width_px = shot.view.width_px;
+    record.height_px = shot.view.height_px;
+    record.camera = shot.view.camera;
+    record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
+    record.background = shot.background_text();
+    record.quality = options.quality;
+    record.jaw = script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
+    record.nodes = face.node_count();
+    record.tets = face.tet_count();
+    record.dropped_tets = face.dropped_tets();
+    record.fibres = face.fibre_count();
+    return record;
+}
+
+/// The whole head turned about the vertical axis, to its left.
+sim::FacePose turned(sim::FacePose pose, double angle_rad) {
+    const Mat3 turn(Eigen::AngleAxisd(angle_rad, Vec3::UnitY()));
+    pose.vertices *= turn.transpose();
+    for (Mat3& eye : pose.eye_rotation) eye = turn * eye;
+    pose.head = turn * pose.head;
+    return pose;
+}
+
+}  // namespace
+
+RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
+               FilmExtras& extras, const Watch& watch) {
+    const Stopwatch total;
+
+    // Read what was asked for
+    const sim::Quality quality = sim::quality_named(options.quality);
+    const RigFiles files = read_rig_files(shot.script.rig_file);
+    const track::ChannelTable channels = files.rig.channels();
+    const track::ScriptDescription script =
+        track::read_script(options.script, channels, files.rig.facs, files.rig.expressions);
+
+    // Build what runs
+    watch.tell(0, "building the face");
+    sim::Face face(files.rig, files.mesh, quality, files.place());
+    face.drive_jaw_by(script.header.jaw);
+    face.set_gravity(script.header.gravity_m_s2);
+    face.move(script.header.motion == track::Motion::kDynamic ? sim::Motion::kDynamic
+                                                              : sim::Motion::kQuasiStatic);
+    const track::Timeline timeline(script, channels);
+    render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
+    add_wrinkles(face.wrinkle_lines(), scene);
+    const bool inside = shot.view.show == render::Show::kMuscles;
+    if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
+    render::OffscreenView view(scene, shot.view);
+    const LandmarkPoints landmarks(face.head(), files.rig);
+    const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
+                      shot.view.height_px, landmarks);
+    std::optional<ReferenceRun> reference;
+    if (options.against)
+        reference.emplace(*options.against, shot.script.rig_file, options.quality,
+                          scene.rest.rows());
+    RunRecord record = describe(options, shot, script, files, face);
+    record.warnings = warnings_about(script, files.rig.muscles);
+    record.timing.build_s = total.seconds();
+
+    // One picture per frame
+    const auto drive = [&](double t_s) { return timeline.at(t_s); };
+    FrameTableOptions columns{.landmarks = options.landmarks,
+                              .project = [&](const Vec3& world) { return view.project(world); },
+                              .emg = {}};
+    for (std::size_t side = 0; side < 2; ++side)
+        columns.eye_forward[side] = face.head().eyes[side].forward;
+    columns.photodiode = options.marks.photodiode.has_value();
+    const auto driven = [&](double t_s) { return face.driven(timeline.at(t_s)); };
+    track::SimulatedEmg emg(channels, driven);
+    if (options.emg) columns.emg = [&](double t_s) { return emg.at(t_s); };
+    FrameTable table(channels, landmarks, track::UnitIntensity(script, files.rig.facs),
+                     std::move(columns));
+    MarkedPictures pictures(options.marks, script, shot.script.fps);
+    std::optional<PassWriter>& passes = extras.passes;
+    if (!options.passes.empty())
+        passes.emplace(extras.passes_folder, options.passes, scene, view.clip_from_world(),
+                       shot.view.width_px, shot.view.height_px, landmarks);
+    media::Sha256 hash;
+    int most_inverted_tets = 0;
+    const auto simulate = [&](int frame) {
+        const Stopwatch stage;
+        const double t_s = shot.time_s(frame);
+        if (frame == 0) face.start(drive);
+        while (script.header.motion == track::Motion::kDynamic &&
+               face.time_s() + 2 * face.step_s() < t_s) {  // what leads up to a still
+            watch.tell(face.time_s() / t_s, "simulating");
+            face.step(drive);
+        }
+        sim::FacePose pose = face.pose_at(t_s, drive);
+        const double angle_rad =
+            options.turntable_s ? 2 * std::numbers::pi * frame / shot.frames : 0.0;
+        if (options.turntable_s) pose = turned(std::move(pose), angle_rad);
+        const Eigen::VectorXd activation = face.activation_at(t_s);
+        table.add(frame, t_s, driven(t_s), activation, pose);
+        record.widest_jaw_mm = std::max(record.widest_jaw_mm, 1e3 * pose.jaw.open_m);
+        record.greatest_bite_n = std::max(record.greatest_bite_n, pose.tooth_force_n);
+        most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
+        render::Pose seen = pose_for_view(pose);
+        if (inside) {
+            Points muscles = face.muscle_vertices_at(t_s);
+            if (options.turntable_s)
+                muscles *= Mat3(Eigen::AngleAxisd(angle_rad, Vec3::UnitY())).transpose();
+            add_muscles(face.muscle_surfaces(), activation, std::move(muscles), seen);
+        }
+        seen.values = sight.values(pose.vertices,
+                                   reference ? std::optional(reference->at(t_s)) : std::nullopt);
+        record.timing.simulate_s += stage.seconds();
+        return seen;
+    };
+    const auto show = [&](int frame, const render::Pose& pose) {
+        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        const Stopwatch drawing;
+        Image image = view.draw(pose);
+        sight.draw_over(pose.positions, image);
+        table.add_picture(pictures.measure(image), pictures.lit(frame));
+        pictures.mark(frame, image);
+        if (passes) passes->add(frame, pose.positions);
+        hash.add(image.rgba.data(), image.rgba.size());
+        record.timing.draw_s += drawing.seconds();
+        const Stopwatch encoding;
+        use(std::move(image));
+        record.timing.encode_s += encoding.seconds();
+    };
+    in_two_stages(shot.frames, options.threads, simulate, show);
+
+    record.frames_sha256 = hash.finish();
+    record.solver = solver_figures(face.history(), most_inverted_tets);
+    record.timing.threads = options.threads;
+    record.timing.total_s = total.seconds();
+    extras.table = table.text();
+    return record;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,42 @@
+// What a picture shows besides the face itself: a quantity as colour on the skin, or lines and marks over it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/landmark_points.h"
+#include "app/rig_files.h"
+#include "core/image.h"
+#include "render/offscreen_view.h"
+#include "render/surface_passes.h"
+
+namespace risorius::app {
+
+/// Of the skin of a head per vertex, signed: that principal strain which is greater in size, ratio; mean of the triangles at a
+/// vertex by their area at rest. Not a number off the skin.
+std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
+                                     const Points& positions);
+
+class Sight {
+  public:
+    Sight(render::Show show, const render::Scene& scene, const rig::Head& head,
+          const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
+          int height_px, const LandmarkPoints& landmarks);
+
+    /// Colours for the pose; `reference` is where the vertices are in the other run.
+    std::optional<render::SkinValues> values(const Points& positions,
+                                             const std::optional<Points>& reference) const;
+    void draw_over(const Points& positions, Image& image) const;
+
+  private:
+    render::Show show_;
+    Points rest_;
+    Triangles skin_;
+    std::vector<std::array<int, 2>> edges_;
+    std::optional<render::SurfacePasses> surface_;
+    LandmarkPoints landmarks_;
+};
+
+}  // namespace risorius::app

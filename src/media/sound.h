@@ -1,0 +1,34 @@
+// Sound in memory, and out of files through the FFmpeg libraries: recordings to put beside a video, or the sound of a
+// video to measure. Decoders' own delay (AAC's priming, Opus' pre-skip) is taken away as the file says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace risorius::media {
+
+struct Sound {
+    int rate_hz = 48000;
+    int channels = 1;
+    int bits = 16;  ///< of a sample in its file: 16, 24, or 32 for floating point
+    double start_s =
+        0;  ///< time stamp of the first sample; Matroska and WebM round it to a millisecond
+    std::string container;       ///< by FFmpeg's name: "wav", "flac", "matroska,webm"
+    std::vector<float> samples;  ///< interleaved, 1 = full scale; 16 and 24 bits are held exactly
+
+    std::int64_t length() const {  ///< samples of one channel
+        return static_cast<std::int64_t>(samples.size()) / channels;
+    }
+};
+
+/// Throws Error when the file is missing, has no sound or less of it than its header says.
+Sound read_sound(const std::filesystem::path& file);
+/// The same of WAV or FLAC only.
+Sound read_recording(const std::filesystem::path& file);
+
+/// At another rate, every sample at its own time.
+Sound resampled(const Sound& sound, int rate_hz);
+
+}  // namespace risorius::media

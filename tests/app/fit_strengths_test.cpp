@@ -1,0 +1,81 @@
+// Muscles are scaled together until expressions move a head's landmarks as a table asks.
+#include "app/fit_strengths.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/rig_files.h"
+#include "core/error.h"
+#include "paths.h"
+#include "rig/rig_description.h"
+#include "temporary_folder.h"
+
+namespace risorius::app {
+namespace {
+
+const RigFiles& adult_files() {
+    static const RigFiles files = [] {
+        RigFiles out = read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs" /
+                                      "adult" / "rig.json");
+        out.rig.solids.clear();  // bundles alone: quick
+        return out;
+    }();
+    return files;
+}
+
+sim::Face face_of(const rig::RigDescription& rig) {
+    return sim::Face(rig, adult_files().mesh, sim::quality_named("preview"), "adult");
+}
+
+TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
+    const rig::RigDescription& rig = adult_files().rig;
+    WayTable goal;
+    {
+        sim::Face face = face_of(rig);
+        LandmarkWays ways(face, rig, "adult");
+        for (const std::string name : {"zygomaticus_major", "orbicularis_oris_upper_peripheral"}) {
+            const Points moved = ways.settle(ways.drive(name));
+            for (std::size_t i = 0; i < ways.landmarks().size(); ++i)
+                goal[name][ways.landmarks()[i]] = moved.row(static_cast<long>(i)).transpose();
+        }
+    }
+    rig::RigDescription spoilt = rig;
+    constexpr double kStronger = 1.5, kFarther = 1.4;
+    for (rig::MuscleBand& band : spoilt.atlas.bands)
+        if (band.muscle == "zygomaticus_major") band.strength *= kStronger;
+    spoilt.lips.upper_push *= kFarther;
+
+    sim::Face face = face_of(spoilt);
+    const StrengthFit fit = fit_strengths(face, spoilt, goal, {.keep = 1e-4}, "adult", {});
+    EXPECT_GT(fit.difference_before, 0.15);
+    EXPECT_LT(fit.difference, 0.03);
+    EXPECT_NEAR(fit.factor.at("zygomaticus_major"), 1 / kStronger, 0.04);
+    EXPECT_NEAR(fit.lips.upper_push, rig.lips.upper_push, 0.06);
+    EXPECT_NEAR(fit.factor.at("frontalis_medial"), 1, 1e-9) << "took no part";
+    EXPECT_NEAR(fit.lips.lower_turn, rig.lips.lower_turn, 1e-9) << "took no part";
+}
+
+TEST(FitStrengths, NeedsAWayForEveryLandmarkItCompares) {
+    sim::Face face = face_of(adult_files().rig);
+    try {
+        fit_strengths(face, adult_files().rig, {{"mouthSmile", {{"ch_l", Vec3::Zero()}}}}, {},
+                      "adult", {});
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "ways of \"mouthSmile\": expected landmark bm_l, found none");
+    }
+}
+
+TEST(LandmarkWays, AreReadAsTheyWereWritten) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "ways.json";
+    std::ofstream(file)
+        << landmark_ways_json({{"jawOpen", {{"li", Vec3(0, -0.01234, 0.0021)}}}}, "a test").dump();
+    EXPECT_LT((read_landmark_ways(file).at("jawOpen").at("li") - Vec3(0, -0.01234, 0.0021)).norm(),
+              1e-12);
+}
+
+}  // namespace
+}  // namespace risorius::app

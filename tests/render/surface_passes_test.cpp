@@ -1,0 +1,142 @@
+// Ground truth of pictures against what is known of simple bodies, and against the picture that is drawn.
+#include "render/surface_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/offscreen_view.h"
+#include "render/round_head.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr int kPictureWidth = 120, kPictureHeight = 80;
+
+/// A camera at z = 1 m that looks along -z, 0.4 m of height at the origin.
+Eigen::Matrix4d camera_ahead(bool orthographic) {
+    const double near = 0.1, far = 3, half = 0.2;
+    const double aspect = static_cast<double>(kPictureWidth) / kPictureHeight;
+    Eigen::Matrix4d eye = Eigen::Matrix4d::Identity(), clip = Eigen::Matrix4d::Zero();
+    eye(2, 3) = -1;
+    clip(0, 0) = 1 / (half * aspect);
+    clip(1, 1) = 1 / half;
+    if (orthographic) {
+        clip(2, 2) = -2 / (far - near);
+        clip(2, 3) = -(far + near) / (far - near);
+        clip(3, 3) = 1;
+    } else {
+        clip(2, 2) = -(far + near) / (far - near);
+        clip(2, 3) = -2 * far * near / (far - near);
+        clip(3, 2) = -1;
+    }
+    return clip * eye;
+}
+
+/// A square of skin, 0.2 m wide, in the plane z = 0.
+Scene square_scene() {
+    Scene scene;
+    scene.rest.resize(4, 3);
+    scene.rest << -0.1, -0.1, 0, 0.1, -0.1, 0, 0.1, 0.1, 0, -0.1, 0.1, 0;
+    Surface skin;
+    skin.triangles.resize(2, 3);
+    skin.triangles << 0, 1, 2, 0, 2, 3;
+    scene.surfaces.push_back(skin);
+    return scene;
+}
+
+std::size_t pixel_at(int x, int y) { return static_cast<std::size_t>(y * kPictureWidth + x); }
+
+TEST(SurfacePasses, ASquareAMetreAwayIsThatDeepAndFacesTheCamera) {
+    for (const bool orthographic : {false, true}) {
+        const SurfacePasses passes(square_scene(), camera_ahead(orthographic), kPictureWidth,
+                                   kPictureHeight);
+        const SeenSurface seen = passes.look(square_scene().rest);
+        const std::vector<std::uint16_t> parts = passes.parts(seen);
+        // 0.2 m of 0.4 m, that is 80 px: 40 x 40 pixels
+        EXPECT_EQ(std::count(parts.begin(), parts.end(), 1), 40 * 40);
+        const std::vector<float> depth = passes.depth(seen), normals = passes.normals(seen);
+        EXPECT_NEAR(depth[pixel_at(60, 40)], orthographic ? 0.9 : 1.0, 1e-6);
+        EXPECT_NEAR(depth[pixel_at(45, 25)], orthographic ? 0.9 : 1.0, 1e-6) << "not along the ray";
+        EXPECT_TRUE(std::isinf(depth[pixel_at(5, 5)]));
+        EXPECT_NEAR(normals[3 * pixel_at(60, 40) + 2], 1, 1e-6);
+        EXPECT_EQ(normals[3 * pixel_at(5, 5) + 2], 0);
+    }
+}
+
+TEST(SurfacePasses, FlowIsTheMotionOfTheMeshInPixels) {
+    const SurfacePasses passes(square_scene(), camera_ahead(false), kPictureWidth, kPictureHeight);
+    const Points rest = square_scene().rest;
+    Points moved = rest;
+    moved.col(0).array() += 0.01;   // 2 px to the right
+    moved.col(1).array() -= 0.015;  // 3 px down
+    const std::vector<float> flow = passes.flow(passes.look(rest), passes.look(moved));
+    for (const auto& [x, y] : {std::pair{60, 40}, {42, 22}, {78, 58}}) {
+        EXPECT_NEAR(flow[3 * pixel_at(x, y)], 2, 1e-4);
+        EXPECT_NEAR(flow[3 * pixel_at(x, y) + 1], 3, 1e-4);
+        EXPECT_EQ(flow[3 * pixel_at(x, y) + 2], 1);
+    }
+    EXPECT_EQ(flow[3 * pixel_at(5, 5)], 0);
+    EXPECT_EQ(flow[3 * pixel_at(5, 5) + 2], 1) << "background that stays in sight";
+    EXPECT_EQ(flow[3 * pixel_at(81, 50) + 2], 0) << "background that the square comes to cover";
+
+    // Towards the camera: from 1 m to 0.5 m everything moves to twice its distance from the middle
+    Points nearer = rest;
+    nearer.col(2).array() += 0.5;
+    const std::vector<float> grown = passes.flow(passes.look(rest), passes.look(nearer));
+    EXPECT_NEAR(grown[3 * pixel_at(70, 40)], 10.5, 1e-3);
+    EXPECT_NEAR(grown[3 * pixel_at(70, 40) + 1], 0.5, 1e-3);
+}
+
+TEST(SurfacePasses, FlowTellsWhatBecomesHidden) {
+    // A second square, smaller, passes in front of the first
+    Scene scene = square_scene();
+    const Points back = scene.rest;
+    scene.rest.conservativeResize(8, 3);
+    scene.rest.bottomRows(4) = 0.4 * back;
+    scene.rest.bottomRows(4).col(2).array() += 0.05;
+    scene.rest.bottomRows(4).col(0).array() -= 0.2;
+    Surface front;
+    front.material = Material::kTongue;
+    front.triangles = scene.surfaces[0].triangles.array() + 4;
+    scene.surfaces.push_back(front);
+    const SurfacePasses passes(scene, camera_ahead(false), kPictureWidth, kPictureHeight);
+    Points moved = scene.rest;
+    moved.bottomRows(4).col(0).array() += 0.2;
+    const SeenSurface before = passes.look(scene.rest), after = passes.look(moved);
+    const std::vector<float> flow = passes.flow(before, after);
+    EXPECT_EQ(flow[3 * pixel_at(60, 40) + 2], 0) << "behind the small square";
+    EXPECT_EQ(flow[3 * pixel_at(45, 25) + 2], 1) << "still seen";
+    EXPECT_EQ(passes.parts(after)[pixel_at(60, 40)], static_cast<std::uint16_t>(Part::kTongue));
+}
+
+TEST(SurfacePasses, CoverWhatThePictureShows) {
+    const Scene scene = RoundHead().scene;
+    ViewOptions options;
+    options.width_px = options.height_px = 96;
+    options.background.transparent = true;
+    OffscreenView view(scene, options);
+    Pose pose;
+    pose.positions = scene.rest;
+    const Image image = view.draw(pose);
+    const SurfacePasses passes(scene, view.clip_from_world(), 96, 96);
+    const SeenSurface seen = passes.look(scene.rest);
+    const std::vector<std::uint16_t> parts = passes.parts(seen);
+    int differ = 0, covered = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        covered += parts[i] != 0;
+        differ += (parts[i] != 0) != (image.rgba[4 * i + 3] > 127);
+    }
+    EXPECT_GT(covered, 1000);
+    EXPECT_LE(differ, covered / 100) << "pixels on the outline";
+
+    // Where a pixel's place is drawn is where the pixel is
+    const std::vector<float> still = passes.flow(seen, seen);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        EXPECT_NEAR(still[3 * i], 0, 1e-3);
+        EXPECT_NEAR(still[3 * i + 1], 0, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace risorius::render
