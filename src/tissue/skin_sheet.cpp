@@ -83,7 +83,6 @@ std::vector<SkinSheet::Hinge> SkinSheet::hinges_of(const Triangles& triangles,
             area(rest_, triangles, first.triangle) + area(rest_, triangles, second.triangle);
         hinge.w =
             3.0 * (0.5 * (bending_n_m[first.triangle] + bending_n_m[second.triangle])) / areas;
-        hinge.rest_length = std::sqrt(s * s + rounding * rounding);
         hinge.squared_rounding = rounding * rounding;
         out.push_back(hinge);
     }
@@ -117,7 +116,6 @@ void SkinSheet::fill(const std::vector<Triangle>& triangles, const std::vector<H
         HingeGroup<Real>& group = work.hinges[slot / kWidth];
         const std::size_t lane = slot % kWidth;
         group.w[lane] = real(slot < hinges.size() ? from.w : 0.0);
-        group.rest_length[lane] = real(from.rest_length);
         group.squared_rounding[lane] = real(from.squared_rounding);
         for (int k = 0; k < 3; ++k) group.rest[k][lane] = real(from.rest[k]);
         for (int k = 0; k < 4; ++k) {
@@ -125,6 +123,10 @@ void SkinSheet::fill(const std::vector<Triangle>& triangles, const std::vector<H
             group.node[k][lane] = from.node[k];
         }
     }
+    // With the rounding of the energy, so that rest is exact
+    for (HingeGroup<Real>& g : work.hinges)
+        g.rest_length = solve::sqrt_lanes(g.rest[0] * g.rest[0] + g.rest[1] * g.rest[1] +
+                                          g.rest[2] * g.rest[2] + g.squared_rounding);
 }
 
 template <class Real>

@@ -82,7 +82,7 @@ class SkinSheet {
     struct Hinge {
         int node[4]{};
         double c[4]{};
-        double w = 0, rest_length = 0, squared_rounding = 0;
+        double w = 0, squared_rounding = 0;
         Vec3 rest = Vec3::Zero();
     };
     struct Triangle {
