@@ -33,18 +33,37 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
       velocity_table_(velocity_, -kGreatestSpeed, kGreatestSpeed, kCells),
       passive_table_(passive_curve(shape), 1.0, kGreatestLength, kCells),
       optimal_length_m_(points_.size(), 0.0) {
-    const auto count = static_cast<Eigen::Index>(points_.size());
-    body_position_.setZero(count, 3);
-    for (Eigen::Index p = 0; p < count; ++p)
-        body_position_.row(p) = points_[static_cast<std::size_t>(p)].body_rest.transpose();
+    const auto count = static_cast<int>(points_.size());
+    body_place_.set_zero(count);
+    for (int p = 0; p < count; ++p) {
+        const FibrePoint& point = points_[static_cast<std::size_t>(p)];
+        Embedding at{{}, point.count, {}};
+        for (int i = 0; i < point.count; ++i) {
+            at.nodes[i] = point.nodes[i];
+            at.weights[i] = point.weights[i];
+        }
+        embedding_.push_back(at);
+        if (point.count == 0)
+            body_place_[p] =
+                Lanes{point.body_rest.x(), point.body_rest.y(), point.body_rest.z(), 0};
+    }
+    position_.set_zero(count);
+    force_.set_zero(count);
 
     place_points(rest);
+    std::vector<char> taken(points_.size(), 0);
     for (std::size_t f = 0; f < fibres_.size(); ++f) {
         const Fibre& fibre = fibres_[f];
         if (fibre.point_count < 2 || fibre.first_point < 0 ||
             fibre.first_point + fibre.point_count > count)
             throw std::invalid_argument("FibreSet: fibre " + std::to_string(f) +
                                         " needs two or more of the points given");
+        for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count; ++p) {
+            if (taken[static_cast<std::size_t>(p)])
+                throw std::invalid_argument("FibreSet: fibre " + std::to_string(f) +
+                                            " has a point of another");
+            taken[static_cast<std::size_t>(p)] = 1;
+        }
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
             if (!(length(p) > 0))
                 throw std::invalid_argument("FibreSet: fibre " + std::to_string(f) +
@@ -59,21 +78,14 @@ void FibreSet::set_body_positions(std::span<const Rigid> bodies) {
         const FibrePoint& point = points_[p];
         if (point.count > 0) continue;
         assert(point.body >= 0 && static_cast<std::size_t>(point.body) < bodies.size());
-        body_position_.row(static_cast<Eigen::Index>(p)) =
-            (bodies[static_cast<std::size_t>(point.body)] * point.body_rest).transpose();
+        const Vec3 at = bodies[static_cast<std::size_t>(point.body)] * point.body_rest;
+        body_place_[static_cast<int>(p)] = Lanes{at.x(), at.y(), at.z(), 0};
     }
 }
 
 void FibreSet::place_points(const Points& x) const {
     x_.copy(x);
-    position_.copy(body_position_);
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-        const FibrePoint& point = points_[p];
-        if (point.count == 0) continue;
-        Lanes sum = point.weights[0] * x_[point.nodes[0]];
-        for (int i = 1; i < point.count; ++i) sum += point.weights[i] * x_[point.nodes[i]];
-        position_[static_cast<int>(p)] = sum;
-    }
+    for (std::size_t p = 0; p < points_.size(); ++p) position_[static_cast<int>(p)] = place(p);
 }
 
 double FibreSet::length(int segment) const {
@@ -112,7 +124,7 @@ void FibreSet::go_on(const FibreSet& whole, std::span<const int> fibres,
     for (std::size_t p = 0; p < points.size(); ++p) {
         const auto from = static_cast<std::size_t>(points[p]);
         if (step_s_ > 0) in_step_[p] = whole.in_step_[from];
-        body_position_.row(static_cast<Eigen::Index>(p)) = whole.body_position_.row(points[p]);
+        body_place_[static_cast<int>(p)] = whole.body_place_[points[p]];
     }
     for (std::size_t f = 0; f < fibres.size(); ++f)
         fibres_[f].f0_n = whole.fibres_[static_cast<std::size_t>(fibres[f])].f0_n;
@@ -147,13 +159,18 @@ inline FibreSet::Pull FibreSet::in_step(const Fibre& fibre, double a, int segmen
 double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
                             Points& gradient) const {
     assert(gradient.rows() == x.rows());
-    place_points(x);
-    force_.set_zero(static_cast<long>(points_.size()));
+    x_.copy(x);
     gradient_.set_zero(x.rows());
     double energy = 0;
     for (const Fibre& fibre : fibres_) {
         const double a = activation[fibre.column];
-        for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
+        const int begin = fibre.first_point, end = begin + fibre.point_count;
+        for (int p = begin; p < end; ++p) {
+            position_[p] = place(static_cast<std::size_t>(p));
+            force_[p] = Lanes{};
+        }
+        bool pulls = false;
+        for (int p = begin; p < end - 1; ++p) {
             const Lanes d = position_[p + 1] - position_[p];
             const double l = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
             // A relaxed, slack segment does nothing; most segments of most frames are that.
@@ -164,12 +181,13 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
             const Lanes along = (pull.tension_n / l) * d;
             force_[p] -= along;
             force_[p + 1] += along;
+            pulls = true;
         }
-    }
-    for (std::size_t p = 0; p < points_.size(); ++p) {
-        const FibrePoint& point = points_[p];
-        const Lanes force = force_[static_cast<int>(p)];
-        for (int i = 0; i < point.count; ++i) gradient_[point.nodes[i]] += point.weights[i] * force;
+        if (!pulls) continue;
+        for (int p = begin; p < end; ++p) {
+            const Embedding& at = embedding_[static_cast<std::size_t>(p)];
+            for (int i = 0; i < at.count; ++i) gradient_[at.nodes[i]] += at.weights[i] * force_[p];
+        }
     }
     gradient_.add_to(gradient);
     return energy;
@@ -214,7 +232,7 @@ Eigen::VectorXd FibreSet::mean_stretch(const Points& x) const {
 
 Points FibreSet::positions(const Points& x) const {
     place_points(x);
-    Points positions = Points::Zero(body_position_.rows(), 3);
+    Points positions = Points::Zero(static_cast<Eigen::Index>(points_.size()), 3);
     position_.add_to(positions);
     return positions;
 }

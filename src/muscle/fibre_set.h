@@ -11,6 +11,7 @@
 // tissue they lie in.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -48,8 +49,8 @@ struct Fibre {
 /// One object serves one thread at a time: it keeps scratch arrays.
 class FibreSet {
   public:
-    /// `rest` are the nodes at rest, n x 3, m; bodies are then at rest as well. Throws
-    /// std::invalid_argument on a fibre with fewer than two points or a segment without length.
+    /// `rest` are the nodes at rest, n x 3, m; bodies are then at rest as well. Throws std::invalid_argument on a fibre with
+    /// fewer than two points or a segment without length, and on a point that two fibres want.
     FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, const Points& rest,
              const HillShape& shape = {});
 
@@ -96,6 +97,18 @@ class FibreSet {
     Points positions(const Points& x) const;
 
   private:
+    /// What an inner loop reads of a point.
+    struct Embedding {
+        std::int32_t nodes[4];
+        std::int32_t count;
+        double weights[4];
+    };
+    solve::Lanes place(std::size_t point) const {
+        const Embedding& at = embedding_[point];
+        solve::Lanes sum = body_place_[static_cast<int>(point)];
+        for (int i = 0; i < at.count; ++i) sum += at.weights[i] * x_[at.nodes[i]];
+        return sum;
+    }
     void place_points(const Points& x) const;
     double length(int segment) const;
     /// What a segment pulls with and its energy, J, at length l.
@@ -120,9 +133,10 @@ class FibreSet {
         double work;             ///< that times h vmax l0
         double stiffness;        ///< F0 l0
     };
-    std::vector<StepSegment> in_step_;              ///< likewise
-    Points body_position_;                          ///< P x 3, of points that ride on bodies
-    mutable solve::PaddedPoints x_, gradient_;      ///< nodes
+    std::vector<StepSegment> in_step_;  ///< likewise
+    std::vector<Embedding> embedding_;
+    solve::PaddedPoints body_place_;            ///< of points that ride on bodies; the others: 0
+    mutable solve::PaddedPoints x_, gradient_;  ///< nodes
     mutable solve::PaddedPoints position_, force_;  ///< points
 };
 

@@ -101,8 +101,7 @@ struct Face::Impl {
     std::optional<JawDynamics> jaw_dynamics;  // the same
     std::optional<JawSynergies> jaw_synergies;
     JawJoint jaw_joint;
-    std::vector<Points> past_moves;  // of x within the last pieces against what rides on bone, the
-                                     // latest first; two at most
+    Points last_move;  // of x within the last piece against what rides on bone, or no rows
     Neck neck;
     TissueMotion motion;
     std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
@@ -304,7 +303,7 @@ struct Face::Impl {
         now.x = x;
         now.activation = activation;
         now.drive = drive;
-        past_moves.clear();
+        last_move.resize(0, 3);
         motion.start(now.x, head_motion(head, drive));
         before = now;
         return figures;
@@ -364,21 +363,19 @@ struct Face::Impl {
         prescribe(x, activation, drive);
         tissue.find_contacts(x);
         const Points carried = x;
-        // What changed in the piece before, and all of it, are likely to go on: their curvatures are the first the search knows.
-        std::vector<Points> likely;
-        if (past_moves.size() == 2) likely.push_back(past_moves[0] - past_moves[1]);
-        if (!past_moves.empty()) likely.push_back(past_moves[0]);
+        // The move of the piece before is likely to go on: its curvature is the first the search knows.
+        const std::span<const Points> likely(&last_move, last_move.rows() > 0 ? 1 : 0);
         const StepFigures figures = implicit_step(
             h, piece_s, moves.start, moves.aim, activation, {moves.moved, gravity_at(drive)},
             // A jaw that muscles move needs twice as many to keep up
             {.iterations = (jaw_dynamics ? 2 : 1) * quality.iterations,
              .least_iterations = quality.least_iterations,
              .memory = kMemory,
+             .pairs = quality.precision,
              .step_cap_m = kStepCap_m,
              .tolerance_rms_m = quality.tolerance_rms_m},
             x, likely);
-        past_moves.insert(past_moves.begin(), x - carried);
-        past_moves.resize(std::min<std::size_t>(past_moves.size(), 2));
+        last_move = x - carried;
         tissue.fibres().end_step();
         motion.end(x);
         statics->moved();
@@ -546,7 +543,7 @@ void Face::start(const DriveAt& drive) {
     impl_->now.jaw = {};
     impl_->motion.start(impl_->now.x, head_motion(impl_->head, first));
     impl_->statics->forget();
-    impl_->past_moves.clear();
+    impl_->last_move.resize(0, 3);
     if (at_rest) {
         impl_->now.activation = activation;
         impl_->now.drive = first;

@@ -247,7 +247,7 @@ void FaceTissue::note_contacts() {
 double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                              solve::Precision precision) const {
     double energy = tets_->add_energy(x, gradient, precision);
-    energy += skin_->add_energy(x, gradient);
+    energy += skin_->add_energy(x, gradient, precision);
     energy += tethers_->add_energy(x, gradient);
     energy += fibres_->add_energy(x, activation, gradient);
     solids_pull_ = {};

@@ -104,11 +104,11 @@ class MuscleSolids {
 
     /// What binds the tissue to the muscles where these are in x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
     struct Spring {
-        int nodes[4] = {};
-        double weights[4] = {};
-        int count;
-        Vec3 target;
-        double stiffness_n_per_m;
+        int nodes[4]{};
+        double weights[4]{};
+        int count = 0;
+        Vec3 target = Vec3::Zero();
+        double stiffness_n_per_m = 0;
     };
     void add_springs(const Points& x, std::vector<Spring>& springs) const;
 

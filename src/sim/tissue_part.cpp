@@ -220,7 +220,7 @@ double TissuePart::energy(const Points& at, Points& gradient) const {
         gradient.row(i) += inertia * mass_kg_[i] * off.transpose();
     }
     value += tets_->add_energy(at, gradient, precision_);
-    value += skin_->add_energy(at, gradient);
+    value += skin_->add_energy(at, gradient, precision_);
     value += tethers_.add_energy(at, gradient);
     value += fibres_->add_energy(at, activation_, gradient);
     for (const MuscleSolids::Spring& spring : springs_) {

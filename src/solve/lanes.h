@@ -2,6 +2,7 @@
 // instructions; the arithmetic is the same in all of them, so the bits are too.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/types.h"
@@ -38,6 +39,25 @@ inline void add_lanes(Lanes& sum, const Lanes& a) { sum += a; }
 inline void add_lanes(Lanes& sum, const FloatLanes& a) {
     sum += __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1, 2, 3), Lanes);
     sum += __builtin_convertvector(__builtin_shufflevector(a, a, 4, 5, 6, 7), Lanes);
+}
+
+inline Lanes sqrt_lanes(const Lanes& a) {
+#ifdef __AVX__
+    return Lanes(__builtin_ia32_sqrtpd256(a));
+#else
+    Lanes out;
+    for (int k = 0; k < 4; ++k) out[k] = std::sqrt(a[k]);
+    return out;
+#endif
+}
+inline FloatLanes sqrt_lanes(const FloatLanes& a) {
+#ifdef __AVX__
+    return FloatLanes(__builtin_ia32_sqrtps256(a));
+#else
+    FloatLanes out;
+    for (int k = 0; k < 8; ++k) out[k] = std::sqrt(a[k]);
+    return out;
+#endif
 }
 
 /// Rows (x y z -) of four points to their x, y and z lanes.

@@ -10,12 +10,21 @@
 namespace risorius::solve {
 
 inline Lanes load_lanes(const double* p) { return Lanes{p[0], p[1], p[2], p[3]}; }
+inline Lanes load_lanes(const float* p) {
+    return __builtin_convertvector((FloatPoint{p[0], p[1], p[2], p[3]}), Lanes);
+}
+
+/// Points, or what is like them in float; sums are in double.
+template <class T>
+concept PointRows = requires(const T& rows) {
+    load_lanes(rows.data());
+};
 
 /// Its own loop rather than Eigen's, so that the order of the sum does not depend on where the
 /// arrays lie in memory.
-inline double dot(const Points& a, const Points& b) {
-    const double* p = a.data();
-    const double* q = b.data();
+double dot(const PointRows auto& a, const PointRows auto& b) {
+    const auto* p = a.data();
+    const auto* q = b.data();
     const long n = a.size();
     Lanes s0{}, s1{}, s2{}, s3{};
     long i = 0;
@@ -26,15 +35,15 @@ inline double dot(const Points& a, const Points& b) {
         s3 += load_lanes(p + i + 12) * load_lanes(q + i + 12);
     }
     double sum = sum_lanes((s0 + s1) + (s2 + s3));
-    for (; i < n; ++i) sum += p[i] * q[i];
+    for (; i < n; ++i) sum += static_cast<double>(p[i]) * static_cast<double>(q[i]);
     return sum;
 }
 
 /// sum += scale a, in the same pass as the product of that with b, which it returns; b may be `sum`.
-inline double add_and_dot(Points& sum, double scale, const Points& a, const Points& b) {
+double add_and_dot(Points& sum, double scale, const PointRows auto& a, const PointRows auto& b) {
     double* s = sum.data();
-    const double* p = a.data();
-    const double* q = b.data();
+    const auto* p = a.data();
+    const auto* q = b.data();
     const long n = sum.size();
     Lanes even{}, odd{};
     long i = 0;

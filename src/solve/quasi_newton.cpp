@@ -8,38 +8,48 @@
 namespace risorius::solve {
 
 // direction_ = -H gradient_, H the L-BFGS inverse with A^-1 at its core (Nocedal's two loops).
-void QuasiNewton::direction(const InverseMetric& metric) {
-    const int ring = static_cast<int>(pairs_.size());
-    const auto pair = [&](int age) -> Pair& {
-        return pairs_[static_cast<std::size_t>((newest_ - age + ring) % ring)];
+template <class Real>
+void QuasiNewton::direction(const InverseMetric& metric, Ring<Real>& pairs) {
+    const int ring = static_cast<int>(pairs.size());
+    const auto pair = [&](int age) -> Pair<Real>& {
+        return pairs[static_cast<std::size_t>((newest_ - age + ring) % ring)];
     };
     work_ = gradient_;
     double along = kept_ > 0 ? dot(pair(0).step, work_) : 0;
     for (int age = 0; age < kept_; ++age) {
-        Pair& p = pair(age);
+        Pair<Real>& p = pair(age);
         p.alpha = p.inverse_product * along;
-        along = add_and_dot(work_, -p.alpha, p.gradient_change,
-                            age + 1 < kept_ ? pair(age + 1).step : work_);
+        along = age + 1 < kept_
+                    ? add_and_dot(work_, -p.alpha, p.gradient_change, pair(age + 1).step)
+                    : add_and_dot(work_, -p.alpha, p.gradient_change, work_);
     }
     metric(work_, direction_);
     along = kept_ > 0 ? dot(pair(kept_ - 1).gradient_change, direction_) : 0;
     for (int age = kept_ - 1; age >= 0; --age) {
-        const Pair& p = pair(age);
-        const double beta = p.inverse_product * along;
-        along = add_and_dot(direction_, p.alpha - beta, p.step,
-                            age > 0 ? pair(age - 1).gradient_change : direction_);
+        const Pair<Real>& p = pair(age);
+        const double share = p.alpha - p.inverse_product * along;
+        along = age > 0 ? add_and_dot(direction_, share, p.step, pair(age - 1).gradient_change)
+                        : add_and_dot(direction_, share, p.step, direction_);
     }
     direction_ = -direction_;
 }
 
+void QuasiNewton::direction(const InverseMetric& metric) {
+    if (in_single_.empty())
+        direction(metric, in_double_);
+    else
+        direction(metric, in_single_);
+}
+
 // The pair of a step from gradient_ to trial_gradient_, if it shows positive curvature.
-void QuasiNewton::remember(double step_length, const Points& step) {
-    if (pairs_.empty()) return;
-    const int ring = static_cast<int>(pairs_.size());
+template <class Real>
+void QuasiNewton::remember(double step_length, const Points& step, Ring<Real>& pairs) {
+    if (pairs.empty()) return;
+    const int ring = static_cast<int>(pairs.size());
     const int next = kept_ == 0 ? 0 : (newest_ + 1) % ring;
-    Pair& p = pairs_[static_cast<std::size_t>(next)];
-    p.step = step_length * step;
-    p.gradient_change = trial_gradient_ - gradient_;
+    Pair<Real>& p = pairs[static_cast<std::size_t>(next)];
+    p.step = (step_length * step).template cast<Real>();
+    p.gradient_change = (trial_gradient_ - gradient_).template cast<Real>();
     const double product = dot(p.step, p.gradient_change);
     const double smallest =
         1e-10 * std::sqrt(dot(p.step, p.step) * dot(p.gradient_change, p.gradient_change));
@@ -52,6 +62,13 @@ void QuasiNewton::remember(double step_length, const Points& step) {
     }
 }
 
+void QuasiNewton::remember(double step_length, const Points& step) {
+    if (in_single_.empty())
+        remember(step_length, step, in_double_);
+    else
+        remember(step_length, step, in_single_);
+}
+
 StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCholesky& metric,
                                  Points& x, const QuasiNewtonOptions& options) {
     return minimise(
@@ -62,7 +79,9 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
                                  Points& x, const QuasiNewtonOptions& options,
                                  std::span<const Points> likely) {
     const long n = x.rows();
-    pairs_.resize(static_cast<std::size_t>(std::max(options.memory, 0)));
+    const auto memory = static_cast<std::size_t>(std::max(options.memory, 0));
+    in_double_.resize(options.pairs == Precision::kDouble ? memory : 0);
+    in_single_.resize(options.pairs == Precision::kSingle ? memory : 0);
     kept_ = 0;
     newest_ = 0;
     gradient_.resize(n, 3);

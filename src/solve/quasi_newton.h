@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "solve/lanes.h"
 #include "solve/sparse_cholesky.h"
 
 namespace risorius::solve {
@@ -22,10 +23,11 @@ using EnergyAndGradient = std::function<double(const Points& x, Points& gradient
 using InverseMetric = std::function<void(const Points& b, Points& x)>;
 
 struct QuasiNewtonOptions {
-    int iterations = 6;        ///< at most
-    int least_iterations = 0;  ///< before the tolerance may stop it
-    int memory = 6;            ///< pairs kept
-    double step_cap_m = 6e-3;  ///< longest move of one node in one iteration
+    int iterations = 6;                    ///< at most
+    int least_iterations = 0;              ///< before the tolerance may stop it
+    int memory = 6;                        ///< pairs kept
+    Precision pairs = Precision::kDouble;  ///< what they are kept in
+    double step_cap_m = 6e-3;              ///< longest move of one node in one iteration
     double tolerance_rms_m =
         0;  ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
     double sufficient_decrease = 1e-4;
@@ -55,16 +57,24 @@ class QuasiNewton {
                         const QuasiNewtonOptions& options, std::span<const Points> likely = {});
 
   private:
+    template <class Real>
     struct Pair {
-        Points step;             ///< s
-        Points gradient_change;  ///< y
-        double inverse_product;  ///< 1 / (s . y)
+        Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> step;             ///< s
+        Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> gradient_change;  ///< y
+        double inverse_product;                                                   ///< 1 / (s . y)
         double alpha;
     };
+    template <class Real>
+    using Ring = std::vector<Pair<Real>>;  ///< of options.memory pairs, or empty
     void direction(const InverseMetric& metric);
+    template <class Real>
+    void direction(const InverseMetric& metric, Ring<Real>& pairs);
     void remember(double step_length, const Points& step);
+    template <class Real>
+    void remember(double step_length, const Points& step, Ring<Real>& pairs);
 
-    std::vector<Pair> pairs_;  ///< ring of options.memory pairs
+    Ring<double> in_double_;
+    Ring<float> in_single_;
     int newest_ = 0;
     int kept_ = 0;
     Points gradient_, trial_gradient_, trial_, work_, direction_;

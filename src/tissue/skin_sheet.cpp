@@ -36,12 +36,10 @@ double area(const Points& x, const Triangles& triangles, int t) {
 
 SkinSheet::SkinSheet(const Triangles& triangles, const Points& rest,
                      const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m)
-    : triangle_count_(static_cast<int>(triangles.rows())) {
+    : rest_(rest), triangle_count_(static_cast<int>(triangles.rows())) {
     assert(membrane_n_per_m.size() == triangles.rows() && bending_n_m.size() == triangles.rows());
-    triangles_.resize(static_cast<std::size_t>((triangle_count_ + 3) / 4));
-    for (int slot = 0; slot < 4 * static_cast<int>(triangles_.size()); ++slot) {
-        // The last group is filled up with copies of the last triangle that have no stiffness.
-        const int t = std::min(slot, triangle_count_ - 1);
+    std::vector<Triangle> sheet;
+    for (int t = 0; t < triangle_count_; ++t) {
         const Vec3 e1 = point(rest, triangles(t, 1)) - point(rest, triangles(t, 0));
         const Vec3 e2 = point(rest, triangles(t, 2)) - point(rest, triangles(t, 0));
         const double doubled_area = e1.cross(e2).norm();
@@ -49,144 +47,201 @@ SkinSheet::SkinSheet(const Triangles& triangles, const Points& rest,
             throw std::invalid_argument("SkinSheet: triangle " + std::to_string(t) +
                                         " has no area at rest");
         const double l = e1.norm(), ex = e2.dot(e1) / l, ey = doubled_area / l;
-        TriangleGroup& group = triangles_[static_cast<std::size_t>(slot / 4)];
-        const int lane = slot % 4;
-        group.b00[lane] = 1.0 / l;
-        group.b01[lane] = -ex / (l * ey);
-        group.b11[lane] = 1.0 / ey;
-        group.stiffness[lane] =
-            slot < triangle_count_ ? 0.5 * doubled_area * membrane_n_per_m[t] : 0.0;
-        for (int k = 0; k < 3; ++k) group.node[k][lane] = triangles(t, k);
+        sheet.push_back({{triangles(t, 0), triangles(t, 1), triangles(t, 2)},
+                         1.0 / l,
+                         -ex / (l * ey),
+                         1.0 / ey,
+                         0.5 * doubled_area * membrane_n_per_m[t],
+                         {e1 / l, (e2 - ex / l * e1) / ey}});
     }
-    add_hinges(triangles, rest, bending_n_m);
+    const std::vector<Hinge> hinges = hinges_of(triangles, bending_n_m);
+    hinge_count_ = static_cast<int>(hinges.size());
+    fill(sheet, hinges, double_);
+    fill(sheet, hinges, single_);
 }
 
-void SkinSheet::add_hinges(const Triangles& triangles, const Points& rest,
-                           const Eigen::VectorXd& bending_n_m) {
-    const auto edges = detail::inner_edges(triangles);
-    hinge_count_ = static_cast<int>(edges.size());
-    hinges_.resize((edges.size() + 3) / 4);
+std::vector<SkinSheet::Hinge> SkinSheet::hinges_of(const Triangles& triangles,
+                                                   const Eigen::VectorXd& bending_n_m) const {
+    std::vector<Hinge> out;
     const auto opposite = [&](const EdgeSide& side) {
         return triangles(side.triangle, (side.edge + 2) % 3);
     };
-    for (int slot = 0; slot < 4 * static_cast<int>(hinges_.size()); ++slot) {
-        const auto& [first, second] =
-            edges[static_cast<std::size_t>(std::min(slot, hinge_count_ - 1))];
-        const int nodes[4] = {first.low, first.high, opposite(first), opposite(second)};
-        const Vec3 x0 = point(rest, nodes[0]), x1 = point(rest, nodes[1]);
-        const Vec3 xa = point(rest, nodes[2]), xb = point(rest, nodes[3]);
+    for (const auto& [first, second] : detail::inner_edges(triangles)) {
+        Hinge hinge{.node = {first.low, first.high, opposite(first), opposite(second)}};
+        const Vec3 x0 = point(rest_, hinge.node[0]), x1 = point(rest_, hinge.node[1]);
+        const Vec3 xa = point(rest_, hinge.node[2]), xb = point(rest_, hinge.node[3]);
         const double at_0a = cotangent(x0, x1, xa), at_0b = cotangent(x0, x1, xb);
         const double at_1a = cotangent(x1, x0, xa), at_1b = cotangent(x1, x0, xb);
-        const double c[4] = {at_1a + at_1b, at_0a + at_0b, -at_0a - at_1a, -at_0b - at_1b};
-        const double s = (c[0] * (x0 - xb) + c[1] * (x1 - xb) + c[2] * (xa - xb)).norm();
+        double* const c = hinge.c;
+        c[0] = at_1a + at_1b;
+        c[1] = at_0a + at_0b;
+        c[2] = -at_0a - at_1a;
+        c[3] = -at_0b - at_1b;
+        hinge.rest = c[0] * (x0 - xb) + c[1] * (x1 - xb) + c[2] * (xa - xb);
+        const double s = hinge.rest.norm(), rounding = kHingeRounding * s;
         const double areas =
-            area(rest, triangles, first.triangle) + area(rest, triangles, second.triangle);
-        const double bending = 0.5 * (bending_n_m[first.triangle] + bending_n_m[second.triangle]);
-
-        HingeGroup& group = hinges_[static_cast<std::size_t>(slot / 4)];
-        const int lane = slot % 4;
-        const double rounding = kHingeRounding * s;
-        group.w[lane] = slot < hinge_count_ ? 3.0 * bending / areas : 0.0;
-        group.rest_length[lane] = std::sqrt(s * s + rounding * rounding);
-        group.squared_rounding[lane] = rounding * rounding;
-        for (int k = 0; k < 4; ++k) {
-            group.c[k][lane] = c[k];
-            group.node[k][lane] = nodes[k];
-        }
+            area(rest_, triangles, first.triangle) + area(rest_, triangles, second.triangle);
+        hinge.w =
+            3.0 * (0.5 * (bending_n_m[first.triangle] + bending_n_m[second.triangle])) / areas;
+        hinge.squared_rounding = rounding * rounding;
+        out.push_back(hinge);
     }
+    return out;
 }
 
-double SkinSheet::membrane_energy() const {
-    const Lanes one = Lanes{} + 1.0;
-    Lanes energy{};
-    for (const TriangleGroup& g : triangles_) {
-        Lanes e1[3], e2[3];
-        {
-            Lanes r1[4], r2[4];
-            for (int lane = 0; lane < 4; ++lane) {
-                const Lanes p0 = x_[g.node[0][lane]];
-                r1[lane] = x_[g.node[1][lane]] - p0;
-                r2[lane] = x_[g.node[2][lane]] - p0;
-            }
-            solve::rows_to_lanes(r1[0], r1[1], r1[2], r1[3], e1[0], e1[1], e1[2]);
-            solve::rows_to_lanes(r2[0], r2[1], r2[2], r2[3], e2[0], e2[1], e2[2]);
+// The last groups are filled up with copies of the last element that have no stiffness.
+template <class Real>
+void SkinSheet::fill(const std::vector<Triangle>& triangles, const std::vector<Hinge>& hinges,
+                     Work<Real>& work) {
+    constexpr std::size_t kWidth = solve::LanesOf<Real>::kWidth;
+    const auto real = [](double value) { return static_cast<Real>(value); };
+    work.triangles.resize((triangles.size() + kWidth - 1) / kWidth);
+    for (std::size_t slot = 0; slot < kWidth * work.triangles.size(); ++slot) {
+        const Triangle& from = triangles[std::min(slot, triangles.size() - 1)];
+        TriangleGroup<Real>& group = work.triangles[slot / kWidth];
+        const std::size_t lane = slot % kWidth;
+        group.b00[lane] = real(from.b00);
+        group.b01[lane] = real(from.b01);
+        group.b11[lane] = real(from.b11);
+        group.stiffness[lane] = real(slot < triangles.size() ? from.stiffness : 0.0);
+        for (int k = 0; k < 3; ++k) {
+            group.t[0][k][lane] = real(from.t[0][k]);
+            group.t[1][k][lane] = real(from.t[1][k]);
+            group.node[k][lane] = from.node[k];
         }
-        Lanes f0[3], f1[3];
-        for (int i = 0; i < 3; ++i) {
-            f0[i] = e1[i] * g.b00;
-            f1[i] = e1[i] * g.b01 + e2[i] * g.b11;
+    }
+    work.hinges.resize((hinges.size() + kWidth - 1) / kWidth);
+    for (std::size_t slot = 0; slot < kWidth * work.hinges.size(); ++slot) {
+        const Hinge& from = hinges[std::min(slot, hinges.size() - 1)];
+        HingeGroup<Real>& group = work.hinges[slot / kWidth];
+        const std::size_t lane = slot % kWidth;
+        group.w[lane] = real(slot < hinges.size() ? from.w : 0.0);
+        group.squared_rounding[lane] = real(from.squared_rounding);
+        for (int k = 0; k < 3; ++k) group.rest[k][lane] = real(from.rest[k]);
+        for (int k = 0; k < 4; ++k) {
+            group.c[k][lane] = real(from.c[k]);
+            group.node[k][lane] = from.node[k];
         }
-        const Lanes c00 = f0[0] * f0[0] + f0[1] * f0[1] + f0[2] * f0[2] - one;
-        const Lanes c11 = f1[0] * f1[0] + f1[1] * f1[1] + f1[2] * f1[2] - one;
-        const Lanes c01 = f0[0] * f1[0] + f0[1] * f1[1] + f0[2] * f1[2];
-        energy += g.stiffness * 0.25 * (c00 * c00 + c11 * c11 + 2.0 * (c01 * c01));
+    }
+    // With the rounding of the energy, so that rest is exact
+    for (HingeGroup<Real>& g : work.hinges)
+        g.rest_length = solve::sqrt_lanes(g.rest[0] * g.rest[0] + g.rest[1] * g.rest[1] +
+                                          g.rest[2] * g.rest[2] + g.squared_rounding);
+}
 
-        Lanes h1[3], h2[3];
-        for (int i = 0; i < 3; ++i) {
-            const Lanes p0 = g.stiffness * (f0[i] * c00 + f1[i] * c01);
-            const Lanes p1 = g.stiffness * (f0[i] * c01 + f1[i] * c11);
-            h1[i] = p0 * g.b00 + p1 * g.b01;
-            h2[i] = p1 * g.b11;
+template <class Real>
+double SkinSheet::membrane_energy(Work<Real>& work) {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    using Point = typename solve::LanesOf<Real>::Point;
+    constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+    Lanes energy{};
+    for (const TriangleGroup<Real>& g : work.triangles) {
+        Lane d1[3], d2[3];
+        {
+            Point r1[kWidth], r2[kWidth];
+            for (int lane = 0; lane < kWidth; ++lane) {
+                const Point p0 = work.displacement[g.node[0][lane]];
+                r1[lane] = work.displacement[g.node[1][lane]] - p0;
+                r2[lane] = work.displacement[g.node[2][lane]] - p0;
+            }
+            solve::rows_to_lanes(r1, d1[0], d1[1], d1[2]);
+            solve::rows_to_lanes(r2, d2[0], d2[1], d2[2]);
         }
-        Lanes r1[4], r2[4];
-        solve::lanes_to_rows(h1[0], h1[1], h1[2], r1[0], r1[1], r1[2], r1[3]);
-        solve::lanes_to_rows(h2[0], h2[1], h2[2], r2[0], r2[1], r2[2], r2[3]);
-        for (int lane = 0; lane < 4; ++lane) {
-            gradient_[g.node[0][lane]] -= r1[lane] + r2[lane];
-            gradient_[g.node[1][lane]] += r1[lane];
-            gradient_[g.node[2][lane]] += r2[lane];
+        // F = T + H, C = F^T F - I = T^T H + H^T T + H^T H
+        Lane h0[3], h1[3], f0[3], f1[3];
+        for (int i = 0; i < 3; ++i) {
+            h0[i] = d1[i] * g.b00;
+            h1[i] = d1[i] * g.b01 + d2[i] * g.b11;
+            f0[i] = g.t[0][i] + h0[i];
+            f1[i] = g.t[1][i] + h1[i];
+        }
+        Lane c00{}, c11{}, c01{};
+        for (int i = 0; i < 3; ++i) {
+            c00 += h0[i] * (g.t[0][i] + f0[i]);
+            c11 += h1[i] * (g.t[1][i] + f1[i]);
+            c01 += g.t[0][i] * h1[i] + h0[i] * f1[i];
+        }
+        const Lane cross = c01 * c01;
+        solve::add_lanes(energy,
+                         g.stiffness * Real(0.25) * (c00 * c00 + c11 * c11 + cross + cross));
+
+        Lane along1[3], along2[3];
+        for (int i = 0; i < 3; ++i) {
+            const Lane p0 = g.stiffness * (f0[i] * c00 + f1[i] * c01);
+            const Lane p1 = g.stiffness * (f0[i] * c01 + f1[i] * c11);
+            along1[i] = p0 * g.b00 + p1 * g.b01;
+            along2[i] = p1 * g.b11;
+        }
+        Point r1[kWidth], r2[kWidth];
+        solve::lanes_to_rows(along1[0], along1[1], along1[2], r1);
+        solve::lanes_to_rows(along2[0], along2[1], along2[2], r2);
+        for (int lane = 0; lane < kWidth; ++lane) {
+            work.gradient[g.node[0][lane]] -= r1[lane] + r2[lane];
+            work.gradient[g.node[1][lane]] += r1[lane];
+            work.gradient[g.node[2][lane]] += r2[lane];
         }
     }
     return solve::sum_lanes(energy);
 }
 
-double SkinSheet::bending_energy() const {
+template <class Real>
+double SkinSheet::bending_energy(Work<Real>& work) {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    using Point = typename solve::LanesOf<Real>::Point;
+    constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+    const Lane least = Lane{} + std::numeric_limits<Real>::min();
     Lanes energy{};
-    for (const HingeGroup& g : hinges_) {
-        // l = sum c_i (x_i - x_3): the c_i add up to zero, and differences keep the digits far from
-        // the origin
-        Lanes l[3]{};
+    for (const HingeGroup<Real>& g : work.hinges) {
+        // l = sum c_i x_i: the c_i add up to zero, so that three differences of displacement do
+        Lane l[3] = {g.rest[0], g.rest[1], g.rest[2]};
         for (int k = 0; k < 3; ++k) {
-            Lanes r[4], d[3];
-            for (int lane = 0; lane < 4; ++lane)
-                r[lane] = x_[g.node[k][lane]] - x_[g.node[3][lane]];
-            solve::rows_to_lanes(r[0], r[1], r[2], r[3], d[0], d[1], d[2]);
+            Point r[kWidth];
+            for (int lane = 0; lane < kWidth; ++lane)
+                r[lane] = work.displacement[g.node[k][lane]] - work.displacement[g.node[3][lane]];
+            Lane d[3];
+            solve::rows_to_lanes(r, d[0], d[1], d[2]);
             for (int i = 0; i < 3; ++i) l[i] += g.c[k] * d[i];
         }
-        const Lanes squared = l[0] * l[0] + l[1] * l[1] + l[2] * l[2] + g.squared_rounding;
-        Lanes s, divisor;
-        for (int lane = 0; lane < 4; ++lane) {
-            s[lane] = std::sqrt(squared[lane]);
-            divisor[lane] = std::max(s[lane], std::numeric_limits<double>::min());
-        }
-        const Lanes stretch = s - g.rest_length;
-        energy += g.w * 0.5 * stretch * stretch;
+        const Lane s =
+            solve::sqrt_lanes(l[0] * l[0] + l[1] * l[1] + l[2] * l[2] + g.squared_rounding);
+        const Lane stretch = s - g.rest_length;
+        solve::add_lanes(energy, g.w * Real(0.5) * stretch * stretch);
 
-        // w (s - S) / s = w - w S / s; where S = 0 the second part is zero even at s = 0
-        const Lanes pull = g.w - g.w * g.rest_length / divisor;
+        // w (s - S) / s; where S = 0 nothing pulls at s = 0
+        const Lane pull = g.w * (stretch / (s > least ? s : least));
         for (int i = 0; i < 3; ++i) l[i] *= pull;
-        for (int k = 0; k < 4; ++k) {
-            Lanes r[4];
-            solve::lanes_to_rows(g.c[k] * l[0], g.c[k] * l[1], g.c[k] * l[2], r[0], r[1], r[2],
-                                 r[3]);
-            for (int lane = 0; lane < 4; ++lane) gradient_[g.node[k][lane]] += r[lane];
+        Point sum[kWidth] = {};
+        for (int k = 0; k < 3; ++k) {
+            Point r[kWidth];
+            solve::lanes_to_rows(g.c[k] * l[0], g.c[k] * l[1], g.c[k] * l[2], r);
+            for (int lane = 0; lane < kWidth; ++lane) {
+                work.gradient[g.node[k][lane]] += r[lane];
+                sum[lane] += r[lane];
+            }
         }
+        for (int lane = 0; lane < kWidth; ++lane) work.gradient[g.node[3][lane]] -= sum[lane];
     }
     return solve::sum_lanes(energy);
 }
 
-double SkinSheet::add_energy(const Points& x, Points& gradient) const {
-    assert(gradient.rows() == x.rows());
-    x_.copy(x);
-    gradient_.set_zero(x.rows());
-    const double energy = membrane_energy() + bending_energy();
-    gradient_.add_to(gradient);
+template <class Real>
+double SkinSheet::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
+    work.displacement.copy_difference(x, rest_);
+    work.gradient.set_zero(rest_.rows());
+    const double energy = membrane_energy(work) + bending_energy(work);
+    work.gradient.add_to(gradient);
     return energy;
+}
+
+double SkinSheet::add_energy(const Points& x, Points& gradient, solve::Precision precision) const {
+    assert(gradient.rows() == x.rows());
+    return precision == solve::Precision::kSingle ? add_energy_in(single_, x, gradient)
+                                                  : add_energy_in(double_, x, gradient);
 }
 
 void SkinSheet::add_metric(solve::MetricBuilder& builder) const {
     for (int t = 0; t < triangle_count_; ++t) {
-        const TriangleGroup& group = triangles_[static_cast<std::size_t>(t / 4)];
+        const TriangleGroup<double>& group = double_.triangles[static_cast<std::size_t>(t / 4)];
         const int lane = t % 4;
         Eigen::Matrix<double, 3, 2> g;
         g.row(1) << group.b00[lane], group.b01[lane];
@@ -198,7 +253,7 @@ void SkinSheet::add_metric(solve::MetricBuilder& builder) const {
         builder.add_block(nodes, block.data(), 3);
     }
     for (int h = 0; h < hinge_count_; ++h) {
-        const HingeGroup& group = hinges_[static_cast<std::size_t>(h / 4)];
+        const HingeGroup<double>& group = double_.hinges[static_cast<std::size_t>(h / 4)];
         const int lane = h % 4;
         int nodes[4];
         double c[4];

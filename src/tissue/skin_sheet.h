@@ -35,7 +35,9 @@ class SkinSheet {
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
     /// order.
-    double add_energy(const Points& x, Points& gradient) const;
+    /// From displacements, so that rest is exact in float too: forces are then good to some 1e-6 of the stress.
+    double add_energy(const Points& x, Points& gradient,
+                      solve::Precision precision = solve::Precision::kDouble) const;
 
     /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
     /// part, triangle by triangle and hinge by hinge.
@@ -49,31 +51,62 @@ class SkinSheet {
     int hinge_count() const { return hinge_count_; }
 
   private:
-    /// Four triangles, one per lane. The rest edges in the triangle's plane are (l, 0) and (ex,
-    /// ey).
+    /// As many triangles as there are lanes. The rest edges in the triangle's plane are (l, 0) and (ex, ey).
+    template <class Real>
     struct alignas(64) TriangleGroup {
-        solve::Lanes b00, b01, b11;  ///< their inverse, upper triangular
-        solve::Lanes stiffness;      ///< A k
-        std::int32_t node[3][4];     ///< [corner][lane]
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        Lane b00, b01, b11;            ///< their inverse, upper triangular
+        Lane t[2][3];                  ///< axes of the plane
+        Lane stiffness;                ///< A k
+        std::int32_t node[3][kWidth];  ///< [corner][lane]
     };
-    /// Four hinges: the edge's ends, then the opposite corners.
+    /// Hinges: the edge's ends, then the opposite corners.
+    template <class Real>
     struct alignas(64) HingeGroup {
-        solve::Lanes c[4];
-        solve::Lanes w;
-        solve::Lanes rest_length;       ///< S, rounded off like s
-        solve::Lanes squared_rounding;  ///< (0.1 S)^2
-        std::int32_t node[4][4];        ///< [corner][lane]
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        Lane c[4];
+        Lane rest[3];  ///< sum c_i X_i
+        Lane w;
+        Lane rest_length;              ///< S, rounded off like s
+        Lane squared_rounding;         ///< (0.1 S)^2
+        std::int32_t node[4][kWidth];  ///< [corner][lane]
     };
-    void add_hinges(const Triangles& triangles, const Points& rest,
-                    const Eigen::VectorXd& bending_n_m);
-    double membrane_energy() const;
-    double bending_energy() const;
+    template <class Real>
+    struct Work {
+        std::vector<TriangleGroup<Real>> triangles;
+        std::vector<HingeGroup<Real>> hinges;
+        solve::PaddedRows<Real> displacement, gradient;
+    };
+    struct Hinge {
+        int node[4]{};
+        double c[4]{};
+        double w = 0, squared_rounding = 0;
+        Vec3 rest = Vec3::Zero();
+    };
+    struct Triangle {
+        int node[3];
+        double b00, b01, b11, stiffness;
+        Vec3 t[2];
+    };
+    std::vector<Hinge> hinges_of(const Triangles& triangles,
+                                 const Eigen::VectorXd& bending_n_m) const;
+    template <class Real>
+    static void fill(const std::vector<Triangle>& triangles, const std::vector<Hinge>& hinges,
+                     Work<Real>& work);
+    template <class Real>
+    double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
+    template <class Real>
+    static double membrane_energy(Work<Real>& work);
+    template <class Real>
+    static double bending_energy(Work<Real>& work);
 
+    Points rest_;
     int triangle_count_ = 0;
     int hinge_count_ = 0;
-    std::vector<TriangleGroup> triangles_;
-    std::vector<HingeGroup> hinges_;
-    mutable solve::PaddedPoints x_, gradient_;
+    mutable Work<double> double_;
+    mutable Work<float> single_;
 };
 
 }  // namespace risorius::tissue

@@ -15,7 +15,7 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
                             solve::HessianBuilder& hessian) const {
     const bool positive = curvature == solve::Curvature::kPositive;
     for (int t = 0; t < triangle_count_; ++t) {
-        const TriangleGroup& group = triangles_[static_cast<std::size_t>(t / 4)];
+        const TriangleGroup<double>& group = double_.triangles[static_cast<std::size_t>(t / 4)];
         const int lane = t % 4;
         const int node[3] = {group.node[0][lane], group.node[1][lane], group.node[2][lane]};
         const Vec3 e1 = (x.row(node[1]) - x.row(node[0])).transpose();
@@ -53,7 +53,7 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
             }
     }
     for (int h = 0; h < hinge_count_; ++h) {
-        const HingeGroup& group = hinges_[static_cast<std::size_t>(h / 4)];
+        const HingeGroup<double>& group = double_.hinges[static_cast<std::size_t>(h / 4)];
         const int lane = h % 4;
         Vec3 l = Vec3::Zero();
         for (int k = 0; k < 3; ++k)

@@ -257,6 +257,17 @@ TEST(FibreSet, AFibreOfOnePointIsRefused) {
     }
 }
 
+TEST(FibreSet, APointOfTwoFibresIsRefused) {
+    try {
+        FibreSet({in_tissue({0}, {1}), in_tissue({1}, {1}), in_tissue({2}, {1})},
+                 {{.first_point = 0, .point_count = 2}, {.first_point = 1, .point_count = 2}},
+                 cloud());
+        FAIL() << "accepted";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "FibreSet: fibre 1 has a point of another");
+    }
+}
+
 TEST(FibreSet, ASegmentWithoutLengthIsRefused) {
     try {
         FibreSet({in_tissue({0}, {1}), in_tissue({0}, {1})}, {{.first_point = 0, .point_count = 2}},

@@ -122,6 +122,25 @@ TEST(QuasiNewton, MemorySavesIterations) {
     EXPECT_LT(2 * iterations[1], iterations[0]);
 }
 
+TEST(QuasiNewton, PairsInFloatLeadToTheSamePlace) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    Points x[2];
+    int iterations[2];
+    for (const Precision pairs : {Precision::kDouble, Precision::kSingle}) {
+        const int which = pairs == Precision::kSingle;
+        x[which] = HangingBar::rest();
+        const StepReport report =
+            minimise(HangingBar::energy, metric, x[which],
+                     {.iterations = 100, .pairs = pairs, .tolerance_rms_m = 1e-10});
+        EXPECT_TRUE(report.converged);
+        iterations[which] = report.iterations;
+    }
+    EXPECT_LT((x[0] - x[1]).norm(), 1e-9);
+    EXPECT_NE(x[0], x[1]);
+    EXPECT_LE(std::abs(iterations[0] - iterations[1]), 1);
+}
+
 TEST(QuasiNewton, EveryStepLowersTheEnergyAndStaysUnderTheCap) {
     const SparseCholesky metric =
         chain_metric(HangingBar::n, 0.3 * HangingBar::lambda / HangingBar::length);

@@ -45,6 +45,18 @@ TEST(SkinSheet, RestIsFreeOfStress) {
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-15);
 }
 
+TEST(SkinSheet, FloatForcesAreThoseOfDoubleToAMillionthAndRestIsExact) {
+    const SkinSheet sheet = sheet_over(kThinBlock, 20, 2e-5);
+    const Points x = shaken(kThinBlock.rest, 1e-3, 9);
+    Points exact = Points::Zero(kThinBlock.nodes(), 3), single = exact, at_rest = exact;
+    const double energy = sheet.add_energy(x, exact);
+    EXPECT_NEAR(sheet.add_energy(x, single, solve::Precision::kSingle), energy, 2e-6 * energy);
+    EXPECT_LT((single - exact).norm(), 2e-6 * exact.norm());
+    EXPECT_GT((single - exact).norm(), 0.0);
+    EXPECT_EQ(sheet.add_energy(kThinBlock.rest, at_rest, solve::Precision::kSingle), 0.0);
+    EXPECT_TRUE(at_rest.isZero(0.0));
+}
+
 TEST(SkinSheet, MembraneForcesAreTheSlopeOfTheEnergy) {
     expect_gradient_is_exact(sheet_over(kThinBlock, 20, 0), shaken(kThinBlock.rest, 1e-3, 1));
 }
