@@ -1,9 +1,9 @@
 #include "app/animate.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/beside.h"
 #include "app/film.h"
 #include "app/shot.h"
 #include "app/staged_file.h"
@@ -42,37 +42,13 @@ class Output {
     Image still_;
 };
 
-// "hello.mp4" -> "hello.mp4.json", "frames/" -> "frames.json"
-fs::path beside(const fs::path& out, const char* ending) {
-    fs::path base = out.has_filename() ? out : out.parent_path();
-    base += ending;
-    return base;
-}
-
-// A script named like the record would be lost under it.
-void check_beside(const fs::path& out) {
-    const fs::path record = beside(out, ".json"), table = beside(out, ".frames.tsv");
-    if (fs::exists(record)) {
-        const Json found = Json::parse(std::ifstream(record), nullptr, false);
-        if (!found.is_object() || found.value("format", "") != "risorius-run")
-            throw Error(record.string(), "no file, or the record of an earlier run",
-                        "another file of that name");
-    }
-    if (fs::exists(table)) {
-        std::string first;
-        std::getline(std::ifstream(table), first);
-        if (!first.starts_with("frame\ttime_s"))
-            throw Error(table.string(), "no file, or the table of an earlier run",
-                        "another file of that name");
-    }
-}
-
 }  // namespace
 
 RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     const Stopwatch total;
     const Shot shot = plan_shot(options);
-    check_beside(options.out);
+    check_record(beside(options.out, ".json"));
+    check_table(beside(options.out, ".frames.tsv"));
     Output output(options.out, shot, options.still_s.has_value());
 
     // One picture per frame

@@ -56,6 +56,7 @@ void draw_scale(const render::SkinValues& scale, int left, int top, Image& sheet
 Image draw_contact_sheet(const ContactSheet& sheet) {
     assert(!sheet.rows.empty());
     const Image& first = sheet.rows.front().pictures.front();
+    const int title = sheet.title.empty() && sheet.scale.name.empty() ? 0 : kTitle;
     const int columns = static_cast<int>(sheet.columns.size());
     const int rows = static_cast<int>(sheet.rows.size());
     const int row_width = columns * (first.width_px + kGap) - kGap;
@@ -64,7 +65,7 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
         return 2 * kMargin + blocks * (row_width + kBetweenBlocks) - kBetweenBlocks;
     };
     const auto height = [&](int blocks) {
-        return 2 * kMargin + kTitle + kColumnNames + (rows + blocks - 1) / blocks * row_height;
+        return 2 * kMargin + title + kColumnNames + (rows + blocks - 1) / blocks * row_height;
     };
     int blocks = 1;
     while (blocks < rows && width(blocks + 1) <= kWidest * height(blocks + 1)) ++blocks;
@@ -74,17 +75,17 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
     Image out(width(blocks), height(blocks));
     std::fill(out.rgba.begin(), out.rgba.end(), std::uint8_t{255});
     render::write_text(sheet.title, {kMargin, kMargin + 17.0}, kTitleText, out);
-    draw_scale(sheet.scale, kMargin, kMargin + 34, out);
+    if (!sheet.scale.name.empty()) draw_scale(sheet.scale, kMargin, kMargin + 34, out);
     for (int b = 0; b < blocks; ++b) {
         const int left = kMargin + b * (row_width + kBetweenBlocks);
         for (int c = 0; c < columns; ++c)
             render::write_text(sheet.columns[static_cast<std::size_t>(c)],
-                               {left + c * (first.width_px + kGap) + 1.0, kMargin + kTitle + 11.0},
+                               {left + c * (first.width_px + kGap) + 1.0, kMargin + title + 11.0},
                                kNumberText, out);
         for (int r = 0; r < per_block && b * per_block + r < rows; ++r) {
             const ContactRow& row = sheet.rows[static_cast<std::size_t>(b * per_block + r)];
             assert(static_cast<int>(row.pictures.size()) == columns);
-            const int top = kMargin + kTitle + kColumnNames + r * row_height;
+            const int top = kMargin + title + kColumnNames + r * row_height;
             const double baseline = top + 18;
             render::write_text(row.name, {left + 1.0, baseline}, kNameText, out);
             const double numbers = render::text_width(row.numbers) * kNumberText.height_px;

@@ -18,7 +18,8 @@ struct ContactSheet {
     std::string title;
     std::vector<std::string> columns;  ///< what the pictures of a row show, from the left
     std::vector<ContactRow> rows;
-    render::SkinValues scale;  ///< of the pictures with colours; its values are not used
+    render::SkinValues
+        scale;  ///< of the pictures with colours; its values are not used; none without a name
 };
 
 Image draw_contact_sheet(const ContactSheet& sheet);

@@ -81,11 +81,12 @@ std::string page_of(const FitReport& report, const rig::RigDescription& rig) {
                      "Strength is a ratio to what the cross-section gives; length that of the "
                      "fibres at full "
                      "activation over their length at rest.");
-        html.element("p",
-                     "Then all are scaled together until the expressions move the landmarks "
-                     "as on the standard head: they differ by " +
-                         rounded(report.difference, 2) + ", before by " +
-                         rounded(report.difference_before, 2) + ".");
+        if (report.difference_before > 0)
+            html.element("p",
+                         "Then all are scaled together until the expressions move the landmarks "
+                         "as on the standard head: they differ by " +
+                             rounded(report.difference, 2) + ", before by " +
+                             rounded(report.difference_before, 2) + ".");
         html.open("table").open("tr");
         for (const char* name : {"muscle", "strength", "length", "target", ""})
             html.element("th", name);

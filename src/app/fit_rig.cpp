@@ -111,6 +111,38 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     return true;
 }
 
+// Each muscle by itself, then all together.
+void scale_muscles(sim::Face& face, const FitOptions& options, const fs::path& standard,
+                   const Watch& watch, rig::RigDescription& rig, FitReport& report) {
+    const auto part_of = [&](double begin, double end) {
+        Watch part = watch;
+        part.progress = [&watch, begin, end](double done, const std::string& what) {
+            watch.tell(begin + (end - begin) * done, what);
+        };
+        return part;
+    };
+    const Watch alone = part_of(0, options.together ? 0.4 : 1.0), together = part_of(0.4, 1.0);
+    report.strengths = calibrate_strength(face, rig, alone);
+    if (options.together) {
+        const StrengthFit fit =
+            fit_strengths(face, rig, read_landmark_ways(standard / "landmark_ways.json"), {},
+                          options.out.string(), together);
+        report.difference_before = fit.difference_before;
+        report.difference = fit.difference;
+        rig.lips = fit.lips;
+        for (MuscleStrength& found : report.strengths)
+            found.strength *= fit.factor.at(found.muscle);
+    }
+    for (const MuscleStrength& found : report.strengths) {
+        const double strength = std::round(1e4 * found.strength) / 1e4;
+        for (rig::SolidMuscle& solid : rig.solids)
+            if (solid.muscle == found.muscle) solid.strength = strength;
+        if (rig.solid(found.muscle) != nullptr) continue;
+        for (rig::MuscleBand& band : rig.atlas.bands)
+            if (band.muscle == found.muscle) band.strength = strength;
+    }
+}
+
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const Watch& watch) {
@@ -175,32 +207,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     const rig::Head& head = face.head();
 
     // Make every muscle as strong as it has to be on this head
-    if (options.calibrate) {
-        const auto stages = [&](double begin, double end) {
-            Watch part = watch;
-            part.progress = [&watch, begin, end](double done, const std::string& what) {
-                watch.tell(begin + (end - begin) * done, what);
-            };
-            return part;
-        };
-        const Watch alone = stages(0, 0.4), together = stages(0.4, 1);
-        report.strengths = calibrate_strength(face, rig, alone);
-        const StrengthFit fit =
-            fit_strengths(face, rig, read_landmark_ways(standard / "landmark_ways.json"), {},
-                          options.out.string(), together);
-        report.difference_before = fit.difference_before;
-        report.difference = fit.difference;
-        rig.lips = fit.lips;
-        for (MuscleStrength& found : report.strengths) {
-            found.strength *= fit.factor.at(found.muscle);
-            const double strength = std::round(1e4 * found.strength) / 1e4;
-            for (rig::SolidMuscle& solid : rig.solids)
-                if (solid.muscle == found.muscle) solid.strength = strength;
-            if (rig.solid(found.muscle) != nullptr) continue;
-            for (rig::MuscleBand& band : rig.atlas.bands)
-                if (band.muscle == found.muscle) band.strength = strength;
-        }
-    }
+    if (options.calibrate) scale_muscles(face, options, standard, watch, rig, report);
 
     // Write it and say what came out
     if (options.out.has_parent_path()) {

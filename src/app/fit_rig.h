@@ -24,6 +24,7 @@ struct FitOptions {
         parts{};                ///< role -> groups; the rest is guessed from their names
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
+    bool together = true;  ///< after each muscle by itself, all together: fit_strengths.h
     bool cut_lips =
         false;  ///< those of a scan that are grown together; the cut mesh is written beside the rig
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none

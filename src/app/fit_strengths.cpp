@@ -17,7 +17,10 @@ constexpr double kGreatest = 1.0;  // of z
 constexpr double kLongestStep = 0.5;
 constexpr double kDifference = 0.02;  // of z, for slopes
 constexpr int kIterations = 200;      // of the solver, per expression
+constexpr double kLeastRatio = 0.1;   // what is as near as that counts by its square
 constexpr double kIdle = 0.02;        // a muscle that is less active hardly shows in an expression
+
+constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPressure);
 
 class Fit {
   public:
@@ -32,8 +35,8 @@ class Fit {
         std::set<std::string> seen;
         for (const rig::MuscleBand& band : rig.atlas.bands)
             if (seen.insert(band.muscle).second) muscles_.push_back(band.muscle);
-        for (double* ratio :
-             {&lips_.upper_turn, &lips_.lower_turn, &lips_.upper_push, &lips_.lower_push})
+        for (double* ratio : {&lips_.upper_turn, &lips_.lower_turn, &lips_.upper_push,
+                              &lips_.lower_push, &lips_.puff})
             lip_ratios_.push_back({ratio, *ratio});
         z_ = Eigen::VectorXd::Zero(static_cast<long>(muscles_.size() + lip_ratios_.size()));
         for (const auto& [name, table] : standard) {
@@ -119,21 +122,29 @@ class Fit {
                 (round + static_cast<double>(e) / static_cast<double>(expressions_.size())) /
                     (options_.rounds + 1),
                 one.name);
-            const Points miss = ways_.settle(one.drive, kIterations) - one.goal;
-            const double size = one.goal.squaredNorm();
-            cost += 0.5 * miss.squaredNorm() / size;
-            sum += std::sqrt(miss.squaredNorm() / size) / static_cast<double>(expressions_.size());
+            const Points miss = ways_.settle(scaled(one.drive), kIterations) - one.goal;
+            const double length = one.goal.norm(), ratio = miss.norm() / length;
+            cost += ratio;
+            sum += ratio / static_cast<double>(expressions_.size());
             if (model == nullptr) continue;
             const Eigen::MatrixXd J = slopes(one.drive);
             const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
-            model->A += J.transpose() * J / size;
-            model->b += J.transpose() * (r - J * z_) / size;
+            const double weight = 1 / (length * length * std::max(ratio, kLeastRatio));
+            model->A += weight * (J.transpose() * J);
+            model->b += weight * (J.transpose() * (r - J * z_));
         }
         return {cost, sum};
     }
 
+    // The table's drive with as much pressure as puffs this head.
+    track::Drive scaled(track::Drive drive) const {
+        drive.kinematic[kPressure] *= std::exp(z_[z_.size() - 1]);
+        return drive;
+    }
+
     bool works(long i, const track::Drive& drive) const {
         const auto muscles = static_cast<long>(muscles_.size());
+        if (i == z_.size() - 1) return drive.kinematic[kPressure] != 0;
         if (i >= muscles) {  // turn and push are those of a lip's own muscles
             const std::string lip = (i - muscles) % 2 == 0 ? "upper" : "lower";
             for (const char* part : {"_marginal", "_peripheral"})
@@ -160,10 +171,10 @@ class Fit {
             }
             const double at = z_[i];
             set(i, at + kDifference);
-            const Points more = face_.static_gradient(nodes, drive.excitation, drive);
+            const Points more = face_.static_gradient(nodes, drive.excitation, scaled(drive));
             set(i, at - kDifference);
-            force.push_back((more - face_.static_gradient(nodes, drive.excitation, drive)) /
-                            (2 * kDifference));
+            const Points less = face_.static_gradient(nodes, drive.excitation, scaled(drive));
+            force.push_back((more - less) / (2 * kDifference));
             set(i, at);
         }
         const long count = static_cast<long>(ways_.landmarks().size());

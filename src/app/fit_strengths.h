@@ -1,12 +1,13 @@
 // Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
 // standard tables were calibrated on.
 //
-//   minimise  1/2 sum over expressions |u - g|^2 / |g|^2 + keep/2 sum z^2
+//   minimise  sum over expressions |u - g| / |g| + keep/2 sum z^2
 //
 //   u, g   ways of the landmarks on this head and on the standard head, at atlas size, m
-//   z      logarithms of factors: on the strength of each muscle, on turn and push of each lip, |z| <= 1
+//   z      logarithms of factors: on the strength of each muscle, on turn and push of each lip, on the pressure that puffs, |z| <= 1
 //
-// by Gauss-Newton over settled faces, du/dz = -H^-1 dg/dz at the nodes of the skin.
+// by Gauss-Newton over settled faces, du/dz = -H^-1 dg/dz at the nodes of the skin, with squares weighted so that they add up to the
+// lengths: an expression that this head cannot make does not spoil the others.
 #pragma once
 
 #include <map>
@@ -29,7 +30,7 @@ struct StrengthFit {
 
 struct StrengthFitOptions {
     int rounds = 2;
-    double keep = 0.01;
+    double keep = 0.03;
 };
 
 /// `face` is left at rest with what was found. Throws Interrupted; Error when the table names what the rig does not know.

@@ -67,7 +67,8 @@ void visit_fields(LipsDescription& lips, Visit visit) {
     for (const auto& [key, ratio] : {std::pair{"upper_turn", &lips.upper_turn},
                                      {"lower_turn", &lips.lower_turn},
                                      {"upper_push", &lips.upper_push},
-                                     {"lower_push", &lips.lower_push}})
+                                     {"lower_push", &lips.lower_push},
+                                     {"puff", &lips.puff}})
         visit(key, *ratio, Range{0.05, 4});
 }
 template <typename Visit>
@@ -256,6 +257,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
     read_fields(json, "skin", rig.skin);
     read_fields(json, "look", rig.look);
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    for (track::ActionUnit& unit : rig.facs.units)
+        unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
     rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
     return rig;
 }

@@ -83,9 +83,10 @@ struct SkinDescription {
     double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
 };
 
-/// How far orbicularis oris turns and pushes the lips of this head, of the way of the standard head. [0.05, 4]
+/// How far orbicularis oris turns and pushes the lips of this head, of the way of the standard head, and how much of the mouth
+/// pressure of the standard action units puffs its cheeks. [0.05, 4]
 struct LipsDescription {
-    double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1;
+    double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
 /// Appearance generated for heads without textures; colours sRGB 0..1.

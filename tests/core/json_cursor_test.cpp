@@ -253,6 +253,7 @@ TEST(NearestName, IsFoundWithinTwoEditsOrAThirdOfTheWord) {
     EXPECT_EQ(nearest_name("mentals", known), "mentalis");
     EXPECT_EQ(nearest_name("frontalis_medial", known), "");
     EXPECT_EQ(nearest_name("", {}), "");
+    EXPECT_EQ(nearest_name("mussels", {"muscles", "cells"}), "muscles");  // two letters swapped
 }
 
 TEST(FormatNumber, IsTheShortestThatReadsBackTheSame) {

@@ -71,6 +71,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("risorius COMMAND --help explains a command and gives an example.");
     cli::add_render(app);
+    cli::add_compare(app);
+    cli::add_sheet(app);
     cli::add_fit(app);
     cli::add_check(app);
     cli::add_info(app);

@@ -1,23 +1,14 @@
 // risorius render SCRIPT -o OUT
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "app/animate.h"
 #include "commands.h"
-#include "core/error.h"
+#include "render_options.h"
 
 namespace risorius::cli {
 
 namespace {
-
-app::PictureSize size_from(const std::string& text) {
-    app::PictureSize size;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width_px, &size.height_px, &rest) != 2)
-        throw Error("--size", "WIDTHxHEIGHT in pixels, as 1024x1024", "\"" + text + "\"");
-    return size;
-}
 
 struct RenderArguments {
     Common common;
@@ -26,10 +17,7 @@ struct RenderArguments {
 };
 
 void run(RenderArguments& arguments) {
-    const int threads = arguments.options.threads;
-    if (threads < 1 || threads > 256)
-        throw Error("--threads", "an integer in [1, 256]", std::to_string(threads));
-    if (!arguments.size.empty()) arguments.options.size = size_from(arguments.size);
+    settle_view(arguments.options, arguments.size);
     app::RunRecord record;
     {
         ProgressBar bar(arguments.common);
@@ -48,51 +36,6 @@ void run(RenderArguments& arguments) {
     std::printf(", %.1f s (simulated in %.1f s, drawn in %.1f s, written in %.1f s)\n",
                 record.timing.total_s, record.timing.simulate_s, record.timing.draw_s,
                 record.timing.encode_s);
-}
-
-void add_coding(CLI::App& command, app::AnimateOptions& options) {
-    constexpr const char* kCoding = "How the video is coded";
-    media::VideoOptions& video = options.video;
-    command
-        .add_option("--crf", video.crf,
-                    "Quality, less is better: H.264 0 to 51, 18 when not given; VP9 0 to 63, 24")
-        ->type_name("INT")
-        ->group(kCoding);
-    command
-        .add_option("--preset", video.preset,
-                    "Of H.264, ultrafast to placebo, medium when not given: slower is smaller")
-        ->group(kCoding);
-    command
-        .add_option(
-            "--pixels", video.pixels,
-            "yuv420p, which every player knows, or yuv444p, which keeps colour at full size")
-        ->group(kCoding);
-    command
-        .add_option(
-            "--keyframe-interval", video.keyframe_interval,
-            "Frames from one key frame to the next, a quarter of a second when not given; 1: "
-            "every frame stands alone")
-        ->type_name("INT")
-        ->group(kCoding);
-    command
-        .add_flag("--lossless", video.lossless,
-                  "Every pixel as it was drawn: H.264 or VP9 in RGB, or PNG in a transparent .mov")
-        ->group(kCoding);
-    command.add_option("--bits", video.bits, "Of PNG frames, 8 or 16 per channel")
-        ->type_name("INT")
-        ->group(kCoding);
-    command
-        .add_option(
-            "--audio", options.audio,
-            "A recording, WAV or FLAC: PCM in .mkv and .mov, AAC in .mp4, Opus in .webm. It is "
-            "cut, or filled up with silence, to the length of the video")
-        ->group(kCoding);
-    command
-        .add_option("--audio-offset", options.audio_offset,
-                    "Samples of the recording from the first frame to its first sample; below 0 it "
-                    "has begun before")
-        ->type_name("INT")
-        ->group(kCoding);
 }
 
 void add_marks(CLI::App& command, app::SyncMarks& marks) {
@@ -128,7 +71,6 @@ void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
     auto arguments = std::make_shared<RenderArguments>();
     app::AnimateOptions& options = arguments->options;
-    options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command->add_option("SCRIPT", options.script, "The script")->required();
     command
         ->add_option(
@@ -139,11 +81,7 @@ void add_render(CLI::App& app) {
             "per frame")
         ->required();
     command->add_option("--rig", options.rig, "Another rig than the script's");
-    command->add_option("--size", arguments->size, "Another size of the picture, as 1024x1024");
     command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
-    command->add_option(
-        "--camera", options.camera,
-        "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
     command->add_option(
         "--show", options.show,
         "Another sight of the face: skin; muscles, coloured by their activation under "
@@ -154,19 +92,11 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--turntable", options.turntable_s,
         "The face of this time, in seconds, turned once round while the video lasts");
-    command
-        ->add_option("--quality", options.quality,
-                     "How carefully to simulate: preview, video or fine")
-        ->capture_default_str();
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
     command->add_flag("--emg", options.emg,
                       "Write into the table what surface electrodes would record of every muscle");
-    command
-        ->add_option(
-            "--threads", options.threads,
-            "1, or more to simulate beside drawing and to draw faster; the frames are the same")
-        ->capture_default_str();
+    add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_marks(*command, options.marks);
     command

@@ -1,0 +1,16 @@
+// The files that a run writes beside its result, named after it.
+#pragma once
+
+#include <filesystem>
+
+namespace risorius::app {
+
+/// "hello.mp4" -> "hello.mp4.json", "frames/" -> "frames.json"
+std::filesystem::path beside(const std::filesystem::path& out, const char* ending);
+
+/// Throws Error when a record or table would take the place of a file that no earlier run has written: a script named like
+/// the record would be lost under it.
+void check_record(const std::filesystem::path& record);
+void check_table(const std::filesystem::path& table);
+
+}  // namespace risorius::app

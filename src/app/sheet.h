@@ -1,0 +1,23 @@
+// Moments of scripts on one picture: a row per script and head, a column per time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/animate.h"
+
+namespace risorius::app {
+
+struct SheetOptions {
+    std::vector<std::filesystem::path> scripts;  ///< at least one
+    std::vector<std::filesystem::path> rigs;     ///< none: each script's own
+    std::vector<double> times_s;                 ///< at least one, in the order of the columns
+    std::filesystem::path out;                   ///< .png
+    AnimateOptions view;  ///< size, camera, show, quality and threads of it count
+};
+
+/// Writes OUT and OUT.json, the records of all runs. Throws Error, RunError, Interrupted.
+Json make_sheet(const SheetOptions& options, const Watch& watch = {});
+
+}  // namespace risorius::app

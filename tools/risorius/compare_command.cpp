@@ -1,0 +1,74 @@
+// risorius compare SCRIPT [SCRIPT] -o OUT
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/compare.h"
+#include "commands.h"
+#include "core/error.h"
+#include "render_options.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct CompareArguments {
+    Common common;
+    app::AnimateOptions options;
+    std::vector<std::filesystem::path> scripts, rigs;
+    std::string size;
+};
+
+void run_compare(CompareArguments& arguments) {
+    settle_view(arguments.options, arguments.size);
+    const auto &scripts = arguments.scripts, &rigs = arguments.rigs;
+    if (scripts.size() > 2)
+        throw Error("compare", "one or two scripts", std::to_string(scripts.size()));
+    if (rigs.size() > 2) throw Error("--rig", "at most two of them", std::to_string(rigs.size()));
+    if (scripts.size() < 2 && rigs.size() < 2)
+        throw Error("compare", "two scripts, or one and two times --rig", "nothing to tell apart");
+    app::AnimateOptions left = arguments.options, right = arguments.options;
+    left.script = scripts.front();
+    right.script = scripts.back();
+    if (!rigs.empty()) {
+        left.rig = rigs.front();
+        right.rig = rigs.back();
+    }
+    Json record;
+    {
+        ProgressBar bar(arguments.common);
+        record = app::compare(left, right, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", record.dump(2).c_str());
+    else if (!arguments.common.quiet)
+        std::printf("%s: %d frames side by side\n", left.out.string().c_str(),
+                    record["frames"].get<int>());
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("compare", "Two scripts or two heads side by side");
+    auto arguments = std::make_shared<CompareArguments>();
+    app::AnimateOptions& options = arguments->options;
+    command->add_option("SCRIPT", arguments->scripts, "One script or two: left, right")->required();
+    command
+        ->add_option("-o,--out", options.out,
+                     "What to write, as risorius render does. Beside it come OUT.json, "
+                     "OUT.left.frames.tsv and OUT.right.frames.tsv")
+        ->required();
+    command->add_option("--rig", arguments->rigs,
+                        "Another rig than the script's; given twice: left, right");
+    command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
+    command->add_option("--show", options.show, "skin, muscles, wire, strain or landmarks");
+    add_view(*command, options, arguments->size);
+    add_coding(*command, options);
+    add_common(*command, arguments->common);
+    command->footer(
+        "Example:\n  risorius compare samples/smile/script.json --rig rigs/adult/rig.json --rig "
+        "anna/rig.json -o heads.mp4\n"
+        "  risorius compare mine/weak.json mine/strong.json --size 512x512 -o both.mp4");
+    command->callback([arguments] { run_compare(*arguments); });
+}
+
+}  // namespace risorius::cli

@@ -1,0 +1,60 @@
+// risorius sheet SCRIPT... --times T,T,... -o OUT.png
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/sheet.h"
+#include "commands.h"
+#include "render_options.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct SheetArguments {
+    Common common;
+    app::SheetOptions options;
+    std::string size = "256x256";
+};
+
+void run_sheet(SheetArguments& arguments) {
+    settle_view(arguments.options.view, arguments.size);
+    Json record;
+    {
+        ProgressBar bar(arguments.common);
+        record = app::make_sheet(arguments.options, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", record.dump(2).c_str());
+    else if (!arguments.common.quiet)
+        std::printf("%s: %zu x %zu pictures\n", arguments.options.out.string().c_str(),
+                    record["runs"].size(), arguments.options.times_s.size());
+}
+
+}  // namespace
+
+void add_sheet(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("sheet", "Moments of scripts on one picture, a row per script and head");
+    auto arguments = std::make_shared<SheetArguments>();
+    app::SheetOptions& options = arguments->options;
+    command->add_option("SCRIPT", options.scripts, "One script or more")->required();
+    command->add_option("--times", options.times_s, "Moments, seconds, with commas: a column each")
+        ->delimiter(',')
+        ->required();
+    command
+        ->add_option("-o,--out", options.out,
+                     "The picture, .png. Beside it comes OUT.json, how it was made")
+        ->required();
+    command->add_option("--rig", options.rigs,
+                        "Another rig than the scripts'; given several times: a row each");
+    command->add_option("--show", options.view.show, "skin, muscles, wire, strain or landmarks");
+    add_view(*command, options.view, arguments->size);
+    command->get_option("--size")->description("Of one picture")->capture_default_str();
+    add_common(*command, arguments->common);
+    command->footer(
+        "Example:\n  risorius sheet samples/smile/script.json samples/jaw/script.json --times "
+        "0,0.5,1 -o sheet.png");
+    command->callback([arguments] { run_sheet(*arguments); });
+}
+
+}  // namespace risorius::cli
