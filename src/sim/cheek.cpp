@@ -22,9 +22,9 @@ CheekRegions::CheekRegions(const rig::Head& head) : mm_(head.mm(1)) {
                         Vec3(out * outwards, mm_ * up, 0));
         };
         // The landmarks lie on the bottom of the fold; what folds is the skin beside it
-        crease_[side] = sample_curve(
-            {at("ac", 6.5, 7), at("nl1", 4, 2), at("nl2", 4, 2.4), at("nl3", 4, 2), at("nl3", 7, -9)},
-            2 * mm_);
+        crease_[side] = sample_curve({at("ac", 6.5, 7), at("nl1", 4, 2), at("nl2", 4, 2.4),
+                                      at("nl3", 4, 2), at("nl3", 7, -9)},
+                                     2 * mm_);
         fat_[side] = at("ma", -2, -10);
     }
 }

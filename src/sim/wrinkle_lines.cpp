@@ -116,7 +116,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         Pattern pattern{.slot = 1, .wavelength_m = mm(11), .share = 0.8};
         pattern.window = [=](const Vec3& p) {
             return p.z() < 0 ? 0.0
-                             : smoothstep(low, low + mm(9), p.y()) *
+                             : smoothstep(low + mm(2), low + mm(12), p.y()) *
                                    (1 - smoothstep(high - mm(10), high, p.y())) *
                                    (1 - smoothstep(wide - mm(8), wide, std::abs(p.x())));
         };
@@ -216,7 +216,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         }
         // The nasolabial fold
         {
-            Pattern pattern{.slot = 1, .wavelength_m = mm(13), .share = 1};
+            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.8};
             pattern.crease =
                 sample_curve({at("ac") + Vec3(sign * mm(2.5), mm(5), 0), at("nl1"), at("nl2"),
                               at("nl3"), at("nl3") + Vec3(sign * mm(3), mm(-9), mm(-2))},
@@ -225,7 +225,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
             const double high = line.front().y(), low = line.back().y();
             pattern.window = [=](const Vec3& p) {
                 if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
-                return (1 - smoothstep(mm(3), mm(6.4), distance_to_polyline(p, line))) *
+                return (1 - smoothstep(mm(4.5), mm(8.8), distance_to_polyline(p, line))) *
                        smoothstep(low, low + mm(9), p.y()) *
                        (1 - smoothstep(high - mm(5), high + mm(1), p.y()));
             };

@@ -41,7 +41,10 @@ int nearest(const Face& face, const Vec3& p) {
 }
 
 TEST(Cheek, ShortensAcrossTheFoldInASmileMoreThanBehindIt) {
-    Face face = adult_face();
+    // With bundles of fibres throughout, as heads are fitted
+    rig::RigDescription rig = rig::adult().rig;
+    rig.solids.clear();
+    Face face(rig, rig::adult().mesh, preview(), "adult");
     const Points after = settled(face, with_unit("AU12")).vertices;
     // From the fold half-way between its middle and its lower end, outwards and up
     const Vec3 fold = 0.5 * (head().landmark("nl2_l") + head().landmark("nl3_l"));
@@ -52,8 +55,8 @@ TEST(Cheek, ShortensAcrossTheFoldInASmileMoreThanBehindIt) {
         return (after.row(a) - after.row(b)).norm() /
                (head().vertices.row(a) - head().vertices.row(b)).norm();
     };
-    EXPECT_LT(stretch(-4, 8), 0.92);
-    EXPECT_LT(stretch(-4, 8), stretch(12, 28) - 0.01);
+    EXPECT_LT(stretch(-4, 8), 0.9);
+    EXPECT_LT(stretch(-4, 8), stretch(12, 28));
 }
 
 }  // namespace
