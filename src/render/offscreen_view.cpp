@@ -258,6 +258,7 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
+    frame.key_direction[3] = view.options.supersampling > 1 ? 1.0F : 0.0F;
     view.lights->draw_shadow(*view.buffers);
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.paint_map);

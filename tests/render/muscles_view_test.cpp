@@ -167,7 +167,8 @@ TEST_F(MusclesView, TheScaleOfActivationIsInTheCorner) {
 
 TEST_F(MusclesView, WhatDoesNotFitIsNamed) {
     EXPECT_EQ(message_from([] { show_named("bones", "--show"); }),
-              "--show: expected one of \"skin\", \"muscles\", found \"bones\"");
+              "--show: expected one of \"skin\", \"muscles\", \"wire\", \"strain\", \"error\", "
+              "\"landmarks\", found \"bones\"");
     for (std::size_t i = 0; i < show_names().size(); ++i)
         EXPECT_EQ(show_named(show_names()[i], ""), static_cast<Show>(i));
     Pose pose = head->pose;

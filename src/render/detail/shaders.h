@@ -10,7 +10,7 @@ struct FrameUniforms {
     float clip_from_world[16];
     float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
     float camera[4];              ///< xyz m
-    float key_direction[4];       ///< towards the lamp
+    float key_direction[4];       ///< towards the lamp; w 1 when a pixel has several samples
     float key_card[4];  ///< as a white card that faces it shines: irradiance over pi, exposed
     float fill_direction[4];
     float fill_card[4];
