@@ -115,6 +115,8 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                   .iris_tone = rig.look.iris_tone,
                   .freckles = rig.look.freckles,
                   .scalp_hair = rig.look.scalp_hair,
+                  .beard = rig.look.beard,
+                  .age = rig.look.age,
                   .seed = static_cast<unsigned>(rig.look.seed)};
     return scene;
 }

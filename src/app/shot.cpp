@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/existing_file.h"
 #include "core/known_names.h"
+#include "media/hdr_file.h"
 #include "media/sync_marks.h"
 
 namespace risorius::app {
@@ -116,6 +117,22 @@ Shot plan_shot(const AnimateOptions& options) {
     shot.view.camera = options.camera.value_or(asked.camera);
     shot.view.show = render::show_named(options.show.value_or(asked.show), "--show");
     shot.view.background = {.transparent = asked.transparent, .rgb = asked.background_rgb};
+    shot.view.lens = {.orthographic = asked.orthographic,
+                      .distance_m = asked.distance_m,
+                      .view_angle_deg = asked.view_angle_deg,
+                      .aperture_mm = asked.aperture_mm};
+    shot.view.supersampling = asked.antialiasing;
+    shot.view.light.preset = asked.light.preset;
+    shot.view.light.turn_deg = asked.light.turn_deg;
+    shot.view.light.exposure_ev = asked.light.exposure_ev;
+    if (!asked.light.file.empty()) {
+        media::HdrPicture map = media::read_hdr(asked.light.file);
+        if (map.width != 2 * map.height)
+            throw Error(asked.light.file.string(), "a map twice as wide as high",
+                        std::to_string(map.width) + "x" + std::to_string(map.height));
+        shot.view.light.surroundings =
+            render::Surroundings{map.width, map.height, std::move(map.rgb)};
+    }
     shot.view.threads = options.threads > 1 ? options.threads : 0;
 
     // Refuse now what would only fail after minutes

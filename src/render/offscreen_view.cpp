@@ -20,6 +20,7 @@
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
 #include "render/detail/skin_paint.h"
+#include "render/detail/strand_layer.h"
 #include "render/value_colour.h"
 
 namespace risorius::render {
@@ -90,7 +91,9 @@ struct OffscreenView::Impl {
           look(scene.look),
           box(skin_box(scene)),
           camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
-                             static_cast<double>(options.width_px) / options.height_px)),
+                             static_cast<double>(options.width_px) / options.height_px,
+                             options.lens)),
+          views(lens_views(camera, scene.landmarks, options.lens)),
           marks(scene),
           picture(options.width_px, options.height_px, options.supersampling),
           resolve(options.background),
@@ -102,6 +105,8 @@ struct OffscreenView::Impl {
         if (scene.shut.rows() != 0 && scene.shut.rows() != vertex_count)
             throw Error("scene/shut", std::to_string(vertex_count) + " rows, or none",
                         std::to_string(scene.shut.rows()));
+        if (options.show == Show::kMuscles && options.lens.orthographic)
+            throw Error("projection", "\"perspective\" when muscles are shown", "\"orthographic\"");
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
         if (options.show == Show::kMuscles)
@@ -125,12 +130,14 @@ struct OffscreenView::Impl {
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
         paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, centre,
-                               buffers->paintable_triangles(inside));
+                               buffers->paintable_triangles(inside),
+                               paint_side(options.height_px / camera.frame_height_m));
         pore_map = make_pores(scene.look.seed);
+        grow_hair(scene, centre);
 
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
-        lights = std::make_unique<Lights>(camera, centre);
+        lights = std::make_unique<Lights>(camera, centre, options.light);
         target = std::make_unique<Framebuffer>(picture.tile_width_samples(),
                                                picture.tile_height_samples());
         glGenBuffers(1, &frame_buffer);
@@ -141,6 +148,21 @@ struct OffscreenView::Impl {
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }
 
+    /// Lashes of the mesh are only drawn where none of their own can be grown.
+    void grow_hair(const Scene& scene, const Vec3& centre) {
+        std::vector<Strand> strands = plan_brows(scene, plan_skin(scene, centre), centre,
+                                                 buffers->paintable_triangles(inside));
+        bool lashes = true;
+        for (const int eye : {0, 1}) {
+            const std::vector<Strand> some = plan_lashes(scene, eye);
+            lashes &= !some.empty();
+            strands.insert(strands.end(), some.begin(), some.end());
+        }
+        mesh_lashes = !lashes;
+        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
+        hair = std::make_unique<StrandLayer>(scene, std::move(strands), camera, sample_m);
+    }
+
     ~Impl() {
         const GlContext::Current current(context);
         glDeleteBuffers(1, &frame_buffer);
@@ -149,12 +171,14 @@ struct OffscreenView::Impl {
         target.reset();
         lights.reset();
         materials.reset();
+        hair.reset();
         muscles.reset();
         buffers.reset();
     }
 
-    void draw_tile(const Tile& tile, const Pose& pose, FrameUniforms frame, Image& image) {
-        const Eigen::Matrix4f clip = (picture.crop(tile) * camera.clip_from_world).cast<float>();
+    void draw_tile(const Tile& tile, const Mat4& clip_from_world, const Pose& pose,
+                   FrameUniforms frame, Image& image) {
+        const Eigen::Matrix4f clip = (picture.crop(tile) * clip_from_world).cast<float>();
         std::memcpy(frame.clip_from_world, clip.data(), sizeof frame.clip_from_world);
         glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
@@ -171,10 +195,13 @@ struct OffscreenView::Impl {
         glEnable(GL_DEPTH_TEST);
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
+            if (batch.material == Material::kLashes && !mesh_lashes) continue;
             materials->use(batch, pose, marks);
             buffers->draw(batch);
         }
         materials->done();
+        hair->draw();
+        buffers->bind();
         glDisable(GL_FRAMEBUFFER_SRGB);
         picture.read_back(tile, resolve, image);
     }
@@ -183,6 +210,7 @@ struct OffscreenView::Impl {
     Look look;
     Box box;
     Camera camera;
+    std::vector<Mat4> views;  ///< through the places of the lens
     PosedMarks marks;
     TiledPicture picture;
     Resolve resolve;
@@ -191,6 +219,8 @@ struct OffscreenView::Impl {
     std::unique_ptr<SceneBuffers> buffers;
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
+    std::unique_ptr<StrandLayer> hair;
+    bool mesh_lashes = true;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<Framebuffer> target;
     std::vector<float> inside;  ///< of the mouth, per vertex
@@ -225,9 +255,11 @@ Image OffscreenView::draw(const Pose& pose) {
                                     view.inside);
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
+    view.hair->upload(pose, view.marks);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
+    frame.key_direction[3] = view.options.supersampling > 1 ? 1.0F : 0.0F;
     view.lights->draw_shadow(*view.buffers);
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.paint_map);
@@ -235,13 +267,26 @@ Image OffscreenView::draw(const Pose& pose) {
     glBindTexture(GL_TEXTURE_2D, view.pore_map);
 
     // The picture, tile by tile
-    Image image(view.options.width_px, view.options.height_px);
-    for (const Tile& tile : view.picture.tiles()) view.draw_tile(tile, pose, frame, image);
+    std::vector<Image> images;
+    for (const Mat4& clip_from_world : view.views) {
+        images.emplace_back(view.options.width_px, view.options.height_px);
+        for (const Tile& tile : view.picture.tiles())
+            view.draw_tile(tile, clip_from_world, pose, frame, images.back());
+    }
+    Image image = images.size() > 1 ? mean_of(images) : std::move(images.front());
     if (pose.values)
         draw_colour_scale(values_scale(*pose.values), view.options.background, image);
     else if (view.muscles)
         draw_colour_scale(activation_scale(view.look), view.options.background, image);
     return image;
+}
+
+Image OffscreenView::draw(const std::vector<Pose>& poses) {
+    if (poses.empty()) throw Error("poses", "at least one", "none");
+    if (poses.size() == 1) return draw(poses.front());
+    std::vector<Image> images;
+    for (const Pose& pose : poses) images.push_back(draw(pose));
+    return mean_of(images);
 }
 
 Vec2 OffscreenView::project(const Vec3& world) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "render/light.h"
 #include "render/scene.h"
 
 namespace risorius::render {
@@ -35,6 +36,15 @@ const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the names for an unknown one.
 Show show_named(const std::string& name, const std::string& place);
 
+/// How the named camera takes the picture; what is not given frames the head as the camera's name says.
+struct Lens {
+    bool orthographic = false;
+    std::optional<double> distance_m;      ///< of the camera from the middle of the head, 0.2..100
+    std::optional<double> view_angle_deg;  ///< that the height of the picture subtends, 0.5..90
+    double aperture_mm =
+        0;  ///< diameter of the opening, 0..100; 0: sharp at every distance. In focus: the front of the eyes
+};
+
 struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
@@ -43,6 +53,8 @@ struct ViewOptions {
     Show show = Show::kSkin;
     bool deep = false;  ///< pictures with 16 bits besides, without the scale of values
     Background background{};
+    LightOptions light{};
+    Lens lens{};
     int supersampling =
         2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square
     int threads =
@@ -62,6 +74,8 @@ class OffscreenView {
 
     /// pose.positions must have as many rows as scene.rest. May be called from one thread at a time, any thread.
     Image draw(const Pose& pose);
+    /// The mean in linear light of what several moments look like: a shutter that was open for all of them.
+    Image draw(const std::vector<Pose>& poses);
 
     /// Pixel position (x right, y down, from the top left corner) of a world point.
     Vec2 project(const Vec3& world) const;

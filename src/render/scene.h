@@ -15,13 +15,24 @@
 
 namespace risorius::render {
 
-enum class Material { kSkin, kEye, kCornea, kTeeth, kGums, kTongue, kMouth, kLashes };
+enum class Material {
+    kSkin,
+    kEye,
+    kCornea,
+    kTeeth,
+    kGums,
+    kTongue,
+    kMouth,
+    kLashes,
+    kMatte  ///< a card that measures the light: sends back its share of it evenly
+};
 
 struct Surface {
     Material material = Material::kSkin;
-    Triangles triangles;  ///< F x 3, into the shared vertices
-    TexCoords texcoords;  ///< 3F x 2 per triangle corner, or 0 rows
-    int eye = -1;         ///< for kEye and kCornea: 0 left, 1 right
+    Triangles triangles;        ///< F x 3, into the shared vertices
+    TexCoords texcoords;        ///< 3F x 2 per triangle corner, or 0 rows
+    int eye = -1;               ///< for kEye and kCornea: 0 left, 1 right
+    double reflectance = 0.18;  ///< of kMatte; those of a scene share it
 };
 
 struct Eye {
@@ -40,6 +51,9 @@ struct Look {
     Vec3 iris_tone{0.35, 0.50, 0.60};
     double freckles = 0.15;   ///< 0..1
     double scalp_hair = 0.6;  ///< 0..1, short hair painted above the hairline
+    double beard = 0.0;       ///< 0..1, from none over a shadow to a few days' growth
+    double age =
+        0.0;  ///< 0..1, young to old: spots, thinner redness, paler lips, dry skin, grey hair
     unsigned seed = 1;
 };
 

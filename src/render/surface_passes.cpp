@@ -30,6 +30,7 @@ Part part_of(const Surface& surface, const Vec3& middle, const std::array<Eye, 2
         case Material::kTongue:
             return Part::kTongue;
         case Material::kLashes:
+        case Material::kMatte:  // never part of a face
         case Material::kMouth:
             break;
     }

@@ -79,6 +79,8 @@ void visit_fields(LookDescription& look, Visit visit) {
     visit("iris_tone", look.iris_tone);
     visit("freckles", look.freckles, Range{0, 1});
     visit("scalp_hair", look.scalp_hair, Range{0, 1});
+    visit("beard", look.beard, Range{0, 1});
+    visit("age", look.age, Range{0, 1});
     visit("seed", look.seed);
 }
 

@@ -97,6 +97,8 @@ struct LookDescription {
     Vec3 iris_tone{0.35, 0.50, 0.60};
     double freckles = 0.15;
     double scalp_hair = 0.6;
+    double beard = 0.0;
+    double age = 0.0;
     int seed = 1;
 };
 

@@ -20,9 +20,34 @@ constexpr double kLatestSide_s =
     0.040;  // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart
 constexpr double kBlinkApart_s = 0.3;  // of idle blinks from those a script writes
 
+ScriptLight read_light(const JsonCursor& json) {
+    ScriptLight light;
+    const auto preset = [&](const JsonCursor& name) {
+        light.preset = name.one_of({"studio", "soft", "dramatic", "outdoor", "even"});
+    };
+    if (json.is_string()) {
+        preset(json);
+        return light;
+    }
+    json.allow_keys({"preset", "file", "turn_deg", "exposure_ev"});
+    if (const auto v = json.find("preset")) preset(*v);
+    if (const auto v = json.find("file")) light.file = existing_file(*v);
+    if (const auto v = json.find("turn_deg")) light.turn_deg = v->number({-360, 360});
+    if (const auto v = json.find("exposure_ev")) light.exposure_ev = v->number({-10, 10});
+    return light;
+}
+
 ScriptView read_view(const JsonCursor& json) {
-    json.allow_keys({"width_px", "height_px", "camera", "show", "background"});
+    json.allow_keys({"width_px", "height_px", "camera", "show", "background", "light", "projection",
+                     "distance_m", "view_angle_deg", "aperture_mm", "antialiasing"});
     ScriptView view;
+    if (const auto v = json.find("light")) view.light = read_light(*v);
+    if (const auto v = json.find("projection"))
+        view.orthographic = v->one_of({"perspective", "orthographic"}) == "orthographic";
+    if (const auto v = json.find("distance_m")) view.distance_m = v->number({0.2, 100});
+    if (const auto v = json.find("view_angle_deg")) view.view_angle_deg = v->number({0.5, 90});
+    if (const auto v = json.find("aperture_mm")) view.aperture_mm = v->number({0, 100});
+    if (const auto v = json.find("antialiasing")) view.antialiasing = v->integer(1, 4);
     if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
     if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
     if (const auto v = json.find("camera"))

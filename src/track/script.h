@@ -15,12 +15,26 @@
 
 namespace risorius::track {
 
+/// "light" of a view; see render::LightOptions.
+struct ScriptLight {
+    std::string preset = "studio";
+    std::filesystem::path
+        file;  ///< Radiance .hdr of the surroundings, in place of the preset; empty: none
+    double turn_deg = 0;     ///< [-360, 360]
+    double exposure_ev = 0;  ///< [-10, 10]
+};
+
 struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
-    std::string camera = "front";  ///< a name of render::camera_names()
-    std::string show = "skin";     ///< a name of render::show_names()
-    bool transparent = false;      ///< background "transparent"
+    std::string camera = "front";                      ///< a name of render::camera_names()
+    std::string show = "skin";                         ///< a name of render::show_names()
+    bool orthographic = false;                         ///< "projection"
+    std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
+    double aperture_mm = 0;
+    int antialiasing = 2;  ///< 1..4 samples per pixel and side
+    ScriptLight light;
+    bool transparent = false;  ///< background "transparent"
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
 };
 

@@ -137,8 +137,9 @@ TEST_F(MusclesView, AMuscleOnTheFarSideOfTheHeadIsNotSeen) {
 }
 
 TEST_F(MusclesView, AMuscleThatComesOutOfTheSkinIsStillUnderIt) {
+    // Other light falls on it there; without it, this place is 15 darker or more.
     EXPECT_NEAR(lightness_there(picture(1, head->at_depth(-0.008))), lightness_there(picture(1)),
-                3);
+                6);
     // Nor does it reach over the outline of the head.
     Points beside = head->scene.muscles.rest;
     beside.rowwise() += Vec3(-0.05, 0, -0.03).transpose();
@@ -166,7 +167,8 @@ TEST_F(MusclesView, TheScaleOfActivationIsInTheCorner) {
 
 TEST_F(MusclesView, WhatDoesNotFitIsNamed) {
     EXPECT_EQ(message_from([] { show_named("bones", "--show"); }),
-              "--show: expected one of \"skin\", \"muscles\", found \"bones\"");
+              "--show: expected one of \"skin\", \"muscles\", \"wire\", \"strain\", \"error\", "
+              "\"landmarks\", found \"bones\"");
     for (std::size_t i = 0; i < show_names().size(); ++i)
         EXPECT_EQ(show_named(show_names()[i], ""), static_cast<Show>(i));
     Pose pose = head->pose;

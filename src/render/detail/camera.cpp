@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "core/error.h"
@@ -41,6 +42,20 @@ double direction_deg(const std::string& name) {
     throw Error("camera", "one of " + known, "\"" + name + "\"");
 }
 
+void check(const char* field, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    char range[64], found[32];
+    std::snprintf(range, sizeof range, "[%g, %g]", least, most);
+    std::snprintf(found, sizeof found, "%g", value);
+    throw Error(field, range, found);
+}
+
+void check_lens(const Lens& lens) {
+    if (lens.distance_m) check("distance_m", *lens.distance_m, 0.2, 100);
+    if (lens.view_angle_deg) check("view_angle_deg", *lens.view_angle_deg, 0.5, 90);
+    check("aperture_mm", lens.aperture_mm, 0, 100);
+}
+
 }  // namespace
 
 const std::vector<std::string>& camera_names() {
@@ -53,7 +68,8 @@ const std::vector<std::string>& camera_names() {
 }
 
 Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& landmarks,
-                   const Vec3& skin_min, const Vec3& skin_max, double aspect) {
+                   const Vec3& skin_min, const Vec3& skin_max, double aspect, const Lens& lens) {
+    check_lens(lens);
     Camera camera;
     camera.azimuth_rad = direction_deg(name) * std::numbers::pi / 180.0;
 
@@ -87,10 +103,17 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
         std::max(frame_top - frame_bottom, 2 * half_width * (1 + kMarginBeside) / aspect);
 
     // Perspective along the horizontal
-    const double distance =
-        std::max(kNearestDistance_m, kDistancePerHeight * camera.frame_height_m);
+    double distance = std::max(kNearestDistance_m, kDistancePerHeight * camera.frame_height_m);
+    const double half_angle = lens.view_angle_deg.value_or(0) * std::numbers::pi / 360;
+    if (lens.distance_m) distance = *lens.distance_m;
+    if (lens.view_angle_deg && lens.distance_m)
+        camera.frame_height_m = 2 * distance * std::tan(half_angle);
+    else if (lens.view_angle_deg)
+        distance = camera.frame_height_m / 2 / std::tan(half_angle);
     const Vec3 backward(std::sin(camera.azimuth_rad), 0.0, std::cos(camera.azimuth_rad));
     camera.position = target + distance * backward;
+    camera.backward = backward;
+    camera.orthographic = lens.orthographic;
     Mat4 view = Mat4::Identity();
     view.block<1, 3>(0, 0) = right.transpose();
     view.block<1, 3>(1, 0) = Vec3::UnitY().transpose();
@@ -107,8 +130,45 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
     projection(2, 2) = -(far + near) / (far - near);
     projection(2, 3) = -2 * far * near / (far - near);
     projection(3, 2) = -1;
+    if (lens.orthographic) {
+        projection(0, 0) = 2 / (camera.frame_height_m * aspect);
+        projection(1, 1) = 2 / camera.frame_height_m;
+        projection(2, 2) = -2 / (far - near);
+        projection(2, 3) = -(far + near) / (far - near);
+        projection(3, 2) = 0;
+        projection(3, 3) = 1;
+    }
     camera.clip_from_world = projection * view;
     return camera;
+}
+
+std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, Vec3>& landmarks,
+                             const Lens& lens) {
+    if (lens.aperture_mm <= 0 || lens.orthographic) return {camera.clip_from_world};
+    constexpr int kViews = 32;
+    Vec3 focus = Vec3::Zero();
+    int marks = 0;
+    for (const char* id : {"en_l", "ex_l", "en_r", "ex_r"})
+        if (const auto mark = landmarks.find(id); mark != landmarks.end()) {
+            focus += mark->second;
+            ++marks;
+        }
+    if (marks > 0) focus /= marks;
+    const double distance = std::max((camera.position - focus).dot(camera.backward), 0.05);
+    const Vec3 up = Vec3::UnitY(), right = up.cross(camera.backward);
+    std::vector<Mat4> views;
+    for (int i = 0; i < kViews; ++i) {
+        // Vogel's spiral fills the disc evenly.
+        const double radius = 0.5e-3 * lens.aperture_mm * std::sqrt((i + 0.5) / kViews);
+        const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const Vec3 aside = radius * (std::cos(turn) * right + std::sin(turn) * up);
+        // A shear of the world along the view that leaves the plane in focus alone
+        Mat4 shear = Mat4::Identity();
+        shear.block<3, 3>(0, 0) += aside * camera.backward.transpose() / distance;
+        shear.block<3, 1>(0, 3) = -aside * camera.backward.dot(focus) / distance;
+        views.push_back(camera.clip_from_world * shear);
+    }
+    return views;
 }
 
 }  // namespace risorius::render

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/types.h"
+#include "render/offscreen_view.h"
 
 namespace risorius::render {
 
@@ -16,11 +18,22 @@ struct Camera {
     double azimuth_rad = 0;  ///< from straight ahead of the face towards its left
     Mat4 clip_from_world;
     double frame_height_m;  ///< height of what is seen at the head
+    Vec3 backward;          ///< unit, from the head to the camera
+    bool orthographic = false;
+
+    /// Where views come together; without perspective so far away that they are parallel.
+    Vec3 eye_point() const { return orthographic ? Vec3(position + 1e3 * backward) : position; }
 };
 
 /// Frames crown (v) to chin (me) with margins, and the box of the skin where they are missing.
-/// Throws Error naming the cameras for an unknown one.
+/// Throws Error naming the cameras for an unknown one, and what of the lens is out of range.
 Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& landmarks,
-                   const Vec3& skin_min, const Vec3& skin_max, double aspect);
+                   const Vec3& skin_min, const Vec3& skin_max, double aspect,
+                   const Lens& lens = {});
+
+/// The camera moved to places of its lens' opening, evenly over the disc, so that the plane of the eyes stays where it is; the
+/// camera itself when it has no opening.
+std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, Vec3>& landmarks,
+                             const Lens& lens);
 
 }  // namespace risorius::render

@@ -9,6 +9,7 @@
 #include "render/detail/shaders.h"
 #include "render/detail/skin_paint.h"
 #include "render/lettering.h"
+#include "render/light.h"
 #include "render/value_colour.h"
 
 namespace risorius::render {
@@ -23,8 +24,9 @@ constexpr double kRim = 0.35;
 Vec3 under_skin(const Vec3& muscle, const Look& look) {
     const Vec3 x =
         (1 - kSkinOverMuscles) * muscle + kSkinOverMuscles * linear_from_srgb(look.skin_tone);
-    return x.unaryExpr([](double c) {  // film() of shader_lighting.cpp
-        return std::min(1.0, c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14));
+    return x.unaryExpr([](double c) {  // shown() of shader_lighting.cpp
+        const double over = std::max(c - kStraightTo, 0.0) / (1 - kStraightTo);
+        return std::min(c, kStraightTo) + (1 - kStraightTo) * over / (1 + over);
     });
 }
 

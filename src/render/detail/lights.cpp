@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 namespace risorius::render {
 namespace {
@@ -11,36 +10,34 @@ constexpr int kShadowSide = 1024;
 constexpr double kShadowReachPerFrame =
     0.62;  ///< half width of the map over the height of the frame
 
-Vec3 direction(double azimuth_deg, double elevation_deg) {
-    const double a = azimuth_deg * std::numbers::pi / 180,
-                 e = elevation_deg * std::numbers::pi / 180;
-    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
-}
-
 void put(float* to, const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
 }
 
 }  // namespace
 
-Lights::Lights(const Camera& camera, const Vec3& head_centre)
-    : program_("shadow", depth_vertex_shader(), "") {
-    // The key stands on the side the face looks to, so that cheek and nose model; mirrored with the camera.
-    const double azimuth = camera.azimuth_rad * 180 / std::numbers::pi;
-    const double side = azimuth < -1 ? -1 : 1;
-    const Vec3 key = direction(azimuth - side * 38, 34);
-    put(frame_.camera, camera.position);
+Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options)
+    : program_("shadow", depth_vertex_shader(), ""),
+      clip_location_(program_.location("clip_from_world")) {
+    const LightPlan plan = plan_light(options, camera.azimuth_rad);
+    const Vec3 exposure = exposure_for(plan, options.exposure_ev), key = plan.key.direction;
+    shadow_ = plan.key.card.maxCoeff() > 0;
+    put(frame_.camera, camera.eye_point());
     put(frame_.key_direction, key);
-    put(frame_.key_radiance, Vec3(1.00, 0.955, 0.90) * 1.30);
-    put(frame_.fill_direction, direction(azimuth + side * 48, 8));
-    put(frame_.fill_radiance, Vec3(0.88, 0.94, 1.00) * 0.34);
-    put(frame_.rim_direction, direction(azimuth + side * 142, 32));
-    put(frame_.rim_radiance, Vec3(0.92, 0.97, 1.00) * 0.75);
-    put(frame_.sky, Vec3(0.95, 0.98, 1.00) * 0.36);
-    put(frame_.ground, Vec3(1.00, 0.90, 0.82) * 0.17);
+    put(frame_.key_card, plan.key.card.cwiseProduct(exposure));
+    put(frame_.fill_direction, plan.fill.direction);
+    put(frame_.fill_card, plan.fill.card.cwiseProduct(exposure));
+    put(frame_.rim_direction, plan.rim.direction);
+    put(frame_.rim_card, plan.rim.card.cwiseProduct(exposure));
+    const Irradiance irradiance = irradiance_of(plan.surroundings);
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        put(frame_.irradiance[i], irradiance[i].cwiseProduct(exposure));
+    mirror_ = mirror_texture(plan.surroundings, exposure);
 
     const double reach = kShadowReachPerFrame * camera.frame_height_m;
-    const Vec3 across = Vec3::UnitY().cross(key).normalized(), up = key.cross(across);
+    const Vec3 across =
+        (std::abs(key.y()) > 0.999 ? Vec3::UnitX() : Vec3::UnitY().cross(key)).normalized();
+    const Vec3 up = key.cross(across);
     Mat4 clip = Mat4::Identity();
     clip.block<1, 3>(0, 0) = across.transpose() / reach;
     clip.block<1, 3>(1, 0) = up.transpose() / reach;
@@ -73,6 +70,7 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre)
 Lights::~Lights() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteTextures(1, &shadow_map_);
+    glDeleteTextures(1, &mirror_);
 }
 
 FrameUniforms Lights::uniforms(const MouthGap& gap) const {
@@ -91,13 +89,16 @@ void Lights::draw_shadow(const SceneBuffers& buffers) const {
     glPolygonOffset(2.0F, 4.0F);
     glClear(GL_DEPTH_BUFFER_BIT);
     program_.use();
-    glUniformMatrix4fv(program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world_.data());
+    glUniformMatrix4fv(clip_location_, 1, GL_FALSE, clip_from_world_.data());
     // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
-    for (const Batch& batch : buffers.batches())
-        if (batch.material == Material::kSkin) buffers.draw(batch);
+    if (shadow_)
+        for (const Batch& batch : buffers.batches())
+            if (batch.material == Material::kSkin) buffers.draw(batch);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glActiveTexture(GL_TEXTURE0 + kShadowUnit);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);
+    glActiveTexture(GL_TEXTURE0 + kMirrorUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, mirror_);
 }
 
 }  // namespace risorius::render

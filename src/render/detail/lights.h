@@ -1,16 +1,31 @@
-// A soft three-point light that goes with the camera: key from one side of the face, fill, and a rim from behind.
+// The light of a view: a key lamp with shadow, fill, a rim from behind, and surroundings, exposed on a grey card.
 #pragma once
 
 #include "render/detail/camera.h"
+#include "render/detail/environment.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
+#include "render/light.h"
 
 namespace risorius::render {
 
+/// A light before it is exposed, frame of the head.
+struct LightPlan {
+    Lamp key, fill, rim;
+    Surroundings surroundings;
+    Vec3 forward = Vec3::UnitZ();  ///< where the grey card looks
+};
+
+/// Throws Error for an unknown preset or numbers out of range. Presets go with the camera, which stands at this azimuth.
+LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
+
+/// Factor per channel that makes a white card shine with 1.
+Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
+
 class Lights {
   public:
-    Lights(const Camera& camera, const Vec3& head_centre);
+    Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options);
     ~Lights();
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;
@@ -18,14 +33,16 @@ class Lights {
     /// All but clip_from_world.
     FrameUniforms uniforms(const MouthGap& gap) const;
 
-    /// Draws the shadow map of the bound scene and binds it to kShadowUnit.
+    /// Draws the shadow map of the bound scene and binds what lights look up.
     void draw_shadow(const SceneBuffers& buffers) const;
 
   private:
     FrameUniforms frame_{};
     Eigen::Matrix4f clip_from_world_;
     GlProgram program_;
-    GLuint shadow_map_ = 0, framebuffer_ = 0;
+    GLint clip_location_ = -1;
+    bool shadow_ = true;  ///< nothing to throw one without a key lamp
+    GLuint shadow_map_ = 0, framebuffer_ = 0, mirror_ = 0;
 };
 
 }  // namespace risorius::render

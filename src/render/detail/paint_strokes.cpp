@@ -43,37 +43,17 @@ class StrokePad {
     std::vector<StrokeVertex> vertices_;
 };
 
-/// Hairs of the brow: upright at the nose, then more and more along it; the upper rows lean down, the lower ones up.
+/// The ground the hairs of a brow stand in: their shadows and the finest among them.
 void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
           StrokeRandom& random, StrokePad& pad) {
     if (line.size() < 3) return;
-    constexpr int kHairs = 620;
-    const Vec3 hair = linear_from_srgb(scene.look.hair_tone);
-    std::vector<Vec2> map;
-    for (const Vec3& p : line) map.push_back(paint_place(p, centre));
-    const double mirrored = map.back().x() < map.front().x() ? -1 : 1;
+    constexpr int kHairs = 420;
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
     for (int i = 0; i < kHairs; ++i) {
-        const double t = std::pow(random.next(), 0.85);
-        const double at = t * static_cast<double>(map.size() - 1);
-        const auto k = std::min(static_cast<std::size_t>(at), map.size() - 2);
-        const Vec2 axis = (map[k + 1] - map[k]).normalized();
-        const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
-        // Full in the middle, thin at the tail, ragged at the head
-        const double half_band =
-            0.0046 * (0.45 + 0.55 * std::min(1.0, t / 0.22)) * (1.0 - 0.78 * std::pow(t, 1.6));
-        const double offset = random.next() + random.next() - 1.0;
-        const double band_s = offset * half_band;
-        const Vec2 root = map[k] + (at - static_cast<double>(k)) * (map[k + 1] - map[k]) +
-                          kMapPerMetre * (band_s - 0.0006) * up;
-        const double lean = (42.0 - 30.0 * std::min(1.0, t / 0.40)) -
-                            42.0 * offset * std::min(1.0, t / 0.3) + 22.0 * (random.next() - 0.5);
-        const double angle = lean * std::numbers::pi / 180;
-        const double length = (0.0045 + 0.0035 * random.next()) * (1.0 - 0.35 * t);
-        const Vec2 direction = std::cos(angle) * axis + std::sin(angle) * up;
-        const double shade = 0.7 + 0.7 * random.next();
-        const double density = 0.46 + 0.25 * random.next();
-        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00022,
-                hair * shade, density * std::min(1.0, 0.35 + t / 0.22));
+        const BrowHair next = next_brow_hair(line, centre, random);
+        const double shade = 0.7 + 0.7 * random.next(), density = 0.22 + 0.16 * random.next();
+        const Vec2 tip = next.root + kMapPerMetre * next.length_m * next.step.normalized();
+        pad.add(next.root, tip, kMapPerMetre * 0.00022, hair * shade, density * next.density);
     }
 }
 
@@ -117,7 +97,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
            StrokeRandom& random, StrokePad& pad) {
     if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
     constexpr int kHairs = 90000;
-    const Vec3 hair = linear_from_srgb(scene.look.hair_tone);
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
     const auto crown = scene.landmarks.find("v");
     const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
     const Vec2 whorl = paint_place(top + Vec3(0.008, 0, -0.03), centre);
@@ -143,6 +123,53 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
     }
 }
 
+/// Within the red of the lips or half a millimetre from it.
+bool inside_lips(const SkinPlan& plan, const Vec3& p) {
+    bool inside = false;
+    const std::vector<Vec3>& outline = plan.lip_outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+            inside = !inside;
+    }
+    return inside && p.z() > plan.lip_back_m;
+}
+
+/// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
+void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+           const std::vector<unsigned>& skin, StrokeRandom& random, StrokePad& pad) {
+    if (scene.look.beard <= 0 || plan.beard.empty()) return;
+    constexpr double kPerSquareMetre = 1.1e6;  // of a man's chin
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const auto at = [&](std::size_t i) -> Vec3 {
+        return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
+    };
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+        const Vec3 a = at(i), u = at(i + 1) - a, v = at(i + 2) - a, n = u.cross(v);
+        const double density = beard_density(plan, a + (u + v) / 3);
+        if (density <= 0) continue;
+        const double expected = 0.5 * n.norm() * kPerSquareMetre * density;
+        for (auto left = static_cast<int>(expected + random.next()); left > 0; --left) {
+            double s = random.next(), t = random.next();
+            const double length = random.next(), shade = random.next(), turn = random.next();
+            if (s + t > 1) {
+                s = 1 - s;
+                t = 1 - t;
+            }
+            const Vec3 root = a + s * u + t * v;
+            if (inside_lips(plan, root)) continue;
+            const Vec3 down = (Vec3(0.9 * (turn - 0.5) + 2.5 * root.x(), -1, 0.0)).normalized();
+            const Vec2 from = paint_place(root, centre);
+            const Vec2 to = paint_place(
+                root + (0.0004 + 0.0022 * scene.look.beard * (0.5 + 0.5 * length)) * down, centre);
+            pad.add(from, to, kMapPerMetre * 0.00011, hair * (0.7 + 0.6 * shade),
+                    (0.25 + 0.55 * scene.look.beard) * density);
+        }
+    }
+}
+
 void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, StrokePad& pad) {
     const int count = static_cast<int>(900 * std::clamp(scene.look.freckles, 0.0, 1.0));
     const Vec3 tint = linear_from_srgb(scene.look.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
@@ -162,6 +189,32 @@ void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, St
 
 }  // namespace
 
+BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, StrokeRandom& random) {
+    const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
+    const std::size_t end = line.size() - 1;
+    const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
+    const double t = std::pow(random.next(), 0.85);
+    const double at = t * static_cast<double>(end);
+    const auto k = std::min(static_cast<std::size_t>(at), end - 1);
+    const Vec2 axis = (map(k + 1) - map(k)).normalized();
+    const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
+    // Full in the middle, thin at the tail, ragged at the head
+    const double half_band =
+        0.0050 * (0.50 + 0.50 * std::min(1.0, t / 0.22)) * (1.0 - 0.74 * std::pow(t, 1.6));
+    const double offset = random.next() + random.next() - 1.0;
+    BrowHair hair;
+    hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
+                kMapPerMetre * (offset * half_band - 0.0006) * up;
+    const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
+                        42.0 * offset * std::min(1.0, t / 0.3) + 24.0 * (random.next() - 0.5);
+    const double angle = lean * std::numbers::pi / 180;
+    hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.35 * t);
+    hair.step =
+        0.4 * kMapPerMetre * hair.length_m * (std::cos(angle) * axis + std::sin(angle) * up);
+    hair.density = std::min(1.0, 0.35 + t / 0.22);
+    return hair;
+}
+
 double StrokeRandom::next() {
     state_ += 0x9E3779B97F4A7C15ULL;
     std::uint64_t z = state_;
@@ -176,6 +229,7 @@ std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
     StrokePad pad;
     freckles(scene, plan, random, pad);
     scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
+    beard(scene, plan, centre, skin, random, pad);
     for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
     return pad.take();
 }

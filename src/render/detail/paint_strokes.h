@@ -19,6 +19,15 @@ class StrokeRandom {
     std::uint64_t state_;
 };
 
+/// Where a hair of a brow grows on the map and which way: upright at the nose, then more and more along the brow; the upper rows
+/// lean down, the lower ones up.
+struct BrowHair {
+    Vec2 root, step;  ///< step: part of the hair's way
+    double length_m = 0, density = 1;
+};
+BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
+                        StrokeRandom& random);
+
 struct StrokeVertex {
     float place[2];  ///< on the map
     float local[2];  ///< along 0..1 from the root, across -1..1

@@ -29,6 +29,43 @@ Resolve::Resolve(const Background& background)
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(background.rgb[k], 0.0, 1.0)));
 }
 
+Image mean_of(const std::vector<Image>& pictures) {
+    Image mean = pictures.front();
+    std::array<float, 256> linear;
+    for (std::size_t i = 0; i < 256; ++i)
+        linear[i] = static_cast<float>(linear_of_srgb(static_cast<double>(i) / 255));
+    const auto count = static_cast<float>(pictures.size());
+    for (std::size_t p = 0; p < mean.rgba.size(); p += 4) {
+        float sum[3] = {0, 0, 0}, alpha = 0;
+        for (const Image& picture : pictures) {
+            const float a = picture.rgba[p + 3];
+            alpha += a;
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += a * linear[picture.rgba[p + k]];
+        }
+        if (alpha <= 0) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            mean.rgba[p + k] = static_cast<std::uint8_t>(
+                std::lround(255 * srgb_of_linear(std::min(1.0F, sum[k] / alpha))));
+        mean.rgba[p + 3] = static_cast<std::uint8_t>(std::lround(alpha / count));
+    }
+    for (std::size_t p = 0; p < mean.deep.size(); p += 4) {
+        double sum[3] = {0, 0, 0}, alpha = 0;
+        for (const Image& picture : pictures) {
+            const double a = picture.deep[p + 3];
+            alpha += a;
+            for (std::size_t k = 0; k < 3; ++k)
+                sum[k] += a * linear_of_srgb(picture.deep[p + k] / 65535.0);
+        }
+        if (alpha <= 0) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            mean.deep[p + k] = static_cast<std::uint16_t>(std::lround(
+                65535 * srgb_of_linear(std::min(1.0F, static_cast<float>(sum[k] / alpha)))));
+        mean.deep[p + 3] =
+            static_cast<std::uint16_t>(std::lround(alpha / static_cast<double>(count)));
+    }
+    return mean;
+}
+
 void Resolve::operator()(const std::vector<std::uint8_t>& samples, int supersampling,
                          const Tile& tile, Image& image) const {
     const auto n = static_cast<std::size_t>(supersampling);
@@ -44,24 +81,25 @@ void Resolve::operator()(const std::vector<std::uint8_t>& samples, int supersamp
         std::uint8_t* out = image.pixel(tile.x, tile.y + y);
         for (std::size_t x = 0; x < width; ++x, out += 4) {
             std::uint32_t sum[3] = {0, 0, 0};
-            std::uint32_t covered = 0;
+            std::uint32_t alpha = 0;
             for (std::size_t j = 0; j < n; ++j) {
                 const std::uint8_t* s = rows + j * sample_row + x * n * 4;
                 for (std::size_t i = 0; i < n; ++i, s += 4) {
-                    if (s[3] == 0) continue;
-                    ++covered;
+                    alpha += s[3];
                     for (std::size_t k = 0; k < 3; ++k) sum[k] += linear_of_byte_[s[k]];
                 }
             }
             if (transparent_) {
-                if (covered > 0)
+                if (alpha > 0)
                     for (std::size_t k = 0; k < 3; ++k)
-                        out[k] = byte_of_linear_[(sum[k] + covered / 2) / covered];
-                out[3] = static_cast<std::uint8_t>((255 * covered + count / 2) / count);
+                        out[k] =
+                            byte_of_linear_[std::min(65535U, (sum[k] * 255 + alpha / 2) / alpha)];
+                out[3] = static_cast<std::uint8_t>((alpha + count / 2) / count);
             } else {
+                const std::uint32_t open = 255 * count - alpha;
                 for (std::size_t k = 0; k < 3; ++k)
-                    out[k] = byte_of_linear_[(sum[k] + (count - covered) * behind[k] + count / 2) /
-                                             count];
+                    out[k] = byte_of_linear_[std::min(
+                        65535U, (sum[k] + open * behind[k] / 255 + count / 2) / count)];
                 out[3] = 255;
             }
         }

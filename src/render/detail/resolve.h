@@ -15,11 +15,14 @@ struct Tile {
     int x, y, width, height;
 };
 
+/// Mean in linear light of pictures of one size.
+Image mean_of(const std::vector<Image>& pictures);
+
 class Resolve {
   public:
     explicit Resolve(const Background& background);
 
-    /// `samples`: rows from the bottom, sRGB colour, alpha 0 or 255, supersampling times as wide and high as the tile of
+    /// `samples`: rows from the bottom, sRGB colour already weighted by its alpha (in linear light), supersampling times as wide and high as the tile of
     /// the picture they cover.
     void operator()(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
                     Image& image) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "render/detail/curvature.h"
 #include "render/detail/face_order.h"
 #include "render/detail/lash_strands.h"
 #include "render/detail/shaders.h"
@@ -29,9 +30,9 @@ std::vector<const Triangles*> triangle_lists(const Scene& scene) {
 }
 
 // Skin first, as it hides most of the rest; what is blended last.
-constexpr Material kDrawOrder[] = {Material::kSkin,   Material::kEye,   Material::kTeeth,
-                                   Material::kTongue, Material::kGums,  Material::kMouth,
-                                   Material::kLashes, Material::kCornea};
+constexpr Material kDrawOrder[] = {Material::kSkin,   Material::kEye,    Material::kTeeth,
+                                   Material::kTongue, Material::kGums,   Material::kMouth,
+                                   Material::kMatte,  Material::kLashes, Material::kCornea};
 
 void attribute(VertexAttribute index, GLint size, int floats_per_vertex, int offset) {
     glEnableVertexAttribArray(index);
@@ -102,8 +103,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     glBufferData(GL_ARRAY_BUFFER, bytes(fixed), fixed.data(), GL_STATIC_DRAW);
     attribute(kRest, 3, 5, 0);
     attribute(kPaintPlace, 2, 5, 3);
+    curvature_ = curvature(scene.rest, indices_);
     set_occlusion(std::vector<float>(vertices, 1.0F), std::vector<float>(vertices, 0.0F));
-    attribute(kOcclusion, 2, 2, 0);
+    attribute(kOcclusion, 3, 3, 0);
     if (scene.fold_phase.rows() > 0) {
         std::vector<float> phase(3 * vertices, 0.0F);
         for (std::size_t i = 0; i < phase.size(); ++i)
@@ -160,13 +162,14 @@ void SceneBuffers::set_colours(const std::vector<float>& rgb) {
 
 void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
                                  const std::vector<float>& inside_mouth) {
-    std::vector<float> both(2 * sky_seen.size());
+    occlusion_.resize(3 * sky_seen.size());
     for (std::size_t v = 0; v < sky_seen.size(); ++v) {
-        both[2 * v] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
-        both[2 * v + 1] = inside_mouth[v];
+        occlusion_[3 * v] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
+        occlusion_[3 * v + 1] = inside_mouth[v];
+        occlusion_[3 * v + 2] = curvature_[v];
     }
     glBindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, bytes(both), both.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, bytes(occlusion_), occlusion_.data(), GL_STREAM_DRAW);
 }
 
 int SceneBuffers::skin_index_count() const {

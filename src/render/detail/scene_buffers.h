@@ -48,6 +48,7 @@ class SceneBuffers {
     std::vector<unsigned> indices_;
     std::vector<float> paint_;
     std::vector<LashPlace> lashes_;
+    std::vector<float> curvature_, occlusion_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
     int index_count_ = 0;
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,

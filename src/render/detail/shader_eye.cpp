@@ -14,12 +14,22 @@ vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.32, 0.0)); 
 float window_light(vec3 back, vec3 l, float edge) {
     return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
 }
+
+// What the tear film mirrors, where `open` of it sees the room.
+vec3 wet_gloss(vec3 n, vec3 v, float open) {
+    vec3 back = reflect(-v, n);
+    vec3 gloss = key_card.rgb * sqrt(open) * window_light(back, catchlight(), 0.957);
+    gloss += fill_card.rgb * open * 0.5 * window_light(back, fill_direction.xyz, 0.950);
+    return gloss + open * mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.08, 0.025) * mirrored(back, 0.0);
+}
 )";
 
 constexpr const char* kEye = R"(
 in vec3 position;
 in vec3 normal;
 in vec3 rest;
+in vec3 soft;
+in float kept;
 out vec4 colour;
 uniform mat3 eye_from_rest;
 uniform mat3 eye_from_world;
@@ -100,25 +110,15 @@ void main() {
 
     float open = lid_shade(position);
     float s = key_visibility(position, n) * open;
-    vec3 k = key_direction.xyz, f = fill_direction.xyz;
+    vec3 k = key_direction.xyz;
     // The eyeball scatters so strongly that it hardly shades; the iris lies flat behind the cornea.
     vec3 flat_n = normalize(mix(n, v, 0.5 * is_iris));
-    vec3 wrap = vec3(0.32, 0.26, 0.22);
-    vec3 kd = clamp((dot(flat_n, k) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 fd = clamp((dot(flat_n, f) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 light = key_radiance.rgb * kd * s + fill_radiance.rgb * fd * open + ambient(n) * open;
+    vec3 light = key_card.rgb * s * scattered(dot(flat_n, k), vec3(0.40, 0.33, 0.28)) + soft * open;
     vec3 c = albedo * light;
 
-    // Wet surface: window-like highlights of key and fill and a faint picture of the surroundings
-    if (!separate_cornea) {
-        vec3 back = reflect(-v, wet);
-        vec3 gloss = key_radiance.rgb * sqrt(open) * window_light(back, catchlight(), 0.957);
-        gloss += fill_radiance.rgb * open * 0.45 * window_light(back, f, 0.950);
-        float edge = 1.0 - clamp(dot(wet, v), 0.0, 1.0);
-        gloss += ambient(back) * open * (0.025 + 0.4 * edge * edge * edge);
-        c += gloss;
-    }
-    colour = vec4(film(c), 1.0);
+    // Wet surface: a window of the key, one of the fill, and the surroundings
+    if (!separate_cornea) c += wet_gloss(wet, v, open);
+    colour = vec4(shown(c), 1.0);
 }
 )";
 
@@ -129,15 +129,9 @@ out vec4 colour;
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
-    vec3 k = key_direction.xyz, f = fill_direction.xyz;
-    float s = key_visibility(position, n);
-    vec3 back = reflect(-v, n);
-    vec3 gloss = key_radiance.rgb * smoothstep(0.0, 0.4, s) * window_light(back, catchlight(), 0.957);
-    gloss += fill_radiance.rgb * 0.45 * window_light(back, f, 0.950);
-    float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-    gloss += ambient(back) * (0.015 + 0.2 * edge * edge * edge);
+    vec3 gloss = wet_gloss(n, v, smoothstep(0.0, 0.4, key_visibility(position, n)));
     // Premultiplied: clear glass adds its highlight and hides next to nothing.
-    colour = vec4(film(gloss), clamp(dot(gloss, vec3(0.3)), 0.0, 0.9));
+    colour = vec4(shown(gloss), clamp(dot(gloss, vec3(0.3)), 0.0, 0.9));
 }
 )";
 

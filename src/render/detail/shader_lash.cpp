@@ -40,7 +40,7 @@ void main() {
     if (edge > 1.0) discard;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     float d = 0.5 + 0.5 * dot(n, key_direction.xyz);
-    colour = vec4(film(albedo * (key_radiance.rgb * d + ambient(n))), 1.0);
+    colour = vec4(shown(albedo * (key_card.rgb * d + ambient(n))), 1.0);
 }
 )";
 

@@ -1,5 +1,6 @@
 // GLSL shared by all materials: lights, shadow, tone and noise.
 #include "render/detail/shaders.h"
+#include "render/light.h"
 
 namespace risorius::render {
 namespace {
@@ -9,41 +10,26 @@ layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_world;
     mat4 shadow_from_world;
     vec4 camera;
-    vec4 key_direction, key_radiance;
-    vec4 fill_direction, fill_radiance;
-    vec4 rim_direction, rim_radiance;
-    vec4 sky, ground;
+    vec4 key_direction, key_card;
+    vec4 fill_direction, fill_card;
+    vec4 rim_direction, rim_card;
+    vec4 irradiance[9];
     vec4 mouth_centre, mouth_axis;
 };
 )";
 
 constexpr const char* kLights = R"(
-layout(binding = 0) uniform sampler2DShadow shadow_map;
+layout(binding = 6) uniform sampler2DArray mirror_map;
 
-// Soft edge of the key light. Neighbouring samples of a 2 x 2 block turn the taps by a quarter of their spacing,
-// so that the block together sees four times as many.
-float key_visibility(vec3 p, vec3 n) {
-    float texel = mouth_axis.w;
-    vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
-    ivec2 q = ivec2(gl_FragCoord.xy) & 1;
-    // Turned by 0, 18, 36 and 54 degrees, over a disc of 3.5 mm.
-    vec2 turned = q.x == q.y ? (q.x == 0 ? vec2(1.0, 0.0) : vec2(0.9511, 0.3090))
-                             : (q.x == 0 ? vec2(0.8090, 0.5878) : vec2(0.5878, 0.8090));
-    vec2 e = turned * (0.0035 / (texel * float(textureSize(shadow_map, 0).x)));
-    vec2 f = vec2(-e.y, e.x);
-    // A pentagon around a triangle: the disc filled evenly.
-    float s = texture(shadow_map, vec3(c.xy + e, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.309 * e + 0.951 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy - 0.809 * e + 0.588 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy - 0.809 * e - 0.588 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.309 * e - 0.951 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy - 0.48 * e, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.24 * e + 0.416 * f, c.z));
-    s += texture(shadow_map, vec3(c.xy + 0.24 * e - 0.416 * f, c.z));
-    return s * 0.125;
+// Scattering below the surface as a wider terminator, channel by channel: w is the distance light goes below the surface
+// over the radius of curvature. The shares of the two powers keep what all directions together get.
+vec3 scattered(float nl, vec3 w) {
+    vec3 t = clamp((nl + w) / (1.0 + w), 0.0, 1.0);
+    return t * mix(vec3(1.0), t, 3.0 * w / (1.0 + w));
 }
 
-// GGX with the visibility term of Kelemen and Szirmay-Kalos 2001; includes the cosine at the surface.
+// What a lamp that lights a white card with 1 sends off a glossy surface: GGX with the visibility term of Kelemen and
+// Szirmay-Kalos 2001; includes the cosine at the surface.
 float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
     vec3 h = normalize(v + l);
     float nl = clamp(dot(n, l), 0.0, 1.0), nh = clamp(dot(n, h), 0.0, 1.0), lh = clamp(dot(l, h), 0.0, 1.0);
@@ -52,10 +38,10 @@ float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
     float d = nh * nh * (a2 - 1.0) + 1.0;
     float m = 1.0 - lh, m2 = m * m;
     float fresnel = f0 + (1.0 - f0) * m2 * m2 * m;
-    return nl * fresnel * a2 / (12.566 * d * d * max(lh * lh, 0.05));
+    return nl * fresnel * a2 / (4.0 * d * d * max(lh * lh, 0.05));
 }
 
-// Two lobes of one light, each with its roughness and share.
+// Two lobes of one lamp, each with its roughness and share.
 float two_glints(vec3 n, vec3 v, vec3 l, vec2 roughness, vec2 share, float f0) {
     vec3 h = normalize(v + l);
     float nl = clamp(dot(n, l), 0.0, 1.0), nh = clamp(dot(n, h), 0.0, 1.0), lh = clamp(dot(l, h), 0.0, 1.0);
@@ -64,14 +50,56 @@ float two_glints(vec3 n, vec3 v, vec3 l, vec2 roughness, vec2 share, float f0) {
     vec2 d = nh * nh * (a2 - 1.0) + 1.0;
     float m = 1.0 - lh, m2 = m * m;
     float fresnel = f0 + (1.0 - f0) * m2 * m2 * m;
-    return nl * fresnel * dot(share, a2 / (d * d)) / (12.566 * max(lh * lh, 0.05));
+    return nl * fresnel * dot(share, a2 / (d * d)) / (4.0 * max(lh * lh, 0.05));
 }
 
-// Light from all around: what the sky half and the ground half send.
-vec3 ambient(vec3 n) { return mix(ground.rgb, sky.rgb, 0.5 + 0.5 * n.y); }
+// Share of even light from all around that a glossy surface mirrors (fit by Karis 2014, Physically Based Shading on Mobile).
+float mirrored_share(float nv, float roughness, float f0) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+    return f0 * (r.z - 1.04 * a) + r.w + 1.04 * a;
+}
 
-// Fit of the ACES filmic curve by Narkowicz 2015.
-vec3 film(vec3 x) { return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
+// Of the surroundings: as a matt white surface shines, and as a mirror of a layer's roughness shows them.
+vec3 ambient(vec3 n) {
+    vec3 e = irradiance[0].rgb + irradiance[1].rgb * n.x + irradiance[2].rgb * n.y + irradiance[3].rgb * n.z;
+    e += irradiance[4].rgb * (n.x * n.y) + irradiance[5].rgb * (n.y * n.z) + irradiance[6].rgb * (3.0 * n.z * n.z - 1.0);
+    e += irradiance[7].rgb * (n.x * n.z) + irradiance[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(e, 0.0);
+}
+vec3 mirrored(vec3 towards, float layer) {
+    vec2 at = vec2(atan(towards.x, towards.z) * 0.15915494 + 0.5, acos(clamp(towards.y, -1.0, 1.0)) * 0.31830989);
+    return textureLod(mirror_map, vec3(at, layer), 0.0).rgb;
+}
+
+// Light over white is rolled off; below kStraightTo the picture is linear.
+vec3 shown(vec3 x) {
+    vec3 over = max(x - kStraightTo, 0.0) / (1.0 - kStraightTo);
+    return min(x, kStraightTo) + (1.0 - kStraightTo) * over / (1.0 + over);
+}
+)";
+
+constexpr const char* kShadow = R"(
+layout(binding = 0) uniform sampler2DShadow shadow_map;
+
+// Soft edge of the key light over a disc of 3.5 mm. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
+// among them, every fourth each.
+float key_visibility(vec3 p, vec3 n) {
+    float texel = mouth_axis.w;
+    vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
+    ivec2 q = ivec2(gl_FragCoord.xy * key_direction.w) & 1;    // alone, a sample is no part of a block
+    int first = q.x + 2 * q.y;
+    vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
+    e *= 0.0035 / (texel * float(textureSize(shadow_map, 0).x));
+    vec2 f = vec2(-e.y, e.x);
+    vec4 r = sqrt((vec4(0.5, 4.5, 8.5, 12.5) + float(first)) * 0.0625);
+    vec4 lit;
+    lit.x = textureLod(shadow_map, vec3(c.xy + r.x * e, c.z), 0.0);
+    lit.y = textureLod(shadow_map, vec3(c.xy + r.y * (-0.9847 * e - 0.1743 * f), c.z), 0.0);
+    lit.z = textureLod(shadow_map, vec3(c.xy + r.z * (0.9392 * e + 0.3433 * f), c.z), 0.0);
+    lit.w = textureLod(shadow_map, vec3(c.xy + r.w * (-0.8650 * e - 0.5018 * f), c.z), 0.0);
+    return dot(lit, vec4(0.25));
+}
 )";
 
 constexpr const char* kNoise = R"(
@@ -107,14 +135,20 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec3 in_rest;
 layout(location = 3) in vec2 in_paint;
-layout(location = 4) in vec2 in_occlusion;
+layout(location = 4) in vec3 in_occlusion;
 out vec3 position;
 out vec3 normal;
 out vec3 rest;
 out vec2 paint;
 out float sky_seen;
-out float behind_seen;    // of light from behind the head, which never comes in through the lips
+out float curvature;      // 1/m
+out vec3 soft;            // what fill, rim and surroundings light of a white surface
+out vec3 soft_gloss;      // and what of them it mirrors
+out float kept;           // of a lamp's light, not mirrored
 uniform bool inside_mouth;
+uniform vec3 scatter;     // m
+uniform vec3 bounce;      // albedo hereabouts
+uniform vec4 finish;      // roughness, reflectance straight on, share of it, layer of the mirror
 
 // Share of what comes through the open lips that reaches a point behind them: the gap seen as a disc at the distance of
 // the nearest point of its long axis.
@@ -132,7 +166,26 @@ void main() {
     pass_folds();
     float inside = inside_mouth ? 1.0 : in_occlusion.y;
     sky_seen = mix(in_occlusion.x, seen_through_lips(in_position), inside);
-    behind_seen = (1.0 - inside) * in_occlusion.x;
+    // Light from behind the head never comes in through the lips.
+    float behind_seen = (1.0 - inside) * in_occlusion.x;
+    curvature = in_occlusion.z;
+
+    vec3 v = normalize(camera.xyz - in_position);
+    vec3 n = inside_mouth ? faceforward(in_normal, -v, in_normal) : in_normal;
+    vec3 w = min(scatter * curvature, 0.5);
+    // Light that has met the skin before comes back in its colour (Jimenez 2016, Practical Realtime Strategies for Accurate
+    // Indirect Occlusion).
+    vec3 open = max(vec3(sky_seen), ((sky_seen * (2.0404 * bounce - 0.3324) + (0.6417 - 4.7951 * bounce)) * sky_seen +
+                                     (2.7552 * bounce + 0.6903)) * sky_seen);
+    soft = open * (fill_card.rgb * scattered(dot(n, fill_direction.xyz), w) + ambient(n));
+    soft += behind_seen * rim_card.rgb * scattered(dot(n, rim_direction.xyz), w);
+    float nv = clamp(dot(n, v), 0.0, 1.0);
+    float share = finish.z * mirrored_share(nv, finish.x, finish.y);
+    kept = 1.0 - share;
+    soft *= kept;
+    soft_gloss = sky_seen * sky_seen * (share * mirrored(reflect(-v, n), finish.w) +
+                 finish.z * fill_card.rgb * glint(n, v, fill_direction.xyz, finish.x, finish.y));
+    soft_gloss += finish.z * behind_seen * behind_seen * rim_card.rgb * glint(n, v, rim_direction.xyz, finish.x, finish.y);
     gl_Position = clip_from_world * vec4(in_position, 1.0);
 }
 )";
@@ -146,10 +199,14 @@ void main() { gl_Position = clip_from_world * vec4(in_position, 1.0); }
 }  // namespace
 
 std::string frame_chunk() { return kFrame; }
-std::string lighting_chunk() { return std::string(kFrame) + kLights; }
+std::string lights_chunk() {
+    return "const float kStraightTo = " + std::to_string(kStraightTo) + ";\n" + kLights;
+}
+std::string lighting_chunk() { return std::string(kFrame) + lights_chunk() + kShadow; }
 std::string noise_chunk() { return kNoise; }
 std::string surface_vertex_shader(bool folds) {
-    return std::string(kFrame) + (folds ? kFoldsVertex : kNoFoldsVertex) + kSurfaceVertex;
+    return std::string(kFrame) + lights_chunk() + (folds ? kFoldsVertex : kNoFoldsVertex) +
+           kSurfaceVertex;
 }
 std::string depth_vertex_shader() { return kDepthVertex; }
 

@@ -1,61 +1,68 @@
-// GLSL of teeth, gums, tongue and mouth wall, lit through the lips.
+// GLSL of teeth, gums, tongue and mouth wall, lit through the lips, and of cards that measure the light.
 #include "render/detail/shaders.h"
 
 namespace risorius::render {
 namespace {
 
-constexpr const char* kTeeth = R"(
-in vec3 position;
-in vec3 normal;
-in float sky_seen;
-out vec4 colour;
-void main() {
-    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-    vec3 v = normalize(camera.xyz - position);
-    vec3 k = key_direction.xyz, f = fill_direction.xyz;
-    float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
-    vec3 wrap = vec3(0.35, 0.32, 0.28);
-    vec3 kd = clamp((dot(n, k) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 fd = clamp((dot(n, f) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 enamel = vec3(0.52, 0.465, 0.375);
-    // Dim light in the mouth has been to its red walls.
-    vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
-    vec3 light = key_radiance.rgb * kd * s + (fill_radiance.rgb * fd + ambient(n)) * sky_seen * tint;
-    vec3 gloss = key_radiance.rgb * s * min(glint(n, v, k, 0.26, 0.04), 1.0);
-    gloss += fill_radiance.rgb * sky_seen * glint(n, v, f, 0.3, 0.04);
-    colour = vec4(film(enamel * light + gloss), 1.0);
-}
-)";
-
-constexpr const char* kMucosa = R"(
+constexpr const char* kMouthInputs = R"(
 in vec3 position;
 in vec3 normal;
 in vec3 rest;
 in float sky_seen;
+in vec3 soft;
+in vec3 soft_gloss;
+in float kept;
 out vec4 colour;
+)";
+
+// Enamel is a clear coat over dentine, which shows yellower at the neck, where the crown is thickest.
+constexpr const char* kTeeth = R"(
+void main() {
+    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+    vec3 v = normalize(camera.xyz - position);
+    vec3 k = key_direction.xyz;
+    float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
+    vec3 enamel = vec3(0.62, 0.575, 0.49) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
+    // Dim light in the mouth has been to its red walls.
+    vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
+    vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.35, 0.32, 0.28)) + soft * tint;
+    vec3 gloss = key_card.rgb * s * min(glint(n, v, k, 0.22, 0.045), 1.0);
+    gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.22, 0.045) * mirrored(reflect(-v, n), 1.0);
+    colour = vec4(shown(enamel * light + gloss), 1.0);
+}
+)";
+
+constexpr const char* kMucosa = R"(
 uniform vec3 albedo;      // linear
 uniform float bumps;      // amplitude of the papillae
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
-    vec3 k = key_direction.xyz, f = fill_direction.xyz;
+    vec3 k = key_direction.xyz;
     vec3 p = rest * 1400.0 + 500.0;
     float a = noise(p);
     vec3 m = normalize(n + bumps * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5));
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
-    vec3 wrap = vec3(0.4, 0.2, 0.15);
-    vec3 kd = clamp((dot(m, k) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 fd = clamp((dot(m, f) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 light = key_radiance.rgb * kd * s + (fill_radiance.rgb * fd + ambient(n)) * sky_seen;
-    vec3 gloss = key_radiance.rgb * s * min(glint(m, v, k, 0.30, 0.03), 1.0);
-    gloss += fill_radiance.rgb * sky_seen * glint(m, v, f, 0.34, 0.03);
-    colour = vec4(film(albedo * (0.8 + 0.4 * a) * light + 0.8 * gloss), 1.0);
+    vec3 light = key_card.rgb * s * kept * scattered(dot(m, k), vec3(0.4, 0.2, 0.15)) + soft;
+    vec3 gloss = key_card.rgb * s * min(glint(m, v, k, 0.26, 0.03), 1.2);
+    gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(m, v), 0.0, 1.0), 0.26, 0.03) * mirrored(reflect(-v, m), 1.0);
+    colour = vec4(shown(albedo * (0.8 + 0.4 * a) * light + gloss), 1.0);
+}
+)";
+
+constexpr const char* kMatte = R"(
+uniform vec3 albedo;      // linear
+void main() {
+    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+    float lit = max(dot(n, key_direction.xyz), 0.0) * key_visibility(position, n);
+    colour = vec4(shown(albedo * (key_card.rgb * lit + soft)), 1.0);
 }
 )";
 
 }  // namespace
 
-std::string teeth_shader() { return lighting_chunk() + kTeeth; }
-std::string mucosa_shader() { return lighting_chunk() + noise_chunk() + kMucosa; }
+std::string teeth_shader() { return lighting_chunk() + noise_chunk() + kMouthInputs + kTeeth; }
+std::string mucosa_shader() { return lighting_chunk() + noise_chunk() + kMouthInputs + kMucosa; }
+std::string matte_shader() { return lighting_chunk() + kMouthInputs + kMatte; }
 
 }  // namespace risorius::render

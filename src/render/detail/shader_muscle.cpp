@@ -49,10 +49,10 @@ void main() {
 
     // Even light, so that the colour can be read off the scale; edges turn dark, which parts neighbours.
     vec3 kd = vec3(clamp(dot(n, k) * 0.85 + 0.15, 0.0, 1.0)), fd = vec3(clamp(dot(n, f) * 0.7 + 0.3, 0.0, 1.0));
-    vec3 light = 0.60 * kd * key_radiance.rgb + fd * fill_radiance.rgb * 0.5 + ambient(n) * 0.5;
+    vec3 light = 0.60 * kd * key_card.rgb + fd * fill_card.rgb * 0.5 + ambient(n) * 0.5;
     float facing = clamp(dot(normalize(normal), v), 0.0, 1.0);
     light *= 0.30 + 0.70 * smoothstep(0.0, 0.60, facing);
-    float gloss = glint(n, v, k, 0.42, 0.035) * key_radiance.r * (0.5 + strand);
+    float gloss = glint(n, v, k, 0.42, 0.035) * key_card.r * (0.5 + strand);
     colour = vec4(clamp(albedo * light + 1.2 * gloss, 0.0, 1.0), 1.0);
 }
 )";

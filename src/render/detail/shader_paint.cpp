@@ -34,7 +34,9 @@ in vec2 place;
 in vec4 zone_sum;
 out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
-uniform float scalp_hair, seed;
+uniform float scalp_hair, seed, age, beard;
+uniform vec4 beard_place[16];   // m, 1 / (2 spread^2)
+uniform int beard_places;
 uniform int lip_points;
 uniform vec2 lip_outline[96];
 uniform vec4 lip_box;
@@ -71,6 +73,12 @@ void main() {
     float blood = noise(p * 0.11) + 0.6 * noise(p * 0.27 + 9.0) - 0.8;
     float pigment = noise(p * 0.55 + 70.0) + 0.7 * noise(p * 1.3 + 30.0) - 0.85;
     float grain = noise(p * 3.1) - 0.5;
+    // Pigment gathers in spots with the years, and the blood shows less.
+    tint *= 1.0 - 0.35 * age;
+    float spots = smoothstep(0.30, 0.75, noise(p * 0.16 + 200.0) + 0.5 * noise(p * 0.6 + 140.0) - 0.35);
+    tint += age * vec3(-0.05, -0.085, -0.12) * spots + age * vec3(0.0, -0.02, -0.05);
+    pigment *= 1.0 + 1.2 * age;
+    oil *= 1.0 - 0.35 * age;
     tint += blood * vec3(0.00, -0.060, -0.045) + pigment * vec3(-0.030, -0.040, -0.050) + grain * 0.05;
     vec3 albedo = skin_tone * exp(tint);
 
@@ -88,13 +96,23 @@ void main() {
     albedo = mix(albedo, under_hair, hair * scalp_hair);
     oil *= 1.0 - 0.85 * hair;
 
+    // Hair that is cut at the skin still darkens it.
+    float shadow = 0.0;
+    for (int i = 0; i < beard_places; ++i) {
+        vec3 d = rest - beard_place[i].xyz;
+        shadow += exp(-dot(d, d) * beard_place[i].w);
+    }
+    shadow = beard * smoothstep(0.25, 0.85, shadow + 0.25 * (noise(p * 0.5 + 11.0) - 0.5));
+    albedo = mix(albedo, mix(albedo * vec3(0.62, 0.66, 0.72), hair_tone, 0.35), 0.55 * shadow);
+    oil *= 1.0 - 0.4 * shadow;
+
     bool near_lips = lip_points > 0 && all(greaterThan(rest.xy, lip_box.xy)) && all(lessThan(rest.xy, lip_box.zw)) && rest.z > lip_back;
     if (near_lips) {
         float d = outside_lips(rest.xy) + 0.0006 * (noise(p * 0.9) - 0.5);
         float lip = smoothstep(0.0008, -0.0016, d);
         float fold = noise(vec3(p.x * 1.1, p.y * 0.22, p.z * 0.22)) - 0.5;
         float rim = exp(-d * d / 1.4e-6);      // the pale roll of the border
-        vec3 red = lip_tone * (1.0 + 0.16 * fold) * mix(vec3(1.10, 1.16, 1.16), vec3(0.94, 0.84, 0.84), smoothstep(-0.0005, -0.006, d));
+        vec3 red = mix(lip_tone, skin_tone, 0.45 * age) * (1.0 + 0.16 * fold) * mix(vec3(1.10, 1.16, 1.16), vec3(0.94, 0.84, 0.84), smoothstep(-0.0005, -0.006, d));
         albedo = mix(albedo * (1.0 + 0.05 * rim), red, lip * 0.92);
         oil = mix(oil, 0.80, lip);
     }

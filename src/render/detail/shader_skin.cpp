@@ -4,27 +4,25 @@
 namespace risorius::render {
 namespace {
 
-// Scattering under the skin as a wider, redder terminator (the wrap widths follow the mean free paths of red, green and
-// blue light, Jensen 2001, over the radius of a cheek) and a red edge of the shadow; gloss from two lobes, a broad one of
-// the skin and a narrow one of its oil, on a normal bent by pores.
+// Light scattered under the skin (see scattered()) with a red edge of the shadow; gloss from two lobes, a broad one of the skin
+// and a narrow one of its oil, on a normal bent by pores. What is soft comes from the vertices.
 constexpr const char* kInputs = R"(
 in vec3 position;
 in vec3 normal;
 in vec2 paint;
 in float sky_seen;
-in float behind_seen;
+in float curvature;
+in vec3 soft;
+in vec3 soft_gloss;
+in float kept;
 out vec4 colour;
 )";
 constexpr const char* kSkin = R"(
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
 layout(binding = 2) uniform sampler2D pore_map;    // slope
-
-const vec3 kWrap = vec3(0.34, 0.15, 0.09);
-
-vec3 scattered(float nl) {
-    vec3 t = clamp((nl + kWrap) / (1.0 + kWrap), 0.0, 1.0);
-    return t * mix(vec3(1.0), t, 1.9 * kWrap);
-}
+uniform vec3 scatter;      // m, of red, green and blue
+uniform vec3 bleed;        // of the shadow's edge
+uniform float roughness;
 
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
@@ -43,28 +41,18 @@ void main() {
     m = normalize(m);
     albedo *= mix(kValley, vec3(1.0), open);
 
+    vec3 k = key_direction.xyz;
+    float rough = roughness - 0.14 * oil;
     float s = key_visibility(position, n);
-    vec3 shade = s + s * (1.0 - s) * vec3(0.45, 0.05, 0.0);
-    vec3 k = key_direction.xyz, f = fill_direction.xyz, r = rim_direction.xyz;
-    float sky_here = sky_seen * open;
-    vec3 ao = sky_here + sky_here * (1.0 - sky_here) * vec3(0.40, 0.10, 0.0);
-
-    float soft = dot(n, k), bent = dot(m, k);
-    vec3 diffuse = key_radiance.rgb * shade * scattered(mix(soft, bent, 0.5));
-    diffuse += fill_radiance.rgb * ao * scattered(mix(dot(n, f), dot(m, f), 0.5));
-    diffuse += rim_radiance.rgb * behind_seen * scattered(dot(n, r));
-    diffuse += ambient(m) * ao;
-
-    float rough = 0.52 - 0.14 * oil;
-    float narrow = rough * 0.58;
-    float seen = sky_here * sky_here;
-    vec3 gloss = key_radiance.rgb * s * two_glints(m, v, k, vec2(rough, narrow), vec2(0.75, 0.35 * oil), 0.028);
-    gloss += fill_radiance.rgb * seen * glint(m, v, f, rough, 0.028);
-    gloss += rim_radiance.rgb * behind_seen * behind_seen * glint(m, v, r, rough, 0.028);
-    float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
-    gloss += ambient(reflect(-v, n)) * seen * (0.02 + 0.10 * edge * edge * edge * edge * sky_seen);
-    vec3 seen_skin = seen_through(albedo * diffuse, diffuse, albedo, oil, edge, sky_seen);
-    colour = vec4(film(seen_skin + gloss * kGloss * (0.20 + 1.10 * oil)), 1.0);
+    vec3 shade = s + s * (1.0 - s) * bleed;
+    vec3 key = key_card.rgb * shade * scattered(mix(dot(n, k), dot(m, k), 0.5), min(scatter * curvature, 0.5));
+    vec3 gloss = key_card.rgb * (s * two_glints(m, v, k, vec2(rough, 0.56 * rough), vec2(0.90 - 0.35 * oil, 0.10 + 0.35 * oil), 0.028));
+    // Pores and wrinkles turn to the soft light or away from it.
+    float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
+    vec3 diffuse = key * kept + soft * (open * turned);
+    gloss += soft_gloss * (open * open * turned * turned);
+    vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
+    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil)), 1.0);
 }
 )";
 
@@ -80,13 +68,12 @@ const vec3 kValley = vec3(0.92, 0.80, 0.76);
 float fold(vec3 n, inout vec3 m) {
     vec3 px = dFdx(position), py = dFdy(position);
     vec3 fx = dFdx(fold_phase), fy = dFdy(fold_phase);
-    if (max(fold_depth.x, max(fold_depth.y, fold_depth.z)) <= 0.0) return 1.0;
     vec3 ax = cross(py, n), ay = cross(n, px);
     float area = dot(px, ax);
-    if (abs(area) < 1e-14) return 1.0;
     float open = 1.0;
-    for (int i = 0; i < 3; ++i) {
-        if (fold_depth[i] <= 0.0) continue;
+    // Most of the skin has no fold at the moment, and leaves the loop before it begins.
+    int sets = abs(area) < 1e-14 ? 0 : fold_depth.z > 0.0 ? 3 : fold_depth.y > 0.0 ? 2 : fold_depth.x > 0.0 ? 1 : 0;
+    for (int i = 0; i < sets; ++i) {
         vec3 gradient = (fx[i] * ax + fy[i] * ay) / area;
         float shown = 1.0 - smoothstep(0.2, 0.5, length(vec2(fx[i], fy[i])));
         float s = sin(3.14159265 * fold_phase[i]), c = cos(3.14159265 * fold_phase[i]);
@@ -105,7 +92,7 @@ float fold(vec3 n, vec3 m) { return 1.0; }
 )";
 
 constexpr const char* kOpaque = R"(
-const float kGloss = 3.1416;
+const float kGloss = 1.0;
 vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, float open) { return skin; }
 )";
 
@@ -113,7 +100,7 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, flo
 // all the same, and what lies deep fades into the tissue between. The veil is thick at a slant, so that the face keeps its
 // shape, and on lips, brows and in folds, so that it keeps its features.
 constexpr const char* kTranslucent = R"(
-const float kGloss = 1.9;
+const float kGloss = 0.6;
 layout(binding = 3) uniform sampler2D muscle_colour;
 layout(binding = 4) uniform sampler2D muscle_depth;
 uniform vec2 distance_of_depth;

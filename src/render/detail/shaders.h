@@ -10,16 +10,15 @@ struct FrameUniforms {
     float clip_from_world[16];
     float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
     float camera[4];              ///< xyz m
-    float key_direction[4];       ///< towards the light
-    float key_radiance[4];
+    float key_direction[4];       ///< towards the lamp; w 1 when a pixel has several samples
+    float key_card[4];  ///< as a white card that faces it shines: irradiance over pi, exposed
     float fill_direction[4];
-    float fill_radiance[4];
+    float fill_card[4];
     float rim_direction[4];
-    float rim_radiance[4];
-    float sky[4];           ///< ambient from above
-    float ground[4];        ///< and from below
-    float mouth_centre[4];  ///< xyz m of the gap between the lips, w its area in m^2
-    float mouth_axis[4];    ///< half its width, m; w metres per shadow texel
+    float rim_card[4];
+    float irradiance[9][4];  ///< of the surroundings, see Irradiance; exposed
+    float mouth_centre[4];   ///< xyz m of the gap between the lips, w its area in m^2
+    float mouth_axis[4];     ///< half its width, m; w metres per shadow texel
 };
 
 /// Texture units and vertex attributes
@@ -29,7 +28,8 @@ enum TextureUnit {
     kPoreUnit = 2,
     kMuscleColourUnit = 3,
     kMuscleDepthUnit = 4,
-    kFibreUnit = 5
+    kFibreUnit = 5,
+    kMirrorUnit = 6
 };
 enum VertexAttribute {
     kPosition = 0,
@@ -39,7 +39,7 @@ enum VertexAttribute {
     kFoldPhase = 5,
     kFoldDepth = 6,
     kOcclusion =
-        4,  ///< x: share of the sky seen at rest (of lashes: 1 on the lower lid), y: 1 inside the mouth
+        4,  ///< x: share of the sky seen at rest, y: 1 inside the mouth, z: curvature at rest, 1/m
     kColour = 7  ///< of a value on the skin
 };
 
@@ -58,12 +58,16 @@ std::string eye_shader();
 std::string cornea_shader();
 std::string teeth_shader();
 std::string mucosa_shader();  ///< gums, tongue and the wall of the mouth
+std::string matte_shader();
 std::string lash_shader();
+std::string strand_vertex_shader();
+std::string strand_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
 std::string object_shader();
 
 std::string frame_chunk();     ///< version, frame block
-std::string lighting_chunk();  ///< these and lights
+std::string lights_chunk();    ///< after it: lamps and surroundings
+std::string lighting_chunk();  ///< both and the shadow
 std::string noise_chunk();
 
 }  // namespace risorius::render

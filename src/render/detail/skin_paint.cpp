@@ -13,8 +13,6 @@
 namespace risorius::render {
 namespace {
 
-constexpr int kMapSide = 2048;  ///< 0.2 mm per texel on the face
-
 void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) {
     const auto colour = [&](const char* name, const Vec3& srgb) {
         const Eigen::Vector3f linear = linear_from_srgb(srgb).cast<float>();
@@ -22,7 +20,7 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
     };
     colour("skin_tone", look.skin_tone);
     colour("lip_tone", look.lip_tone);
-    colour("hair_tone", look.hair_tone);
+    colour("hair_tone", hair_tone_at(look));
     glUniform1f(program.location("scalp_hair"), static_cast<float>(look.scalp_hair));
     glUniform1f(program.location("seed"), static_cast<float>(look.seed % 1000));
 
@@ -39,6 +37,17 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) 
         glUniform4fv(program.location("zone_place"), zones, place.data());
         glUniform4fv(program.location("zone_tint"), zones, log_tint.data());
     }
+
+    glUniform1f(program.location("age"), static_cast<float>(look.age));
+    glUniform1f(program.location("beard"), static_cast<float>(look.beard));
+    std::vector<float> beard;
+    for (const SkinZone& zone : plan.beard) {
+        for (int k = 0; k < 3; ++k) beard.push_back(static_cast<float>(zone.centre[k]));
+        beard.push_back(static_cast<float>(0.5 / (zone.spread_m * zone.spread_m)));
+    }
+    const auto spots = static_cast<GLsizei>(look.beard > 0 ? plan.beard.size() : 0);
+    glUniform1i(program.location("beard_places"), spots);
+    if (spots > 0) glUniform4fv(program.location("beard_place"), spots, beard.data());
 
     std::vector<float> lips;
     Vec2 low(1e3, 1e3), high(-1e3, -1e3);
@@ -93,20 +102,30 @@ Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max
     return (skin_min + skin_max) / 2;
 }
 
-GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles) {
+int paint_side(double pixels_per_metre) {
+    // A metre of skin is this long on the map (a head of 0.1 m radius); a quarter more than one texel per pixel.
+    constexpr double kMapPerMetre = 2.5, kTexelsPerPixel = 1.25;
+    int side = kLeastPaintSide;
+    while (side < kMostPaintSide && side * kMapPerMetre < kTexelsPerPixel * pixels_per_metre)
+        side *= 2;
+    return side;
+}
+
+GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles,
+                  int side) {
     GLuint map = 0, depth = 0, framebuffer = 0, elements = 0;
     glGenTextures(1, &map);
     glBindTexture(GL_TEXTURE_2D, map);
     int levels = 1;
-    while ((kMapSide >> levels) > 0) ++levels;
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, kMapSide, kMapSide);
+    while ((side >> levels) > 0) ++levels;
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, side, side);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glGenRenderbuffers(1, &depth);
     glBindRenderbuffer(GL_RENDERBUFFER, depth);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, kMapSide, kMapSide);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, side, side);
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map, 0);
@@ -114,7 +133,7 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
 
     const SkinPlan plan = plan_skin(scene, centre);
     const Eigen::Vector3f bare = linear_from_srgb(scene.look.skin_tone).cwiseSqrt().cast<float>();
-    glViewport(0, 0, kMapSide, kMapSide);
+    glViewport(0, 0, side, side);
     glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 

@@ -17,9 +17,14 @@ Vec2 paint_place(const Vec3& rest, const Vec3& centre);
 /// Middle of the map's sphere: between the tragia, or the middle of the skin.
 Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max);
 
+/// Texels per side that a picture needs which shows this many pixels (of its own, not samples) per metre of skin.
+constexpr int kLeastPaintSide = 256, kMostPaintSide = 4096;
+int paint_side(double pixels_per_metre);
+
 /// Draws the map with the bound vertex array (attributes kRest and kPaintPlace) and these triangles.
 /// Returns a mip-mapped texture: square root of linear albedo, and oil in alpha. The context must be current.
-GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles);
+GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles,
+                  int side);
 
 /// A tile of pores: slopes of the surface around 0.5, repeating.
 GLuint make_pores(unsigned seed);

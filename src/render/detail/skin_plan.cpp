@@ -91,6 +91,34 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }
 
+/// Along the jaw, on the chin, between nose and lip and under the jaw; sideburns join it to the hair.
+void plan_beard(const Marks& marks, SkinPlan& plan) {
+    struct Spot {
+        const char *from, *to;
+        bool paired;
+        double share;  ///< of the way
+        double spread_m;
+        Vec3 offset{0, 0, 0};
+    };
+    static const Spot kSpots[] = {{"pg", "me", false, 0.5, 0.015},
+                                  {"me", "me", false, 0, 0.014, {0, -0.008, -0.012}},
+                                  {"sn", "ls", false, 0.55, 0.0065},
+                                  {"cph", "ch", true, 0.55, 0.0070, {0, 0.004, 0}},
+                                  {"ch", "go", true, 0.22, 0.012, {0, -0.016, 0}},
+                                  {"ch", "go", true, 0.60, 0.016, {0, -0.006, 0}},
+                                  {"go", "t", true, 0.10, 0.015},
+                                  {"go", "t", true, 0.55, 0.010, {0, 0, 0.010}}};
+    for (const Spot& spot : kSpots)
+        for (const int side : {0, 1}) {
+            if (!spot.paired && side == 1) continue;
+            const std::string s = spot.paired ? (side == 0 ? "_l" : "_r") : "";
+            const Vec3 *from = marks.find(spot.from + s), *to = marks.find(spot.to + s);
+            if (!from || !to) continue;
+            plan.beard.push_back({*from + spot.share * (*to - *from) + spot.offset, spot.spread_m,
+                                  Vec3::Zero(), 0.0});
+        }
+}
+
 /// Hair grows beyond a closed line on the map: over the forehead through the marks, in front of the ears, to the nape.
 void plan_hairline(const Marks& marks, const Vec3& centre, SkinPlan& plan) {
     plan.hairline.fill(2.0);
@@ -165,6 +193,20 @@ bool EarRegion::contains(const Vec3& p) const {
            std::abs(p.x()) > out_m + lean * (high.z() - p.z()) + lean * std::max(0.0, p.y());
 }
 
+double beard_density(const SkinPlan& plan, const Vec3& rest) {
+    double sum = 0;
+    for (const SkinZone& zone : plan.beard)
+        sum +=
+            std::exp(-0.5 * (rest - zone.centre).squaredNorm() / (zone.spread_m * zone.spread_m));
+    const double t = std::clamp((sum - 0.2) / 0.65, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+Vec3 hair_tone_at(const Look& look) {
+    const double grey = std::clamp(1.6 * look.age - 0.5, 0.0, 1.0);
+    return look.hair_tone + 0.85 * grey * (Vec3(0.66, 0.65, 0.63) - look.hair_tone);
+}
+
 double hairline_radius(const SkinPlan& plan, const Vec2& place) {
     const Vec2 d = place - Vec2(0.5, 0.5);
     const double turn = std::atan2(d.x(), d.y()) / (2 * std::numbers::pi);
@@ -179,6 +221,7 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
     SkinPlan plan;
     plan.zones = plan_zones(marks);
     plan_lips(marks, plan);
+    plan_beard(marks, plan);
     plan_hairline(marks, paint_centre, plan);
     for (const std::size_t side : {0U, 1U}) {
         const std::string s = side == 0 ? "_l" : "_r";

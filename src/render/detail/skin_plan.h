@@ -34,11 +34,18 @@ struct SkinPlan {
     double lip_back_m = 0.0;        ///< lips lie in front of this z
     /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
     std::array<double, kHairlineSteps> hairline;
+    std::vector<SkinZone> beard;  ///< soft spots (middle and spread) where a beard grows
     std::array<EarRegion, 2> ears;
     std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from the middle outwards, rest, m
 };
 
 SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
+
+/// How densely a beard grows at a place of the skin, 0..1.
+double beard_density(const SkinPlan& plan, const Vec3& rest);
+
+/// Tone of the hair at an age: grey from the middle of life on.
+Vec3 hair_tone_at(const Look& look);
 
 /// Radius at which hair starts in a direction on the map.
 double hairline_radius(const SkinPlan& plan, const Vec2& place);

@@ -1,0 +1,39 @@
+// Draws the hairs of a scene as ribbons that face the camera.
+#pragma once
+
+#include <vector>
+
+#include "render/detail/camera.h"
+#include "render/detail/gl_context.h"
+#include "render/detail/posed_marks.h"
+#include "render/detail/strands.h"
+
+namespace risorius::render {
+
+class StrandLayer {
+  public:
+    /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler. The context must be current.
+    StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
+                double sample_m);
+    ~StrandLayer();
+    StrandLayer(const StrandLayer&) = delete;
+    StrandLayer& operator=(const StrandLayer&) = delete;
+
+    void upload(const Pose& pose, const PosedMarks& marks);
+    /// Blended over what is there; binds a vertex array of its own.
+    void draw() const;
+
+  private:
+    std::vector<Strand> strands_;
+    std::array<Eye, 2> eyes_;
+    std::array<Vec3, 2> eye_point_;          ///< a vertex of each eye at rest
+    std::array<int, 2> eye_vertex_{-1, -1};  ///< and which
+    Vec3 camera_;
+    double sample_m_;
+    GlProgram program_;
+    std::vector<float> vertices_;
+    GLuint array_ = 0, buffer_ = 0, elements_ = 0;
+    int index_count_ = 0;
+};
+
+}  // namespace risorius::render
