@@ -64,7 +64,7 @@ TEST(FitStrengths, NeedsAWayForEveryLandmarkItCompares) {
                       "adult", {});
         FAIL() << "nothing thrown";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "ways of \"mouthSmile\": expected landmark bm_l, found none");
+        EXPECT_STREQ(error.what(), "ways of \"mouthSmile\": expected landmark n, found none");
     }
 }
 

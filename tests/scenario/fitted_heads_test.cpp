@@ -39,6 +39,7 @@ struct Fitted {
         options.mesh = fs::path(RISORIUS_SHARED_DIR) / head.mesh;
         options.landmarks = kRoot / "tests/data/heads" / head.landmarks;
         options.out = folder / "rig.json";
+        options.together = std::string(head.name) == "makehuman";  // takes its time: once
         report = app::fit_rig(options);
         files = app::read_rig_files(options.out);
         face = std::make_unique<sim::Face>(files.rig, files.mesh, sim::quality_named("video"),
@@ -97,13 +98,18 @@ TEST_P(FittedHead, IsFoundToBeAHeadInCentimetresWithEveryMuscleStrongEnough) {
     EXPECT_EQ(report.strengths.size(), 28u);
     int reached = 0;
     for (const app::MuscleStrength& m : report.strengths) {
-        EXPECT_GE(m.strength, 0.1 - 1e-9) << m.muscle;
-        EXPECT_LE(m.strength, 6.0 + 1e-9) << m.muscle;
+        // Limits of each muscle by itself, then of the factor when all are scaled together
+        EXPECT_GE(m.strength, 0.1 / std::exp(1.0) - 1e-4) << m.muscle;
+        EXPECT_LE(m.strength, 6.0 * std::exp(1.0) + 1e-4) << m.muscle;
         reached += std::abs(m.stretch - m.target_stretch) < 0.02;
         EXPECT_TRUE(m.at_limit || std::abs(m.stretch - m.target_stretch) < 0.05)
             << m.muscle << " " << m.stretch;
     }
     EXPECT_GE(reached, 24);
+    if (std::string(GetParam().name) == "makehuman") {
+        EXPECT_GT(report.difference_before, 0.3);
+        EXPECT_LT(report.difference, 0.28) << "expressions as on the standard head";
+    }
 }
 
 TEST_P(FittedHead, RestsExactlyAsItsMesh) {
