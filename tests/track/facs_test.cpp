@@ -59,7 +59,7 @@ TEST(Facs, EveryUnitDoesSomethingOrSaysWhyNot) {
 
 TEST(Facs, SmileUnitPullsBothCorners) {
     const Expansion au12 = unit("AU12");
-    EXPECT_GT(excitation(au12, "zygomaticus_major.l"), 0.8);
+    EXPECT_GT(excitation(au12, "zygomaticus_major.l"), 0.5);
     double sum = 0;
     for (const MuscleShare& share : tables().facs.find("AU12")->muscles) {
         EXPECT_EQ(excitation(au12, share.muscle + ".l"), share.weight);

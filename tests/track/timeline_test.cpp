@@ -44,11 +44,11 @@ TEST(Timeline, OfAnEmptyScriptIsRest) {
 TEST(Timeline, SourcesAddUpAndAreClamped) {
     const Timeline face = timeline(R"({
         "zygomaticus_major":   {"keys": [[0, 0.3]]},
-        "zygomaticus_major.l": {"keys": [[0, 0.2]]},
+        "zygomaticus_major.l": {"keys": [[0, 0.4]]},
         "AU12":                {"keys": [[0, 0.6]]}})");
     const Drive drive = face.at(0.5);
     EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 1.0);
-    EXPECT_NEAR(excitation(drive, "zygomaticus_major.r"), 0.3 + 0.6 * 0.93, 1e-15);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_major.r"), 0.3 + 0.6 * 0.58, 1e-15);
     EXPECT_NEAR(excitation(drive, "zygomaticus_minor.r"), 0.6 * 0.11, 1e-15);
 }
 
@@ -95,12 +95,12 @@ TEST(Timeline, ExpressionIsZeroOutsideAndItsIntensityAtTheApex) {
     EXPECT_EQ(activity(face.at(1.0)), 0.0);
     EXPECT_EQ(activity(face.at(2.8)), 0.0);
     for (double t : {1.4, 1.7, 1.99}) {
-        EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93, 1e-15);
+        EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58, 1e-15);
         EXPECT_NEAR(excitation(face.at(t), "orbicularis_oculi_orbital.r"), 0.5 * 0.6 * 0.58, 1e-15);
     }
     // Halfway through the onset and through the slower offset.
-    EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93 / 2, 1e-12);
-    EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 * 0.93 / 2, 1e-12);
+    EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58 / 2, 1e-12);
+    EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58 / 2, 1e-12);
 }
 
 TEST(Timeline, CheekRaiserTrailsTheLipCornersInASmile) {
@@ -136,7 +136,7 @@ TEST(Timeline, OneSidedExpressionLeavesTheOtherSideAtRest) {
         timeline("{}", R"([{"expression": "happiness", "start_s": 0, "onset_s": 0, "side": "r"}])")
             .at(0.1);
     EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 0.0);
-    EXPECT_GT(excitation(drive, "zygomaticus_major.r"), 0.7);
+    EXPECT_GT(excitation(drive, "zygomaticus_major.r"), 0.4);
 }
 
 TEST(Timeline, BlinkSilencesTheLevatorThenFiresOrbicularisAndEndsBoth) {
@@ -175,13 +175,13 @@ TEST(Timeline, HelloStartsAndEndsAtRestAndShowsItsPartsApart) {
                     tables().channels, tables().facs, tables().expressions);
     const Timeline face(hello, tables().channels);
     for (double t : {0.0, 0.2, 3.8, 4.0}) EXPECT_EQ(activity(face.at(t)), 0.0) << t;
-    EXPECT_GT(excitation(face.at(0.7), "zygomaticus_major.l"), 0.6);
+    EXPECT_GT(excitation(face.at(0.7), "zygomaticus_major.l"), 0.4);
     EXPECT_EQ(excitation(face.at(1.5), "zygomaticus_major.l"), 0.0);
     EXPECT_GT(excitation(face.at(1.5), "frontalis_medial.r"), 0.5);
     EXPECT_EQ(excitation(face.at(1.8), "orbicularis_oculi_palpebral_upper.r"), 0.5);
     EXPECT_NEAR(face.at(2.3).at(Kinematic::kJawOpen), 0.50, 1e-12);
     EXPECT_GT(excitation(face.at(2.95), "corrugator_supercilii.l"), 0.6);
-    EXPECT_GT(excitation(face.at(3.45), "zygomaticus_major.l"), 0.6);
+    EXPECT_GT(excitation(face.at(3.45), "zygomaticus_major.l"), 0.4);
     EXPECT_EQ(excitation(face.at(3.45), "zygomaticus_major.r"), 0.0);
 }
 
