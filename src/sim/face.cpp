@@ -630,6 +630,7 @@ const std::vector<StepFigures>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
     impl_->statics->moved();
+    impl_->tissue.forget_mouth();
     impl_->tissue.solids().scale_strength(muscle, factor);
     for (Side side : {Side::kLeft, Side::kRight}) {
         const int column = impl_->channels.column(muscle, side);

@@ -136,8 +136,10 @@ class FaceTissue {
     MuscleSolids& solids() { return *solids_; }
     void scale_lips(const rig::LipsDescription& lips) {
         lip_drive_->scale(lips);
-        mouth_.reset();
+        forget_mouth();
     }
+    /// After a change of forces: the part that moves by itself has its own copy of them.
+    void forget_mouth() { mouth_.reset(); }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
     StepFigures implicit_step(double h, const Points& start, const Points& aim,
