@@ -21,6 +21,7 @@
 #include "render/detail/shaders.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/strand_layer.h"
+#include "render/detail/tear_layer.h"
 #include "render/value_colour.h"
 
 namespace risorius::render {
@@ -134,6 +135,7 @@ struct OffscreenView::Impl {
                                paint_side(options.height_px / camera.frame_height_m));
         pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre);
+        tears = std::make_unique<TearLayer>(scene);
 
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
@@ -172,6 +174,7 @@ struct OffscreenView::Impl {
         lights.reset();
         materials.reset();
         hair.reset();
+        tears.reset();
         muscles.reset();
         buffers.reset();
     }
@@ -200,6 +203,7 @@ struct OffscreenView::Impl {
             buffers->draw(batch);
         }
         materials->done();
+        tears->draw();
         hair->draw();
         buffers->bind();
         glDisable(GL_FRAMEBUFFER_SRGB);
@@ -220,6 +224,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
+    std::unique_ptr<TearLayer> tears;
     bool mesh_lashes = true;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<Framebuffer> target;
@@ -256,6 +261,7 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
     view.hair->upload(pose, view.marks);
+    view.tears->upload(pose, view.marks);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));

@@ -263,8 +263,22 @@ TEST(OffscreenView, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil) {
         return brightness(mean_colour(image, view.project(eye + Vec3(x, y, 0.0105)), 1));
     };
     const double white = at(0.0, -0.0083), iris = at(0.0, -0.0038), pupil = at(0.0, 0.0);
-    EXPECT_GT(white, 1.25 * iris);
+    EXPECT_GT(white, 1.2 * iris);  // of an iris where the cornea gathers light
     EXPECT_GT(iris, 1.25 * pupil);
+}
+
+TEST(OffscreenView, TheIrisIsBrighterOnTheSideAwayFromTheLamp) {
+    RoundHead head;
+    ViewOptions options = small();
+    options.width_px = options.height_px = 384;
+    OffscreenView view(head.scene, options);
+    const Image image = view.draw(head.pose);
+    const Vec3 eye = head.scene.eyes[0].centre;
+    const auto at = [&](double x, double y) {
+        return brightness(mean_colour(image, view.project(eye + Vec3(x, y, 0.0105)), 1));
+    };
+    // The key light comes from the subject's right and above; the mirrored lamps lie on that side.
+    EXPECT_GT(at(0.0030, -0.0024), 1.2 * at(-0.0036, -0.0014));
 }
 
 TEST(OffscreenView, ThePupilTurnsWithTheEye) {

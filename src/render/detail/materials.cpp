@@ -22,7 +22,7 @@ std::string fragment_shader(Material material, bool veiled, bool folds) {
         case Material::kGums:
         case Material::kTongue:
         case Material::kMouth:
-            return mucosa_shader();
+            return mucosa_shader(material == Material::kTongue);
         case Material::kLashes:
             return lash_shader();
         case Material::kMatte:
@@ -143,8 +143,6 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const Musc
         if (batch.material == Material::kMouth) set(program->location("albedo"), kMouth);
         if (batch.material == Material::kLashes)
             set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
-        glUniform1f(program->location("bumps"),
-                    batch.material == Material::kTongue ? 0.55F : 0.12F);
         programs_.emplace(batch.material, std::move(program));
     }
 
@@ -203,7 +201,8 @@ void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& mark
     }
     const GlProgram& program = *programs_.at(batch.material);
     program.use();
-    if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);
+    if (batch.material == Material::kEye || batch.material == Material::kCornea)
+        set_eye(program, batch.eye, pose, marks);
     if (batch.material == Material::kCornea) {
         glEnable(GL_BLEND);
         glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);

@@ -57,11 +57,13 @@ std::string muscle_shader();
 std::string eye_shader();
 std::string cornea_shader();
 std::string teeth_shader();
-std::string mucosa_shader();  ///< gums, tongue and the wall of the mouth
+std::string mucosa_shader(bool tongue);  ///< of gums and the wall of the mouth, or the tongue
 std::string matte_shader();
 std::string lash_shader();
 std::string strand_vertex_shader();
 std::string strand_shader();
+std::string tear_vertex_shader();
+std::string tear_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
 std::string object_shader();
 
