@@ -52,7 +52,7 @@ void main() {
     vec3 diffuse = key * kept + soft * (open * turned);
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
-    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil)), 1.0);
+    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), 1.0);
 }
 )";
 

@@ -246,7 +246,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
             if (!root || !ahead) continue;
             Strand strand;
             strand.root = *root;
-            strand.width_m = 0.000085 + 0.00003 * random.next();
+            strand.width_m = (0.000085 + 0.00003 * random.next()) * (0.45 + 0.55 * hair.density);
             strand.shade = shade;
             const Mat3 frame = skin_frame(*root, scene.rest);
             Vec3 along = (ahead->on(scene.rest) - root->on(scene.rest)).normalized();
