@@ -15,6 +15,7 @@
 #include "render/detail/materials.h"
 #include "render/detail/muscle_layer.h"
 #include "render/detail/occlusion.h"
+#include "render/detail/own_textures.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/resolve.h"
 #include "render/detail/scene_buffers.h"
@@ -130,7 +131,8 @@ struct OffscreenView::Impl {
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
-        paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, centre,
+        own = std::make_unique<OwnTextures>(scene, *buffers);
+        paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *own, centre,
                                buffers->paintable_triangles(inside),
                                paint_side(options.height_px / camera.frame_height_m));
         pore_map = make_pores(scene.look.seed);
@@ -152,8 +154,10 @@ struct OffscreenView::Impl {
 
     /// Lashes of the mesh are only drawn where none of their own can be grown.
     void grow_hair(const Scene& scene, const Vec3& centre) {
-        std::vector<Strand> strands = plan_brows(scene, plan_skin(scene, centre), centre,
-                                                 buffers->paintable_triangles(inside));
+        std::vector<Strand> strands;
+        if (!has_own_skin(scene))
+            strands = plan_brows(scene, plan_skin(scene, centre), centre,
+                                 buffers->paintable_triangles(inside));
         bool lashes = true;
         for (const int eye : {0, 1}) {
             const std::vector<Strand> some = plan_lashes(scene, eye);
@@ -176,6 +180,7 @@ struct OffscreenView::Impl {
         hair.reset();
         tears.reset();
         muscles.reset();
+        own.reset();
         buffers.reset();
     }
 
@@ -200,6 +205,7 @@ struct OffscreenView::Impl {
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !mesh_lashes) continue;
             materials->use(batch, pose, marks);
+            own->bind(batch);
             buffers->draw(batch);
         }
         materials->done();
@@ -223,6 +229,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<SceneBuffers> buffers;
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
+    std::unique_ptr<OwnTextures> own;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<TearLayer> tears;
     bool mesh_lashes = true;

@@ -73,6 +73,8 @@ void visit_fields(LipsDescription& lips, Visit visit) {
 }
 template <typename Visit>
 void visit_fields(LookDescription& look, Visit visit) {
+    static const std::vector<std::string_view> kTextures{"mesh", "generated"};
+    visit("textures", look.textures, kTextures);
     visit("skin_tone", look.skin_tone);
     visit("lip_tone", look.lip_tone);
     visit("hair_tone", look.hair_tone);

@@ -89,8 +89,10 @@ struct LipsDescription {
     double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
-/// Appearance generated for heads without textures; colours sRGB 0..1.
+/// Appearance generated for heads without textures of their own; colours sRGB 0..1.
 struct LookDescription {
+    std::string textures =
+        "mesh";  ///< "mesh": pictures of the mesh's materials where it has them; "generated": never
     Vec3 skin_tone{0.80, 0.60, 0.50};
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};

@@ -128,6 +128,9 @@ void main() {
     vec3 albedo = mix(white, inner, is_iris);
     albedo *= mix(vec3(1.0), vec3(0.70, 0.74, 0.78), ahead ? smoothstep(1.24, 1.02, r) * (1.0 - is_iris) : 0.0);
 
+    albedo = own_colour(rest, albedo);
+    if (kOwn) albedo *= mix(1.0, gathered, is_iris);
+
     float open = lid_shade(position);
     float s = key_visibility(position, n) * open;
     vec3 k = key_direction.xyz;
@@ -163,7 +166,9 @@ void main() {
 
 }  // namespace
 
-std::string eye_shader() { return lighting_chunk() + noise_chunk() + kWindow + kEye; }
+std::string eye_shader(bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kWindow + kEye;
+}
 std::string cornea_shader() { return lighting_chunk() + kWindow + kCornea; }
 
 }  // namespace risorius::render

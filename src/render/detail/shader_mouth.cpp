@@ -23,6 +23,7 @@ void main() {
     vec3 k = key_direction.xyz;
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 enamel = vec3(0.62, 0.575, 0.49) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
+    enamel = own_colour(rest, enamel);
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
     vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.35, 0.32, 0.28)) + soft * tint;
@@ -61,7 +62,7 @@ void main() {
     vec3 p = rest * 1400.0 + 500.0;
     float a = noise(p);
     vec3 m = n + 0.12 * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5);
-    vec3 tint = back_of(n, albedo * (0.8 + 0.4 * a), m);
+    vec3 tint = back_of(n, own_colour(rest, albedo * (0.8 + 0.4 * a)), m);
     m = normalize(m);
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 light = key_card.rgb * s * kept * scattered(dot(m, k), vec3(0.4, 0.2, 0.15)) + soft;
@@ -82,9 +83,12 @@ void main() {
 
 }  // namespace
 
-std::string teeth_shader() { return lighting_chunk() + noise_chunk() + kMouthInputs + kTeeth; }
-std::string mucosa_shader(bool tongue) {
-    return lighting_chunk() + noise_chunk() + kMouthInputs + (tongue ? kTongueBack : kSmoothMucosa) + kMucosa;
+std::string teeth_shader(bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs + kTeeth;
+}
+std::string mucosa_shader(bool tongue, bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs +
+           (tongue ? kTongueBack : kSmoothMucosa) + kMucosa;
 }
 std::string matte_shader() { return lighting_chunk() + kMouthInputs + kMatte; }
 
