@@ -42,6 +42,7 @@ struct AnimateOptions {
     std::optional<std::int64_t>
         audio_offset;  ///< samples from the first frame to its first, of its own rate
     SyncMarks marks{};
+    std::optional<double> shutter_deg;  ///< 0..360: motion blur; see Shot
     std::vector<std::string> passes;    ///< pass_names(): ground truth as pictures, into OUT.passes
     std::optional<double> turntable_s;  ///< the face of this time, turned once round
     std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with

@@ -55,6 +55,7 @@ Json RunRecord::json() const {
     json["camera"] = camera;
     json["show"] = show;
     json["background"] = background;
+    json["shutter"] = {{"open_deg", shutter_deg}, {"moments", shutter_moments}};
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;
     json["jaw"] = {{"moved_by", jaw},

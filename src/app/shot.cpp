@@ -122,6 +122,9 @@ Shot plan_shot(const AnimateOptions& options) {
                       .view_angle_deg = asked.view_angle_deg,
                       .aperture_mm = asked.aperture_mm};
     shot.view.supersampling = asked.antialiasing;
+    shot.shutter_deg = options.shutter_deg.value_or(asked.shutter_deg);
+    if (!(shot.shutter_deg >= 0 && shot.shutter_deg <= 360))
+        throw Error("--shutter", "degrees in [0, 360]", format_number(shot.shutter_deg));
     shot.view.light.preset = asked.light.preset;
     shot.view.light.turn_deg = asked.light.turn_deg;
     shot.view.light.exposure_ev = asked.light.exposure_ev;

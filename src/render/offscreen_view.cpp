@@ -297,8 +297,19 @@ Image OffscreenView::draw(const Pose& pose) {
 Image OffscreenView::draw(const std::vector<Pose>& poses) {
     if (poses.empty()) throw Error("poses", "at least one", "none");
     if (poses.size() == 1) return draw(poses.front());
+    const auto same = [](const Points& a, const Points& b) {
+        return a.rows() == b.rows() && a == b;
+    };
+    const auto looks_as = [&](const Pose& a, const Pose& b) {
+        return same(a.positions, b.positions) && a.eye_rotation == b.eye_rotation &&
+               a.jaw_open == b.jaw_open && same(a.fold_depth, b.fold_depth) &&
+               same(a.muscle_positions, b.muscle_positions) && a.activations == b.activations &&
+               !a.values && !b.values;
+    };
     std::vector<Image> images;
-    for (const Pose& pose : poses) images.push_back(draw(pose));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        images.push_back(i > 0 && looks_as(poses[i], poses[i - 1]) ? images.back()
+                                                                   : draw(poses[i]));
     return mean_of(images);
 }
 

@@ -92,6 +92,9 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--turntable", options.turntable_s,
         "The face of this time, in seconds, turned once round while the video lasts");
+    command->add_option("--shutter", options.shutter_deg,
+                        "Motion blur: how long the shutter is open, 0 to 360 degrees of a frame, "
+                        "around the frame's time; 180 is usual");
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
     command->add_flag("--emg", options.emg,
