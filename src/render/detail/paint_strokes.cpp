@@ -213,7 +213,7 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Strok
     hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
                 kMapPerMetre * (offset * half_band - 0.0006) * up;
     const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
-                        42.0 * offset * std::min(1.0, t / 0.3) + 24.0 * (random.next() - 0.5);
+                        42.0 * offset * std::min(1.0, t / 0.3) + (24.0 + 18.0 * t) * (random.next() - 0.5);
     const double angle = lean * std::numbers::pi / 180;
     hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.42 * t);
     hair.step =
