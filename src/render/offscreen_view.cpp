@@ -20,6 +20,7 @@
 #include "render/detail/resolve.h"
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
+#include "render/detail/shell_layer.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/strand_layer.h"
 #include "render/detail/tear_layer.h"
@@ -58,7 +59,7 @@ Box skin_box(const Scene& scene) {
 
 /// Painted scalp hair would hide what lies below; the brows stay.
 Scene without_hair(Scene scene) {
-    scene.look.scalp_hair = 0;
+    scene.look.scalp_hair = scene.look.hair_length_mm = scene.look.beard_length_mm = 0;
     return scene;
 }
 
@@ -138,6 +139,9 @@ struct OffscreenView::Impl {
         pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre);
         tears = std::make_unique<TearLayer>(scene);
+        buffers->bind();
+        shells = std::make_unique<ShellLayer>(muscles ? shaved : scene, plan_skin(scene, centre),
+                                              centre, buffers->paintable_triangles(inside));
 
         buffers->bind();
         materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
@@ -179,6 +183,7 @@ struct OffscreenView::Impl {
         materials.reset();
         hair.reset();
         tears.reset();
+        shells.reset();
         muscles.reset();
         own.reset();
         buffers.reset();
@@ -209,6 +214,8 @@ struct OffscreenView::Impl {
             buffers->draw(batch);
         }
         materials->done();
+        buffers->bind();
+        shells->draw();
         tears->draw();
         hair->draw();
         buffers->bind();
@@ -232,6 +239,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<OwnTextures> own;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<TearLayer> tears;
+    std::unique_ptr<ShellLayer> shells;
     bool mesh_lashes = true;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<Framebuffer> target;

@@ -57,41 +57,6 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
     }
 }
 
-/// Cells of the map that ears cover.
-class EarMask {
-  public:
-    EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
-            const std::vector<unsigned>& skin)
-        : covered_(kSide * kSide, false) {
-        constexpr int kSteps = 6;
-        for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
-            Vec3 corner[3];
-            bool ear = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
-                ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
-            }
-            if (!ear) continue;
-            for (int a = 0; a <= kSteps; ++a)
-                for (int b = 0; a + b <= kSteps; ++b)
-                    covered_[cell(paint_place(
-                        (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
-                        centre))] = true;
-        }
-    }
-    bool at(const Vec2& place) const { return covered_[cell(place)]; }
-
-  private:
-    static constexpr std::size_t kSide = 256;
-    static std::size_t cell(const Vec2& place) {
-        const auto along = [](double x) {
-            return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
-        };
-        return along(place.y()) * kSide + along(place.x());
-    }
-    std::vector<bool> covered_;
-};
-
 /// Cropped hair beyond the hairline, lying away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            StrokeRandom& random, StrokePad& pad) {
@@ -124,22 +89,9 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
                 hair * (0.65 + 0.6 * shade),
-                std::min(1.0, 1.3 * scene.look.scalp_hair) * (0.45 + 0.45 * length_draw) * std::clamp(0.35 + inside, 0.0, 1.0));
+                std::min(1.0, 1.3 * scene.look.scalp_hair) * (0.45 + 0.45 * length_draw) *
+                    std::clamp(0.35 + inside, 0.0, 1.0));
     }
-}
-
-/// Within the red of the lips or half a millimetre from it.
-bool inside_lips(const SkinPlan& plan, const Vec3& p) {
-    bool inside = false;
-    const std::vector<Vec3>& outline = plan.lip_outline;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-            inside = !inside;
-    }
-    return inside && p.z() > plan.lip_back_m;
 }
 
 /// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
@@ -194,6 +146,46 @@ void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, St
 
 }  // namespace
 
+EarMask::EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                 const std::vector<unsigned>& skin)
+    : covered_(kSide * kSide, false) {
+    constexpr int kSteps = 6;
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+        Vec3 corner[3];
+        bool ear = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
+            ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
+        }
+        if (!ear) continue;
+        for (int a = 0; a <= kSteps; ++a)
+            for (int b = 0; a + b <= kSteps; ++b)
+                covered_[cell(paint_place(
+                    (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
+                    centre))] = true;
+    }
+}
+
+std::size_t EarMask::cell(const Vec2& place) {
+    const auto along = [](double x) {
+        return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
+    };
+    return along(place.y()) * kSide + along(place.x());
+}
+
+bool inside_lips(const SkinPlan& plan, const Vec3& p) {
+    bool inside = false;
+    const std::vector<Vec3>& outline = plan.lip_outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+            inside = !inside;
+    }
+    return inside && p.z() > plan.lip_back_m;
+}
+
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, StrokeRandom& random) {
     const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
     const std::size_t end = line.size() - 1;
@@ -213,7 +205,8 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Strok
     hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
                 kMapPerMetre * (offset * half_band - 0.0006) * up;
     const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
-                        42.0 * offset * std::min(1.0, t / 0.3) + (24.0 + 18.0 * t) * (random.next() - 0.5);
+                        42.0 * offset * std::min(1.0, t / 0.3) +
+                        (24.0 + 18.0 * t) * (random.next() - 0.5);
     const double angle = lean * std::numbers::pi / 180;
     hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.42 * t);
     hair.step =

@@ -31,7 +31,8 @@ enum TextureUnit {
     kFibreUnit = 5,
     kMirrorUnit = 6,
     kOwnColourUnit = 8,
-    kOwnPlaceUnit = 9
+    kOwnPlaceUnit = 9,
+    kHairLengthUnit = 10
 };
 enum VertexAttribute {
     kPosition = 0,
@@ -65,6 +66,8 @@ std::string matte_shader();
 std::string lash_shader();
 std::string strand_vertex_shader();
 std::string strand_shader();
+std::string shell_vertex_shader();
+std::string shell_shader();
 std::string tear_vertex_shader();
 std::string tear_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
