@@ -2,6 +2,7 @@
 #include "app/film.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "app/frame_table.h"
@@ -60,6 +61,8 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.camera = shot.view.camera;
     record.shutter_deg = shot.shutter_deg;
     record.shutter_moments = shot.moments();
+    if (shot.view.show == render::Show::kStrain || shot.view.show == render::Show::kError)
+        record.scale_to = Sight::scale_end(shot.view.show, options.scale);
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = options.quality;
@@ -69,6 +72,15 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.dropped_tets = face.dropped_tets();
     record.fibres = face.fibre_count();
     return record;
+}
+
+/// In face, eyes and mouth, when masks are wanted.
+std::array<double, 3> luminance_within(const std::optional<PassWriter>& passes,
+                                       const Image& image) {
+    if (!passes) return {};
+    const PassWriter::Masks& masks = passes->masks();
+    return {media::mean_luminance(image, masks.face), media::mean_luminance(image, masks.eyes),
+            media::mean_luminance(image, masks.mouth)};
 }
 
 /// The whole head turned about the vertical axis, to its left.
@@ -108,7 +120,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     render::OffscreenView view(scene, shot.view);
     const LandmarkPoints landmarks(face.head(), files.rig);
     const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
-                      shot.view.height_px, landmarks);
+                      shot.view.height_px, landmarks, options.scale);
     std::optional<ReferenceRun> reference;
     if (options.against)
         reference.emplace(*options.against, shot.script.rig_file, options.quality,
@@ -124,6 +136,8 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                               .emg = {}};
     for (std::size_t side = 0; side < 2; ++side)
         columns.eye_forward[side] = face.head().eyes[side].forward;
+    columns.masks =
+        std::find(options.passes.begin(), options.passes.end(), "masks") != options.passes.end();
     columns.photodiode = options.marks.photodiode.has_value();
     const auto driven = [&](double t_s) { return face.driven(timeline.at(t_s)); };
     track::SimulatedEmg emg(channels, driven);
@@ -183,9 +197,10 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         const Stopwatch drawing;
         Image image = view.draw(poses);
         sight.draw_over(pose.positions, image);
-        table.add_picture(pictures.measure(image), pictures.lit(frame));
-        pictures.mark(frame, image);
         if (passes) passes->add(frame, pose.positions);
+        table.add_picture(pictures.measure(image), luminance_within(passes, image),
+                          pictures.lit(frame));
+        pictures.mark(frame, image);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawing.seconds();
         const Stopwatch encoding;

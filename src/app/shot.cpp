@@ -148,6 +148,13 @@ Shot plan_shot(const AnimateOptions& options) {
         throw compared ? Error("--show error", "a script to compare with, by --against", "none")
                        : Error("--against", "--show error, which compares",
                                "--show " + options.show.value_or(asked.show));
+    if (options.scale) {
+        if (!compared && shot.view.show != render::Show::kStrain)
+            throw Error("--scale", "--show strain or error, which have one",
+                        "--show " + options.show.value_or(asked.show));
+        if (!(*options.scale > 0 && *options.scale <= 1000))
+            throw Error("--scale", "a number in (0, 1000]", format_number(*options.scale));
+    }
     check_marks(options.marks, shot);
     for (const std::string& pass : options.passes) {
         index_of_name("--passes", pass, pass_names());
