@@ -2,6 +2,7 @@
 #include "app/film.h"
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
 
 #include "app/frame_table.h"
@@ -11,7 +12,7 @@
 #include "app/scene_from_rig.h"
 #include "app/sight.h"
 #include "app/stopwatch.h"
-#include "app/two_stages.h"
+#include "app/three_stages.h"
 #include "media/sha256.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
@@ -23,6 +24,9 @@ namespace risorius::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// More views than this wait for the simulation.
+constexpr int kMostViews = 4;
 
 // A jaw that follows its channels does so whatever the muscles that would move it do.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
@@ -103,7 +107,13 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     add_wrinkles(face.wrinkle_lines(), scene);
     const bool inside = shot.view.show == render::Show::kMuscles;
     if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
-    render::OffscreenView view(scene, shot.view);
+    // The first view here, as others need it; each of those on the thread that draws with it
+    const int workers =
+        options.threads > 1 ? std::min({options.threads, kMostViews, shot.frames}) : 0;
+    std::vector<std::unique_ptr<render::OffscreenView>> views(
+        static_cast<std::size_t>(std::max(workers, 1)));
+    views[0] = std::make_unique<render::OffscreenView>(scene, shot.view);
+    const render::OffscreenView& view = *views[0];
     const LandmarkPoints landmarks(face.head(), files.rig);
     const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
                       shot.view.height_px, landmarks);
@@ -165,21 +175,33 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         record.timing.simulate_s += stage.seconds();
         return seen;
     };
-    const auto show = [&](int frame, const render::Pose& pose) {
-        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+    struct Drawn {
+        Points positions;
+        Image image;
+        double draw_s;
+    };
+    const auto draw = [&](int worker, int /*frame*/, render::Pose pose) {
         const Stopwatch drawing;
-        Image image = view.draw(pose);
-        sight.draw_over(pose.positions, image);
+        std::unique_ptr<render::OffscreenView>& own = views[static_cast<std::size_t>(worker)];
+        if (!own) own = std::make_unique<render::OffscreenView>(scene, view);
+        Image image = own->draw(pose);
+        return Drawn{std::move(pose.positions), std::move(image), drawing.seconds()};
+    };
+    const auto show = [&](int frame, Drawn drawn) {
+        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        const Stopwatch marking;
+        Image& image = drawn.image;
+        sight.draw_over(drawn.positions, image);
         table.add_picture(pictures.measure(image), pictures.lit(frame));
         pictures.mark(frame, image);
-        if (passes) passes->add(frame, pose.positions);
+        if (passes) passes->add(frame, drawn.positions);
         hash.add(image.rgba.data(), image.rgba.size());
-        record.timing.draw_s += drawing.seconds();
+        record.timing.draw_s += drawn.draw_s + marking.seconds();
         const Stopwatch encoding;
         use(std::move(image));
         record.timing.encode_s += encoding.seconds();
     };
-    in_two_stages(shot.frames, options.threads, simulate, show);
+    in_three_stages(shot.frames, workers, simulate, draw, show);
 
     record.frames_sha256 = hash.finish();
     record.solver = solver_figures(face.history(), most_inverted_tets);
