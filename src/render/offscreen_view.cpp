@@ -19,6 +19,7 @@
 #include "render/detail/resolve.h"
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
+#include "render/detail/skin_layer.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/strand_layer.h"
 #include "render/value_colour.h"
@@ -136,7 +137,16 @@ struct OffscreenView::Impl {
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
 
         buffers->bind();
-        materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
+        const int shaded = shaded_per_side();
+        if (shaded < options.supersampling)
+            skin_layer =
+                std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
+                                            picture.tile_height_samples() / options.supersampling,
+                                            options.supersampling, shaded);
+        const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
+                                     : skin_layer ? Materials::Skin::kLayer
+                                                  : Materials::Skin::kPlain;
+        materials = std::make_unique<Materials>(scene, *buffers, skin, muscles.get());
         lights = std::make_unique<Lights>(camera, centre, options.light);
         target = std::make_unique<Framebuffer>(picture.tile_width_samples(),
                                                picture.tile_height_samples());
@@ -146,6 +156,12 @@ struct OffscreenView::Impl {
         if (options.deep) picture.keep_deep(options.background);
         if (const GLenum error = glGetError(); error != GL_NO_ERROR)
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
+    }
+
+    /// Samples of skin that are shaded per pixel and side; as many as there are where one asks for more than 8 bits.
+    int shaded_per_side() const {
+        if (options.deep || options.show == Show::kMuscles) return options.supersampling;
+        return std::max(options.supersampling / 2, 1);
     }
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
@@ -188,6 +204,7 @@ struct OffscreenView::Impl {
         const GlContext::Current current(context);
         glDeleteBuffers(1, &frame_buffer);
         baked.reset();
+        skin_layer.reset();
         target.reset();
         lights.reset();
         materials.reset();
@@ -204,6 +221,13 @@ struct OffscreenView::Impl {
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 
+        buffers->choose(clip, SceneBuffers::kSeen);
+        const bool looked_up = skin_layer && !pose.values;
+        if (looked_up) {
+            skin_layer->begin(tile.width, tile.height);
+            for (const Batch& batch : buffers->batches())
+                if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
+        }
         picture.set_viewport(tile);
         if (muscles) {
             muscles->draw();
@@ -216,8 +240,17 @@ struct OffscreenView::Impl {
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
-            materials->use(batch, pose, marks);
-            buffers->draw(batch);
+            if (batch.material == Material::kSkin && looked_up) {
+                glDisable(GL_FRAMEBUFFER_SRGB);
+                skin_layer->use();
+                buffers->draw(batch);
+                glEnable(GL_FRAMEBUFFER_SRGB);
+            } else if (batch.material == Material::kSkin && !pose.values) {
+                materials->draw_skin(batch, *buffers);
+            } else {
+                materials->use(batch, pose, marks);
+                buffers->draw(batch);
+            }
         }
         materials->done();
         hair->draw();
@@ -241,6 +274,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<Lights> lights;
+    std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
     std::unique_ptr<Framebuffer> target;
     std::shared_ptr<Baked> baked;
     std::optional<SkyAboutEyes>
@@ -282,7 +316,6 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
-    frame.key_direction[3] = view.options.supersampling > 1 ? 1.0F : 0.0F;
     view.lights->draw_shadow(*view.buffers);
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
