@@ -489,7 +489,7 @@ struct Face::Impl {
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
-        if (folds == Folds::kFormed) out.fold_depth = skin->apply(out.vertices);
+        if (folds == Folds::kFormed) out.fold_depth = skin->apply(state.activation, out.vertices);
         out.head = head_motion(head, drive);
         const FollowDrive follow_drive{moved,
                                        turned,

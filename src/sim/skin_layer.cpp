@@ -49,7 +49,9 @@ SkinLayer::SkinLayer(const rig::Head& head, const rig::RigDescription& rig, cons
       lines_(folds_ ? lay_wrinkle_lines(head, rig, shell.fine) : WrinkleLines{}),
       wrinkles_(lines_, folds_ ? shell.fine : Triangles(0, 3), head.vertices,
                 {.strength = rig.skin.wrinkles, .mean_over_m = head.mm(3)}),
-      surface_(sheet_of(head, rig, jaw, lids, shell, mesh)) {
+      surface_(sheet_of(head, rig, jaw, lids, shell, mesh)),
+      cords_(head, rig) {
+    if (folds_) cords_.mark(lines_);
     std::vector<char> of_surface(static_cast<std::size_t>(head.vertices.rows()), 0);
     for (long i = 0; i < shell.fine.size(); ++i) of_surface[shell.fine.data()[i]] = 1;
     for (std::size_t v = 0; v < head.welded.size(); ++v)
@@ -60,7 +62,7 @@ SkinLayer::SkinLayer(const rig::Head& head, const rig::RigDescription& rig, cons
     shift_.resize(static_cast<long>(alike_.size()), 3);
 }
 
-Points SkinLayer::apply(Points& vertices) const {
+Points SkinLayer::apply(const Eigen::VectorXd& activation, Points& vertices) const {
     for (std::size_t i = 0; i < alike_.size(); ++i)
         shift_.row(static_cast<long>(i)) = vertices.row(alike_[i].second);
     surface_.relax(vertices);
@@ -72,6 +74,7 @@ Points SkinLayer::apply(Points& vertices) const {
     for (std::size_t i = 0; i < alike_.size(); ++i)
         vertices.row(alike_[i].first) +=
             vertices.row(alike_[i].second) - shift_.row(static_cast<long>(i));
+    cords_.raise(activation, vertices, depth);
     return depth;
 }
 

@@ -1,5 +1,5 @@
-// What the skin does by itself on top of the tissue: evens out what the coarse tissue carries it to (skin_surface.h) and
-// folds where it is compressed (wrinkles.h). At rest it does nothing.
+// What the skin does by itself on top of the tissue: evens out what the coarse tissue carries it to (skin_surface.h),
+// folds where it is compressed (wrinkles.h) and stands off in cords on the neck (platysma_cords.h). At rest it does nothing.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include "rig/rig_description.h"
 #include "sim/jaw.h"
 #include "sim/lids.h"
+#include "sim/platysma_cords.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
 #include "sim/skin_surface.h"
@@ -26,9 +27,10 @@ class SkinLayer {
               const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh,
               const SkinBinding& binding);
 
-    /// `vertices` (V x 3) come as the tissue carries them. Returns the depth of the folds that the mesh is too coarse for,
-    /// V x 3, m, a column per slot of lines(); no rows when wrinkles are off.
-    Points apply(Points& vertices) const;
+    /// `vertices` (V x 3) come as the tissue carries them, with the activation of every muscle. Returns the depth of the folds
+    /// that the mesh is too coarse for, V x 3, m, a column per slot of lines(), < 0 where lines stand out; no rows when
+    /// wrinkles are off.
+    Points apply(const Eigen::VectorXd& activation, Points& vertices) const;
 
     const WrinkleLines& lines() const { return lines_; }
     const Wrinkles& wrinkles() const { return wrinkles_; }
@@ -39,6 +41,7 @@ class SkinLayer {
     WrinkleLines lines_;
     Wrinkles wrinkles_;
     SkinSurface surface_;
+    PlatysmaCords cords_;
     std::vector<std::pair<int, int>> alike_;  // vertex, the one whose shift it shares
     mutable Points shift_;                    // of alike_, scratch
 };

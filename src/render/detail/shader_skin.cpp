@@ -57,7 +57,7 @@ void main() {
 )";
 
 // Wrinkles: height A d P(f) over the skin, P = sqrt(sin^2(pi f) + r^2) and d of each line as in sim/wrinkles.cpp, so that
-// valleys are narrow and ridges round. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
+// valleys are narrow and ridges round; with A < 0 ridges are narrow. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
 // (Mikkelsen 2010, Bump Mapping Unparametrized Surfaces); folds finer than two samples fade out.
 constexpr const char* kFolds = R"(
 in vec3 fold_phase;
@@ -72,7 +72,7 @@ float fold(vec3 n, inout vec3 m) {
     float area = dot(px, ax);
     float open = 1.0;
     // Most of the skin has no fold at the moment, and leaves the loop before it begins.
-    int sets = abs(area) < 1e-14 ? 0 : fold_depth.z > 0.0 ? 3 : fold_depth.y > 0.0 ? 2 : fold_depth.x > 0.0 ? 1 : 0;
+    int sets = abs(area) < 1e-14 ? 0 : fold_depth.z != 0.0 ? 3 : fold_depth.y != 0.0 ? 2 : fold_depth.x != 0.0 ? 1 : 0;
     for (int i = 0; i < sets; ++i) {
         vec3 gradient = (fx[i] * ax + fy[i] * ay) / area;
         float shown = 1.0 - smoothstep(0.2, 0.5, length(vec2(fx[i], fy[i])));
@@ -80,7 +80,7 @@ float fold(vec3 n, inout vec3 m) {
         float rounded = s * s + kRounding * kRounding;
         float depth = fold_depth[i] * shown * (1.0 + 0.4 * sin(2.4 * round(fold_phase[i])));
         m -= depth * 3.14159265 * s * c * inversesqrt(rounded) * gradient;
-        float steep = depth * length(gradient);
+        float steep = max(depth, 0.0) * length(gradient);
         open *= 1.0 - min(0.75, 2.6 * steep) * (kRounding * kRounding) / rounded;
     }
     return open;
