@@ -51,7 +51,8 @@ struct AnimateOptions {
     std::string quality = "video";  ///< sim::quality_named
     bool landmarks = false;         ///< their places in the table
     bool emg = false;               ///< what electrodes would record, in the table
-    int threads = 2;                ///< 1, or more to simulate beside drawing; same frames
+    int threads =
+        2;  ///< 1, or more to simulate beside drawing, several frames at once; same frames
 };
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <numbers>
 
 #include "app/frame_table.h"
@@ -12,7 +13,7 @@
 #include "app/scene_from_rig.h"
 #include "app/sight.h"
 #include "app/stopwatch.h"
-#include "app/two_stages.h"
+#include "app/three_stages.h"
 #include "media/sha256.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
@@ -24,6 +25,9 @@ namespace risorius::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// More views than this wait for the simulation.
+constexpr int kMostViews = 4;
 
 // A jaw that follows its channels does so whatever the muscles that would move it do.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
@@ -117,7 +121,13 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     add_wrinkles(face.wrinkle_lines(), scene);
     const bool inside = shot.view.show == render::Show::kMuscles;
     if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
-    render::OffscreenView view(scene, shot.view);
+    // The first view here, as others need it; each of those on the thread that draws with it
+    const int workers =
+        options.threads > 1 ? std::min({options.threads, kMostViews, shot.frames}) : 0;
+    std::vector<std::unique_ptr<render::OffscreenView>> views(
+        static_cast<std::size_t>(std::max(workers, 1)));
+    views[0] = std::make_unique<render::OffscreenView>(scene, shot.view);
+    const render::OffscreenView& view = *views[0];
     const LandmarkPoints landmarks(face.head(), files.rig);
     const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
                       shot.view.height_px, landmarks, options.scale);
@@ -191,23 +201,35 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         record.timing.simulate_s += stage.seconds();
         return poses;
     };
-    const auto show = [&](int frame, const std::vector<render::Pose>& poses) {
-        const render::Pose& pose = poses[poses.size() / 2];
-        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+    struct Drawn {
+        Points positions;
+        Image image;
+        double draw_s;
+    };
+    const auto draw = [&](int worker, int /*frame*/, std::vector<render::Pose> poses) {
         const Stopwatch drawing;
-        Image image = view.draw(poses);
-        sight.draw_over(pose.positions, image);
-        if (passes) passes->add(frame, pose.positions);
+        std::unique_ptr<render::OffscreenView>& own = views[static_cast<std::size_t>(worker)];
+        if (!own) own = std::make_unique<render::OffscreenView>(scene, view);
+        Image image = own->draw(poses);
+        return Drawn{std::move(poses[poses.size() / 2].positions), std::move(image),
+                     drawing.seconds()};
+    };
+    const auto show = [&](int frame, Drawn drawn) {
+        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        const Stopwatch marking;
+        Image& image = drawn.image;
+        sight.draw_over(drawn.positions, image);
+        if (passes) passes->add(frame, drawn.positions);
         table.add_picture(pictures.measure(image), luminance_within(passes, image),
                           pictures.lit(frame));
         pictures.mark(frame, image);
         hash.add(image.rgba.data(), image.rgba.size());
-        record.timing.draw_s += drawing.seconds();
+        record.timing.draw_s += drawn.draw_s + marking.seconds();
         const Stopwatch encoding;
         use(std::move(image));
         record.timing.encode_s += encoding.seconds();
     };
-    in_two_stages(shot.frames, options.threads, simulate, show);
+    in_three_stages(shot.frames, workers, simulate, draw, show);
 
     record.frames_sha256 = hash.finish();
     record.solver = solver_figures(face.history(), most_inverted_tets);

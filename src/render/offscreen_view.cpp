@@ -21,6 +21,7 @@
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
 #include "render/detail/shell_layer.h"
+#include "render/detail/skin_layer.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/strand_layer.h"
 #include "render/detail/tear_layer.h"
@@ -88,8 +89,22 @@ Show show_named(const std::string& name, const std::string& place) {
     return static_cast<Show>(index_of_name(place, name, show_names()));
 }
 
+/// What takes long to find out about a scene, and all views of it share.
+struct Baked {
+    std::vector<float> sky,
+        inside;  ///< how much sky each vertex sees, whether it is inside the mouth
+    std::optional<SkyAboutEyes> sky_about_eyes;
+    std::vector<Strand> hair;
+    bool mesh_lashes = true;
+    GLuint paint_map = 0, pore_map = 0;
+    ~Baked() {  // in the context of the last view
+        glDeleteTextures(1, &paint_map);
+        glDeleteTextures(1, &pore_map);
+    }
+};
+
 struct OffscreenView::Impl {
-    Impl(const Scene& scene, const ViewOptions& view_options)
+    Impl(const Scene& scene, const ViewOptions& view_options, const Impl* first)
         : options(checked(view_options)),
           look(scene.look),
           box(skin_box(scene)),
@@ -101,7 +116,7 @@ struct OffscreenView::Impl {
           picture(options.width_px, options.height_px, options.supersampling),
           resolve(options.background),
           vertex_count(scene.rest.rows()),
-          context(options.threads) {
+          context(options.threads, first ? &first->context : nullptr) {
         if (scene.fold_phase.rows() != 0 && scene.fold_phase.rows() != vertex_count)
             throw Error("scene/fold_phase", std::to_string(vertex_count) + " rows, or none",
                         std::to_string(scene.fold_phase.rows()));
@@ -118,33 +133,29 @@ struct OffscreenView::Impl {
                 picture.tile_width_samples(), picture.tile_height_samples());
         buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre);
 
-        // Baked once: how much sky the skin sees, and its paint
-        const double reach = 0.75 * camera.frame_height_m;
-        const auto sky_over = [&](const Points& positions) {
-            return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
-        };
-        const std::vector<float> sky = sky_over(scene.rest);
-        inside = marks.inside_mouth(scene, sky);
-        buffers->set_occlusion(sky, inside);
-        if (scene.shut.rows() > 0) {
-            buffers->upload(scene.shut);
-            sky_about_eyes.emplace(scene, sky, sky_over(scene.shut));
-            buffers->upload(scene.rest);
-        }
-        const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
         own = std::make_unique<OwnTextures>(scene, *buffers);
-        paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *own, centre,
-                               buffers->paintable_triangles(inside),
-                               paint_side(options.height_px / camera.frame_height_m));
-        pore_map = make_pores(scene.look.seed);
-        grow_hair(scene, centre);
+        baked = first ? first->baked : bake(scene, centre);
+        sky_about_eyes = baked->sky_about_eyes;
+        buffers->set_occlusion(baked->sky, baked->inside);
+        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
+        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
         tears = std::make_unique<TearLayer>(scene);
         buffers->bind();
-        shells = std::make_unique<ShellLayer>(muscles ? shaved : scene, plan_skin(scene, centre),
-                                              centre, buffers->paintable_triangles(inside));
+        shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene,
+                                              plan_skin(scene, centre), centre,
+                                              buffers->paintable_triangles(baked->inside));
 
         buffers->bind();
-        materials = std::make_unique<Materials>(scene, *buffers, muscles.get());
+        const int shaded = shaded_per_side();
+        if (shaded < options.supersampling)
+            skin_layer =
+                std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
+                                            picture.tile_height_samples() / options.supersampling,
+                                            options.supersampling, shaded);
+        const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
+                                     : skin_layer ? Materials::Skin::kLayer
+                                                  : Materials::Skin::kPlain;
+        materials = std::make_unique<Materials>(scene, *buffers, skin, muscles.get());
         lights = std::make_unique<Lights>(camera, centre, options.light);
         target = std::make_unique<Framebuffer>(picture.tile_width_samples(),
                                                picture.tile_height_samples());
@@ -156,28 +167,54 @@ struct OffscreenView::Impl {
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }
 
+    /// Samples of skin that are shaded per pixel and side; as many as there are where one asks for more than 8 bits.
+    int shaded_per_side() const {
+        if (options.deep || options.show == Show::kMuscles) return options.supersampling;
+        return std::max(options.supersampling / 2, 1);
+    }
+
+    std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
+        auto out = std::make_shared<Baked>();
+        const double reach = 0.75 * camera.frame_height_m;
+        const auto sky_over = [&](const Points& positions) {
+            return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
+        };
+        out->sky = sky_over(scene.rest);
+        out->inside = marks.inside_mouth(scene, out->sky);
+        if (scene.shut.rows() > 0) {
+            buffers->upload(scene.shut);
+            out->sky_about_eyes.emplace(scene, out->sky, sky_over(scene.shut));
+            buffers->upload(scene.rest);
+        }
+        const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
+        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *own, centre,
+                                    buffers->paintable_triangles(out->inside),
+                                    paint_side(options.height_px / camera.frame_height_m));
+        out->pore_map = make_pores(scene.look.seed);
+        grow_hair(scene, centre, *out);
+        glFinish();  // other contexts may look at the maps from now on
+        return out;
+    }
+
     /// Lashes of the mesh are only drawn where none of their own can be grown.
-    void grow_hair(const Scene& scene, const Vec3& centre) {
-        std::vector<Strand> strands;
+    void grow_hair(const Scene& scene, const Vec3& centre, Baked& out) const {
         if (!has_own_skin(scene))
-            strands = plan_brows(scene, plan_skin(scene, centre), centre,
-                                 buffers->paintable_triangles(inside));
+            out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
+                                  buffers->paintable_triangles(out.inside));
         bool lashes = true;
         for (const int eye : {0, 1}) {
             const std::vector<Strand> some = plan_lashes(scene, eye);
             lashes &= !some.empty();
-            strands.insert(strands.end(), some.begin(), some.end());
+            out.hair.insert(out.hair.end(), some.begin(), some.end());
         }
-        mesh_lashes = !lashes;
-        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        hair = std::make_unique<StrandLayer>(scene, std::move(strands), camera, sample_m);
+        out.mesh_lashes = !lashes;
     }
 
     ~Impl() {
         const GlContext::Current current(context);
         glDeleteBuffers(1, &frame_buffer);
-        glDeleteTextures(1, &paint_map);
-        glDeleteTextures(1, &pore_map);
+        baked.reset();
+        skin_layer.reset();
         target.reset();
         lights.reset();
         materials.reset();
@@ -197,6 +234,13 @@ struct OffscreenView::Impl {
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 
+        buffers->choose(clip, SceneBuffers::kSeen);
+        const bool looked_up = skin_layer && !pose.values;
+        if (looked_up) {
+            skin_layer->begin(tile.width, tile.height);
+            for (const Batch& batch : buffers->batches())
+                if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
+        }
         picture.set_viewport(tile);
         if (muscles) {
             muscles->draw();
@@ -208,10 +252,19 @@ struct OffscreenView::Impl {
         glEnable(GL_DEPTH_TEST);
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
-            if (batch.material == Material::kLashes && !mesh_lashes) continue;
-            materials->use(batch, pose, marks);
-            own->bind(batch);
-            buffers->draw(batch);
+            if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
+            if (batch.material == Material::kSkin && looked_up) {
+                glDisable(GL_FRAMEBUFFER_SRGB);
+                skin_layer->use();
+                buffers->draw(batch);
+                glEnable(GL_FRAMEBUFFER_SRGB);
+            } else if (batch.material == Material::kSkin && !pose.values) {
+                materials->draw_skin(batch, *buffers);
+            } else {
+                materials->use(batch, pose, marks);
+                own->bind(batch);
+                buffers->draw(batch);
+            }
         }
         materials->done();
         buffers->bind();
@@ -240,16 +293,20 @@ struct OffscreenView::Impl {
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
-    bool mesh_lashes = true;
     std::unique_ptr<Lights> lights;
+    std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
     std::unique_ptr<Framebuffer> target;
-    std::vector<float> inside;  ///< of the mouth, per vertex
-    std::optional<SkyAboutEyes> sky_about_eyes;
-    GLuint paint_map = 0, pore_map = 0, frame_buffer = 0;
+    std::shared_ptr<Baked> baked;
+    std::optional<SkyAboutEyes>
+        sky_about_eyes;  ///< a copy of its own, which keeps what was seen last
+    GLuint frame_buffer = 0;
 };
 
 OffscreenView::OffscreenView(const Scene& scene, const ViewOptions& options)
-    : impl_(std::make_unique<Impl>(scene, options)) {}
+    : impl_(std::make_unique<Impl>(scene, options, nullptr)) {}
+
+OffscreenView::OffscreenView(const Scene& scene, const OffscreenView& first)
+    : impl_(std::make_unique<Impl>(scene, first.impl_->options, first.impl_.get())) {}
 
 OffscreenView::~OffscreenView() = default;
 
@@ -269,10 +326,10 @@ Image OffscreenView::draw(const Pose& pose) {
     // What moved
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);
-    if (view.sky_about_eyes)
-        view.buffers->set_occlusion(view.sky_about_eyes->seen({view.marks.lids_closed(pose, 0),
-                                                               view.marks.lids_closed(pose, 1)}),
-                                    view.inside);
+    if (auto& sky = view.sky_about_eyes)
+        view.buffers->set_occlusion(
+            sky->seen({view.marks.lids_closed(pose, 0), view.marks.lids_closed(pose, 1)}),
+            view.baked->inside);
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
     view.hair->upload(pose, view.marks);
@@ -280,12 +337,11 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
-    frame.key_direction[3] = view.options.supersampling > 1 ? 1.0F : 0.0F;
     view.lights->draw_shadow(*view.buffers);
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
-    glBindTexture(GL_TEXTURE_2D, view.paint_map);
+    glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
     glActiveTexture(GL_TEXTURE0 + kPoreUnit);
-    glBindTexture(GL_TEXTURE_2D, view.pore_map);
+    glBindTexture(GL_TEXTURE_2D, view.baked->pore_map);
 
     // The picture, tile by tile
     std::vector<Image> images;

@@ -68,6 +68,9 @@ class OffscreenView {
   public:
     /// Throws Error for a scene without skin or a size outside 16..8192, RunError when no GL context can be had.
     OffscreenView(const Scene& scene, const ViewOptions& options);
+    /// Another view of the same scene with the same options, to draw at the same time on another thread: the same pictures. Shares
+    /// what `first` has baked, which must not be drawing meanwhile; they may go away in any order.
+    OffscreenView(const Scene& scene, const OffscreenView& first);
     ~OffscreenView();
     OffscreenView(const OffscreenView&) = delete;
     OffscreenView& operator=(const OffscreenView&) = delete;

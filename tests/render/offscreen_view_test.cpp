@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -111,6 +112,35 @@ TEST(OffscreenView, TwoViewsShareAThread) {
     OffscreenView profile(head.scene, small("profile"));
     EXPECT_NE(fingerprint(profile.draw(head.pose)), before);
     EXPECT_EQ(fingerprint(front.draw(head.pose)), before);
+}
+
+TEST(OffscreenView, ViewsOfOneSceneDrawTheSameAtTheSameTimeOnSeveralThreads) {
+    RoundHead head;
+    auto first = std::make_unique<OffscreenView>(head.scene, small());
+    std::vector<Pose> poses(6, head.pose);
+    std::vector<std::uint64_t> alone;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        poses[i].positions.col(0).array() += 0.004 * static_cast<double>(i);
+        alone.push_back(fingerprint(first->draw(poses[i])));
+    }
+    EXPECT_NE(alone.front(), alone.back());
+    const auto draw_all = [&](OffscreenView& view, std::vector<std::uint64_t>& out) {
+        for (int round = 0; round < 3; ++round)
+            for (const Pose& pose : poses) out.push_back(fingerprint(view.draw(pose)));
+    };
+    std::array<std::vector<std::uint64_t>, 3> seen;
+    {
+        OffscreenView second(head.scene, *first), third(head.scene, *first);
+        std::thread a([&] { draw_all(*first, seen[0]); }), b([&] { draw_all(second, seen[1]); });
+        draw_all(third, seen[2]);
+        a.join();
+        b.join();
+        first.reset();  // what they share stays with the last of them
+        EXPECT_EQ(fingerprint(second.draw(poses[0])), alone[0]);
+    }
+    for (const std::vector<std::uint64_t>& prints : seen)
+        for (std::size_t i = 0; i < prints.size(); ++i)
+            EXPECT_EQ(prints[i], alone[i % poses.size()]);
 }
 
 TEST(OffscreenView, AProjectedPointIsWhereItIsDrawn) {

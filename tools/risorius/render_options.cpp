@@ -74,7 +74,8 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
     command
         .add_option(
             "--threads", options.threads,
-            "1, or more to simulate beside drawing and to draw faster; the frames are the same")
+            "1, or more to simulate beside drawing and to draw several frames at once; the frames "
+            "are the same")
         ->capture_default_str();
 }
 

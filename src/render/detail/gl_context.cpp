@@ -33,7 +33,8 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 
 }  // namespace
 
-GlContext::GlContext(int threads) : window_(kWindowSide * kWindowSide * 4) {
+GlContext::GlContext(int threads, const GlContext* shared)
+    : window_(kWindowSide * kWindowSide * 4) {
     // The driver reads its thread count from the environment when its one screen is made.
     const std::lock_guard<std::mutex> lock(creation_mutex());
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
@@ -48,7 +49,7 @@ GlContext::GlContext(int threads) : window_(kWindowSide * kWindowSide * 4) {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               5,
                               0};
-    context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+    context_ = OSMesaCreateContextAttribs(attributes, shared ? shared->context_ : nullptr);
     if (!context_) throw RunError("no OpenGL 4.5 context (OSMesa)");
 }
 

@@ -10,9 +10,9 @@ namespace risorius::render {
 
 class GlContext {
   public:
-    /// `threads` are llvmpipe workers; the first context of a process decides for all later ones.
-    /// Throws RunError when there is no such context.
-    explicit GlContext(int threads);
+    /// `threads` are llvmpipe workers; the first context of a process decides for all later ones. Textures and buffers are
+    /// those of `shared`, and the other way round. Throws RunError when there is no such context.
+    explicit GlContext(int threads, const GlContext* shared = nullptr);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;

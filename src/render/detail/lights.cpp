@@ -81,7 +81,7 @@ FrameUniforms Lights::uniforms(const MouthGap& gap) const {
     return frame;
 }
 
-void Lights::draw_shadow(const SceneBuffers& buffers) const {
+void Lights::draw_shadow(SceneBuffers& buffers) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, kShadowSide, kShadowSide);
     glEnable(GL_DEPTH_TEST);
@@ -91,9 +91,10 @@ void Lights::draw_shadow(const SceneBuffers& buffers) const {
     program_.use();
     glUniformMatrix4fv(clip_location_, 1, GL_FALSE, clip_from_world_.data());
     // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
-    if (shadow_)
-        for (const Batch& batch : buffers.batches())
-            if (batch.material == Material::kSkin) buffers.draw(batch);
+    if (shadow_) {
+        buffers.choose(clip_from_world_, SceneBuffers::kShadow);
+        for (const Batch& batch : buffers.batches()) buffers.draw(batch, SceneBuffers::kShadow);
+    }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glActiveTexture(GL_TEXTURE0 + kShadowUnit);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);

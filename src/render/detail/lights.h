@@ -34,7 +34,7 @@ class Lights {
     FrameUniforms uniforms(const MouthGap& gap) const;
 
     /// Draws the shadow map of the bound scene and binds what lights look up.
-    void draw_shadow(const SceneBuffers& buffers) const;
+    void draw_shadow(SceneBuffers& buffers) const;
 
   private:
     FrameUniforms frame_{};

@@ -9,10 +9,12 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, bool veiled, bool folds, bool own) {
+std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool own) {
     switch (material) {
         case Material::kSkin:
-            return veiled ? veil_shader(folds) : skin_shader(folds);
+            return skin == Materials::Skin::kVeil    ? veil_shader(folds)
+                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds)
+                                                     : skin_shader(folds);
         case Material::kEye:
             return eye_shader(own);
         case Material::kCornea:
@@ -104,48 +106,56 @@ Mat3 eye_axes(const Eye& eye) {
 
 }  // namespace
 
-Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const MuscleLayer* muscles)
+std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material,
+                                                   bool folds, Skin how, bool own,
+                                                   const MuscleLayer* muscles) const {
+    const std::string name = "material " + std::to_string(static_cast<int>(material));
+    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
+                                               fragment_shader(material, how, folds, own));
+    program->use();
+    if (muscles && material == Material::kSkin) {
+        muscles->tell(*program);
+        const Vec3 tone = linear_from_srgb(look_.skin_tone);
+        glUniform1f(program->location("tone"),
+                    static_cast<float>(tone.dot(Vec3(0.2126, 0.7152, 0.0722))));
+    }
+    glUniform1i(program->location("inside_mouth"), inside_mouth(material));
+    const Vec3 skin = linear_from_srgb(look_.skin_tone), scatter = skin_scatter(skin);
+    const Finish finish = finish_of(material, scatter);
+    set(program->location("scatter"), finish.scatter_m);
+    set(program->location("bounce"), inside_mouth(material) ? kMouth : skin);
+    glUniform4f(program->location("finish"), static_cast<float>(finish.roughness),
+                static_cast<float>(finish.reflectance), static_cast<float>(finish.share),
+                static_cast<float>(finish.mirror_layer));
+    if (material == Material::kSkin) {
+        // In proportion to how far red light gets; half a millimetre of light's own softness shows no colour.
+        set(program->location("bleed"),
+            Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
+        glUniform1f(program->location("roughness"), static_cast<float>(kSkinRoughness));
+    }
+    if (material == Material::kMatte)
+        set(program->location("albedo"), Vec3(Vec3::Constant(matte_reflectance(scene))));
+    if (material == Material::kGums) set(program->location("albedo"), kGums);
+    if (material == Material::kTongue) set(program->location("albedo"), kTongue);
+    if (material == Material::kMouth) set(program->location("albedo"), kMouth);
+    if (material == Material::kLashes)
+        set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
+    return program;
+}
+
+Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
+                     const MuscleLayer* muscles)
     : eyes_(scene.eyes), look_(scene.look) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
         const bool own = batch.texture >= 0;
-        if (programs_.contains({batch.material, own})) continue;
-        const std::string name = "material " + std::to_string(static_cast<int>(batch.material));
-        const bool folds = batch.material == Material::kSkin && scene.fold_phase.rows() > 0;
-        auto program = std::make_unique<GlProgram>(
-            name, surface_vertex_shader(folds),
-            fragment_shader(batch.material, muscles != nullptr, folds, own));
-        program->use();
-        if (muscles && batch.material == Material::kSkin) {
-            muscles->tell(*program);
-            const Vec3 tone = linear_from_srgb(look_.skin_tone);
-            glUniform1f(program->location("tone"),
-                        static_cast<float>(tone.dot(Vec3(0.2126, 0.7152, 0.0722))));
-        }
-        glUniform1i(program->location("inside_mouth"), inside_mouth(batch.material));
-        const Vec3 skin = linear_from_srgb(look_.skin_tone), scatter = skin_scatter(skin);
-        const Finish finish = finish_of(batch.material, scatter);
-        set(program->location("scatter"), finish.scatter_m);
-        set(program->location("bounce"), inside_mouth(batch.material) ? kMouth : skin);
-        glUniform4f(program->location("finish"), static_cast<float>(finish.roughness),
-                    static_cast<float>(finish.reflectance), static_cast<float>(finish.share),
-                    static_cast<float>(finish.mirror_layer));
-        if (batch.material == Material::kSkin) {
-            // In proportion to how far red light gets; half a millimetre of light's own softness shows no colour.
-            set(program->location("bleed"),
-                Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
-            glUniform1f(program->location("roughness"), static_cast<float>(kSkinRoughness));
-        }
-        if (batch.material == Material::kMatte)
-            set(program->location("albedo"), Vec3(Vec3::Constant(matte_reflectance(scene))));
-        if (batch.material == Material::kGums) set(program->location("albedo"), kGums);
-        if (batch.material == Material::kTongue) set(program->location("albedo"), kTongue);
-        if (batch.material == Material::kMouth) set(program->location("albedo"), kMouth);
-        if (batch.material == Material::kLashes)
-            set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
-        programs_.emplace(std::pair(batch.material, own), std::move(program));
+        if (!programs_.contains({batch.material, own}))
+            programs_.emplace(std::pair(batch.material, own),
+                              make_program(scene, batch.material, false, skin, own, muscles));
     }
+    if (scene.fold_phase.rows() > 0)
+        folded_skin_ = make_program(scene, Material::kSkin, true, skin, /*own=*/false, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
     for (std::size_t side = 0; side < 2; ++side) {
@@ -190,6 +200,14 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
     set(program.location("lid_upper"), lids.upper);
     set(program.location("lid_lower"), lids.lower);
     glUniform1f(program.location("lids"), lids.known ? 1.0F : 0.0F);
+}
+
+void Materials::draw_skin(const Batch& batch, const SceneBuffers& buffers) const {
+    programs_.at({Material::kSkin, false})->use();
+    buffers.draw_smooth(batch);
+    if (!buffers.has_wrinkled(batch)) return;
+    folded_skin_->use();
+    buffers.draw_wrinkled(batch);
 }
 
 void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const {

@@ -15,19 +15,30 @@ namespace risorius::render {
 
 class Materials {
   public:
-    /// With `muscles` the skin is the veil over them.
-    Materials(const Scene& scene, const SceneBuffers& buffers, const MuscleLayer* muscles);
+    /// How the skin is shaded.
+    enum class Skin {
+        kPlain,
+        kVeil,
+        kLayer
+    };  ///< by itself, over `muscles`, for others to look up
+    Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
+              const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
     void done() const;
+    /// Draws the skin, with folds where it has some.
+    void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 
   private:
+    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool folds,
+                                            Skin skin, bool own, const MuscleLayer* muscles) const;
     void set_eye(const GlProgram& program, int side, const Pose& pose,
                  const PosedMarks& marks) const;
 
     std::map<std::pair<Material, bool>, std::unique_ptr<GlProgram>>
         programs_;                               ///< of generated or own colours
+    std::unique_ptr<GlProgram> folded_skin_;     ///< when the scene has folds
     mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};

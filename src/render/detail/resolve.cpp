@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace risorius::render {
 namespace {
@@ -12,6 +13,24 @@ double linear_of_srgb(double s) {
 }
 double srgb_of_linear(double l) {
     return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+}
+
+/// Whether the n x n samples from `first` on are the same, byte for byte.
+bool is_even(const std::uint8_t* first, std::size_t n, std::size_t sample_row) {
+    std::uint32_t one = 0;
+    std::memcpy(&one, first, 4);
+    std::uint32_t differs = 0;
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            std::uint32_t other = 0;
+            std::memcpy(&other, first + j * sample_row + 4 * i, 4);
+            differs |= one ^ other;
+        }
+    return differs == 0;
+}
+
+bool is_empty(const std::uint8_t* sample) {
+    return (sample[0] | sample[1] | sample[2] | sample[3]) == 0;
 }
 
 }  // namespace
@@ -75,11 +94,24 @@ void Resolve::operator()(const std::vector<std::uint8_t>& samples, int supersamp
     const std::array<std::uint32_t, 3> behind{linear_of_byte_[background_[0]],
                                               linear_of_byte_[background_[1]],
                                               linear_of_byte_[background_[2]]};
+    const std::array<std::uint8_t, 4> empty{background_[0], background_[1], background_[2], 255};
     for (int y = 0; y < tile.height; ++y) {
         const std::uint8_t* rows =
             samples.data() + static_cast<std::size_t>(tile.height - 1 - y) * n * sample_row;
         std::uint8_t* out = image.pixel(tile.x, tile.y + y);
         for (std::size_t x = 0; x < width; ++x, out += 4) {
+            // Most pixels have equal samples, which are their own mean.
+            if (const std::uint8_t* first = rows + x * n * 4;
+                is_even(first, n, sample_row) && (first[3] == 255 || is_empty(first))) {
+                const bool seen = first[3] == 255;
+                if (seen)
+                    std::memcpy(out, first, 4);
+                else if (transparent_)
+                    std::memset(out, 0, 4);
+                else
+                    std::memcpy(out, empty.data(), 4);
+                continue;
+            }
             std::uint32_t sum[3] = {0, 0, 0};
             std::uint32_t alpha = 0;
             for (std::size_t j = 0; j < n; ++j) {

@@ -74,6 +74,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     for (GLuint* buffer :
          {&moving_buffer_, &fixed_buffer_, &occlusion_buffer_, &colour_buffer_, &elements_})
         glGenBuffers(1, buffer);
+    glGenBuffers(2, chosen_elements_.data());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices_.size() * sizeof(unsigned)), indices_.data(),
@@ -133,6 +134,7 @@ SceneBuffers::~SceneBuffers() {
     const GLuint buffers[] = {moving_buffer_, fixed_buffer_,      occlusion_buffer_, colour_buffer_,
                               elements_,      fold_phase_buffer_, fold_depth_buffer_};
     glDeleteBuffers(7, buffers);
+    glDeleteBuffers(2, chosen_elements_.data());
     glDeleteVertexArrays(1, &array_);
 }
 
@@ -153,6 +155,10 @@ void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
         if (fold_depth.rows() > 0)
             for (std::size_t i = 0; i < fold_depth_.size(); ++i)
                 fold_depth_[i] = static_cast<float>(fold_depth.data()[i]);
+        wrinkled_.resize(vertices);
+        for (std::size_t v = 0; v < vertices; ++v)
+            wrinkled_[v] =
+                fold_depth_[3 * v] > 0 || fold_depth_[3 * v + 1] > 0 || fold_depth_[3 * v + 2] > 0;
         glBindBuffer(GL_ARRAY_BUFFER, fold_depth_buffer_);
         glBufferData(GL_ARRAY_BUFFER, bytes(fold_depth_), fold_depth_.data(), GL_STREAM_DRAW);
     }
@@ -182,12 +188,82 @@ int SceneBuffers::skin_index_count() const {
     return batches_.front().material == Material::kSkin ? batches_.front().index_count : 0;
 }
 
-void SceneBuffers::draw(const Batch& batch) const {
+void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose) {
+    const std::size_t vertices = positions_.size() / 3;
+    clip_places_.resize(3 * vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const Eigen::Vector4f clip =
+            clip_from_world *
+            Eigen::Vector4f(positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2], 1.0F);
+        clip_places_[3 * v] = clip.x() / clip.w();
+        clip_places_[3 * v + 1] = clip.y() / clip.w();
+        clip_places_[3 * v + 2] = clip.w();
+    }
+    const auto is_seen = [&](const unsigned* face, bool cull_back) {
+        const float *a = clip_places_.data() + 3 * static_cast<std::size_t>(face[0]),
+                    *b = clip_places_.data() + 3 * static_cast<std::size_t>(face[1]),
+                    *c = clip_places_.data() + 3 * static_cast<std::size_t>(face[2]);
+        if (a[2] <= 0 || b[2] <= 0 || c[2] <= 0) return true;
+        for (std::size_t k = 0; k < 2; ++k)
+            if ((a[k] < -1 && b[k] < -1 && c[k] < -1) || (a[k] > 1 && b[k] > 1 && c[k] > 1))
+                return false;
+        // A thousandth of a pixel of any picture is left to the rasteriser to judge.
+        constexpr float kRounding = 1e-10F;
+        return !cull_back ||
+               (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > -kRounding;
+    };
+    choice_.clear();
+    std::vector<Chosen>& chosen = chosen_[purpose];
+    chosen.assign(batches_.size(), {});
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+        const Batch& batch = batches_[i];
+        chosen[i].first = static_cast<int>(choice_.size());
+        if (purpose == kShadow && batch.material != Material::kSkin) continue;
+        const bool apart =
+            purpose == kSeen && batch.material == Material::kSkin && !wrinkled_.empty();
+        wrinkled_choice_.clear();
+        for (int k = 0; k < batch.index_count; k += 3) {
+            const unsigned* face = indices_.data() + batch.first_index + k;
+            // What has a texture is looked up by the number of its triangle.
+            if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
+            const bool wrinkled =
+                apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
+            std::vector<unsigned>& to = wrinkled ? wrinkled_choice_ : choice_;
+            to.insert(to.end(), face, face + 3);
+        }
+        chosen[i].smooth = static_cast<int>(choice_.size()) - chosen[i].first;
+        chosen[i].wrinkled = static_cast<int>(wrinkled_choice_.size());
+        choice_.insert(choice_.end(), wrinkled_choice_.begin(), wrinkled_choice_.end());
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_elements_[purpose]);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(choice_.size() * sizeof(unsigned)), choice_.data(),
+                 GL_STREAM_DRAW);
+}
+
+void SceneBuffers::draw(const Batch& batch, Purpose purpose, int first, int count) const {
+    if (count == 0) return;
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_elements_[purpose]);
     if (batch.cull_back) glEnable(GL_CULL_FACE);
-    glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(static_cast<std::size_t>(batch.first_index) *
-                                                 sizeof(unsigned)));
+    glDrawElements(
+        GL_TRIANGLES, count, GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(static_cast<std::size_t>(first) * sizeof(unsigned)));
     glDisable(GL_CULL_FACE);
+}
+
+void SceneBuffers::draw(const Batch& batch, Purpose purpose) const {
+    const Chosen& chosen = chosen_of(batch, purpose);
+    draw(batch, purpose, chosen.first, chosen.smooth + chosen.wrinkled);
+}
+
+void SceneBuffers::draw_smooth(const Batch& batch) const {
+    const Chosen& chosen = chosen_of(batch);
+    draw(batch, kSeen, chosen.first, chosen.smooth);
+}
+
+void SceneBuffers::draw_wrinkled(const Batch& batch) const {
+    const Chosen& chosen = chosen_of(batch);
+    draw(batch, kSeen, chosen.first + chosen.smooth, chosen.wrinkled);
 }
 
 std::vector<unsigned> SceneBuffers::paintable_triangles(

@@ -1,6 +1,9 @@
 // The scene as GL holds it: one vertex array, the triangles of each draw ordered front to back.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "render/detail/gl_context.h"
@@ -34,7 +37,16 @@ class SceneBuffers {
     void set_colours(const std::vector<float>& rgb);  ///< linear, 3 per vertex
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
-    void draw(const Batch& batch) const;
+    /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
+    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest.
+    enum Purpose { kSeen, kShadow };
+    void choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose);
+    /// What was chosen, of which batches() are the whole.
+    void draw(const Batch& batch, Purpose purpose = kSeen) const;
+    void draw_smooth(const Batch& batch) const;    ///< without wrinkles
+    void draw_wrinkled(const Batch& batch) const;  ///< and with them
+    bool has_wrinkled(const Batch& batch) const { return chosen_of(batch).wrinkled > 0; }
+
     const std::vector<Batch>& batches() const { return batches_; }
     const std::vector<unsigned>& indices() const { return indices_; }
     int index_count() const { return index_count_; }
@@ -47,6 +59,14 @@ class SceneBuffers {
   private:
     void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
                    const Vec3& paint_centre);
+    /// In the elements of a purpose: first smooth triangles, then wrinkled ones, in indices.
+    struct Chosen {
+        int first = 0, smooth = 0, wrinkled = 0;
+    };
+    const Chosen& chosen_of(const Batch& batch, Purpose purpose = kSeen) const {
+        return chosen_[purpose][static_cast<std::size_t>(&batch - batches_.data())];
+    }
+    void draw(const Batch& batch, Purpose purpose, int first, int count) const;
 
     SmoothNormals smooth_;
     std::vector<Batch> batches_;
@@ -55,7 +75,12 @@ class SceneBuffers {
     std::vector<LashPlace> lashes_;
     std::vector<float> curvature_, occlusion_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
+    std::array<std::vector<Chosen>, 2> chosen_;
+    std::vector<unsigned> choice_, wrinkled_choice_;
+    std::vector<float> clip_places_;      ///< x, y over w, and whether it lies before the camera
+    std::vector<std::uint8_t> wrinkled_;  ///< per vertex, now
     int index_count_ = 0;
+    std::array<GLuint, 2> chosen_elements_{0, 0};
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,
            colour_buffer_ = 0, elements_ = 0;
     GLuint fold_phase_buffer_ = 0, fold_depth_buffer_ = 0;  ///< 0 when nothing folds

@@ -83,11 +83,11 @@ constexpr const char* kShadow = R"(
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 
 // Soft edge of the key light over a disc of 3.5 mm. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
-// among them, every fourth each.
+// among them, every fourth each, and all get the mean. Not to be called where the block's samples go different ways.
 float key_visibility(vec3 p, vec3 n) {
     float texel = mouth_axis.w;
     vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
-    ivec2 q = ivec2(gl_FragCoord.xy * key_direction.w) & 1;    // alone, a sample is no part of a block
+    ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
     e *= 0.0035 / (texel * float(textureSize(shadow_map, 0).x));
@@ -98,7 +98,9 @@ float key_visibility(vec3 p, vec3 n) {
     lit.y = textureLod(shadow_map, vec3(c.xy + r.y * (-0.9847 * e - 0.1743 * f), c.z), 0.0);
     lit.z = textureLod(shadow_map, vec3(c.xy + r.z * (0.9392 * e + 0.3433 * f), c.z), 0.0);
     lit.w = textureLod(shadow_map, vec3(c.xy + r.w * (-0.8650 * e - 0.5018 * f), c.z), 0.0);
-    return dot(lit, vec4(0.25));
+    float s = dot(lit, vec4(0.25));
+    s += (0.5 - float(q.x)) * dFdxFine(s);
+    return s + (0.5 - float(q.y)) * dFdyFine(s);
 }
 )";
 
@@ -198,6 +200,7 @@ void main() { gl_Position = clip_from_world * vec4(in_position, 1.0); }
 
 }  // namespace
 
+std::string turns_chunk() { return "const float kTurnsPerMetre = 1.0 / 0.256;\n"; }
 std::string frame_chunk() { return kFrame; }
 std::string lights_chunk() {
     return "const float kStraightTo = " + std::to_string(kStraightTo) + ";\n" + kLights;

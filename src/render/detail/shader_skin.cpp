@@ -53,7 +53,7 @@ void main() {
     vec3 diffuse = key * kept + soft * (open * turned);
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
-    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), 1.0);
+    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }
 )";
 
@@ -90,6 +90,14 @@ float fold(vec3 n, inout vec3 m) {
 constexpr const char* kNoFolds = R"(
 const vec3 kValley = vec3(1.0);
 float fold(vec3 n, vec3 m) { return 1.0; }
+)";
+
+// What goes to alpha: that all is covered, or for those who look the skin up, how far away it is; 0 says that there is none.
+constexpr const char* kCovered = "float told() { return 1.0; }\n";
+constexpr const char* kAway = R"(
+float told() {
+    return max(fract(distance(camera.xyz, position) * kTurnsPerMetre) * (256.0 / 255.0), 1.0 / 255.0);
+}
 )";
 
 constexpr const char* kOpaque = R"(
@@ -142,16 +150,21 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, flo
 }
 )";
 
-std::string skin_with(bool folds) {
-    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + kSkin;
+std::string skin_with(bool folds, const std::string& told) {
+    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + told + kSkin;
 }
 
 }  // namespace
 
-std::string skin_shader(bool folds) { return lighting_chunk() + kOpaque + skin_with(folds); }
+std::string skin_shader(bool folds) {
+    return lighting_chunk() + kOpaque + skin_with(folds, kCovered);
+}
+std::string skin_layer_shader(bool folds) {
+    return lighting_chunk() + kOpaque + skin_with(folds, turns_chunk() + kAway);
+}
 std::string veil_shader(bool folds) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +
-           kTranslucent + skin_with(folds);
+           kTranslucent + skin_with(folds, kCovered);
 }
 
 }  // namespace risorius::render

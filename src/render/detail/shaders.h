@@ -10,7 +10,7 @@ struct FrameUniforms {
     float clip_from_world[16];
     float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
     float camera[4];              ///< xyz m
-    float key_direction[4];       ///< towards the lamp; w 1 when a pixel has several samples
+    float key_direction[4];       ///< towards the lamp
     float key_card[4];  ///< as a white card that faces it shines: irradiance over pi, exposed
     float fill_direction[4];
     float fill_card[4];
@@ -30,6 +30,7 @@ enum TextureUnit {
     kMuscleDepthUnit = 4,
     kFibreUnit = 5,
     kMirrorUnit = 6,
+    kSkinLayerUnit = 7,
     kOwnColourUnit = 8,
     kOwnPlaceUnit = 9,
     kHairLengthUnit = 10
@@ -52,6 +53,9 @@ constexpr double kSkinOverMuscles = 0.16;
 std::string surface_vertex_shader(bool folds = false);  ///< for every material
 std::string depth_vertex_shader();                      ///< shadow map and occlusion
 std::string skin_shader(bool folds);
+std::string skin_layer_shader(bool folds);  ///< of the skin shaded for others to look up
+std::string lookup_vertex_shader();
+std::string lookup_shader();          ///< and of those
 std::string veil_shader(bool folds);  ///< of the skin over the muscles, which shine through
 std::string values_vertex_shader();
 std::string values_shader();  ///< of the skin when it shows a quantity
@@ -73,8 +77,9 @@ std::string tear_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
 std::string object_shader();
 
-std::string frame_chunk();     ///< version, frame block
-std::string lights_chunk();    ///< after it: lamps and surroundings
+std::string turns_chunk();   ///< kTurnsPerMetre: how often the distance in a skin layer begins anew
+std::string frame_chunk();   ///< version, frame block
+std::string lights_chunk();  ///< after it: lamps and surroundings
 std::string lighting_chunk();  ///< both and the shadow
 std::string noise_chunk();
 std::string own_colour_chunk(bool own);  ///< own_colour(rest position, generated colour)
