@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace risorius::media {
 
@@ -25,6 +26,17 @@ const std::array<double, 256>& linear_of_srgb() {
 double relative_luminance(const std::uint8_t* rgb) {
     const std::array<double, 256>& linear = linear_of_srgb();
     return 0.2126 * linear[rgb[0]] + 0.7152 * linear[rgb[1]] + 0.0722 * linear[rgb[2]];
+}
+
+double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask) {
+    double weight = 0, sum = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (mask[i] == 0) continue;
+        const std::uint8_t* pixel = image.rgba.data() + 4 * i;
+        weight += pixel[3] / 255.0;
+        sum += pixel[3] / 255.0 * relative_luminance(pixel);
+    }
+    return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
 PictureMeasures LuminanceMeter::measure(const Image& image) {

@@ -9,20 +9,20 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, bool veiled, bool folds) {
+std::string fragment_shader(Material material, bool veiled, bool folds, bool own) {
     switch (material) {
         case Material::kSkin:
             return veiled ? veil_shader(folds) : skin_shader(folds);
         case Material::kEye:
-            return eye_shader();
+            return eye_shader(own);
         case Material::kCornea:
             return cornea_shader();
         case Material::kTeeth:
-            return teeth_shader();
+            return teeth_shader(own);
         case Material::kGums:
         case Material::kTongue:
         case Material::kMouth:
-            return mucosa_shader();
+            return mucosa_shader(material == Material::kTongue, own);
         case Material::kLashes:
             return lash_shader();
         case Material::kMatte:
@@ -109,12 +109,13 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const Musc
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
-        if (programs_.contains(batch.material)) continue;
+        const bool own = batch.texture >= 0;
+        if (programs_.contains({batch.material, own})) continue;
         const std::string name = "material " + std::to_string(static_cast<int>(batch.material));
         const bool folds = batch.material == Material::kSkin && scene.fold_phase.rows() > 0;
-        auto program =
-            std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
-                                        fragment_shader(batch.material, muscles != nullptr, folds));
+        auto program = std::make_unique<GlProgram>(
+            name, surface_vertex_shader(folds),
+            fragment_shader(batch.material, muscles != nullptr, folds, own));
         program->use();
         if (muscles && batch.material == Material::kSkin) {
             muscles->tell(*program);
@@ -143,9 +144,7 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, const Musc
         if (batch.material == Material::kMouth) set(program->location("albedo"), kMouth);
         if (batch.material == Material::kLashes)
             set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
-        glUniform1f(program->location("bumps"),
-                    batch.material == Material::kTongue ? 0.55F : 0.12F);
-        programs_.emplace(batch.material, std::move(program));
+        programs_.emplace(std::pair(batch.material, own), std::move(program));
     }
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
@@ -201,9 +200,10 @@ void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& mark
         values_->use();
         return;
     }
-    const GlProgram& program = *programs_.at(batch.material);
+    const GlProgram& program = *programs_.at({batch.material, batch.texture >= 0});
     program.use();
-    if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);
+    if (batch.material == Material::kEye || batch.material == Material::kCornea)
+        set_eye(program, batch.eye, pose, marks);
     if (batch.material == Material::kCornea) {
         glEnable(GL_BLEND);
         glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);

@@ -26,7 +26,8 @@ class Materials {
     void set_eye(const GlProgram& program, int side, const Pose& pose,
                  const PosedMarks& marks) const;
 
-    std::map<Material, std::unique_ptr<GlProgram>> programs_;
+    std::map<std::pair<Material, bool>, std::unique_ptr<GlProgram>>
+        programs_;                               ///< of generated or own colours
     mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};

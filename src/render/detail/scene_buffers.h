@@ -14,6 +14,7 @@ namespace risorius::render {
 struct Batch {
     Material material;
     int eye;
+    int texture;  ///< of the scene, or -1; the skin has its own in its paint
     int first_index;
     int index_count;
     bool cull_back;  ///< counter-clockwise from outside, so what turns away is hidden
@@ -35,6 +36,7 @@ class SceneBuffers {
 
     void draw(const Batch& batch) const;
     const std::vector<Batch>& batches() const { return batches_; }
+    const std::vector<unsigned>& indices() const { return indices_; }
     int index_count() const { return index_count_; }
     int skin_index_count() const;
     const std::vector<float>& normals() const { return normals_; }
@@ -43,6 +45,9 @@ class SceneBuffers {
     std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
 
   private:
+    void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
+                   const Vec3& paint_centre);
+
     SmoothNormals smooth_;
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
