@@ -64,7 +64,8 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.camera = shot.view.camera;
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
-    record.quality = options.quality;
+    record.quality = quality_of(options);
+    record.antialiasing = shot.view.supersampling;
     record.jaw = script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
     record.nodes = face.node_count();
     record.tets = face.tet_count();
@@ -89,7 +90,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     const Stopwatch total;
 
     // Read what was asked for
-    const sim::Quality quality = sim::quality_named(options.quality);
+    const sim::Quality quality = sim::quality_named(quality_of(options));
     const RigFiles files = read_rig_files(shot.script.rig_file);
     const track::ChannelTable channels = files.rig.channels();
     const track::ScriptDescription script =
@@ -119,7 +120,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                       shot.view.height_px, landmarks);
     std::optional<ReferenceRun> reference;
     if (options.against)
-        reference.emplace(*options.against, shot.script.rig_file, options.quality,
+        reference.emplace(*options.against, shot.script.rig_file, quality_of(options),
                           scene.rest.rows());
     RunRecord record = describe(options, shot, script, files, face);
     record.warnings = warnings_about(script, files.rig.muscles);
@@ -188,7 +189,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         return Drawn{std::move(pose.positions), std::move(image), drawing.seconds()};
     };
     const auto show = [&](int frame, Drawn drawn) {
-        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        watch.tell(static_cast<double>(frame) / shot.frames, kRendering);
         const Stopwatch marking;
         Image& image = drawn.image;
         sight.draw_over(drawn.positions, image);

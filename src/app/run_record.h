@@ -43,6 +43,7 @@ struct RunRecord {
     double first_frame_s = 0;  ///< 0 but for a still
     std::string camera, show, background;
     std::string quality;
+    int antialiasing = 2;        ///< samples per pixel and side
     std::string jaw;             ///< what moves it
     double widest_jaw_mm = 0;    ///< at the incisors, of any frame
     double greatest_bite_n = 0;  ///< of all teeth, when muscles move the jaw
