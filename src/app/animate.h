@@ -46,14 +46,19 @@ struct AnimateOptions {
     std::vector<std::string> passes;    ///< pass_names(): ground truth as pictures, into OUT.passes
     std::optional<double> turntable_s;  ///< the face of this time, turned once round
     std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
-    std::optional<double> scale;    ///< where the colours of strain (ratio) or error (mm) end
-    std::vector<double> times_s;    ///< ascending: these moments instead of every frame
-    std::string quality = "video";  ///< sim::quality_named
-    bool landmarks = false;         ///< their places in the table
-    bool emg = false;               ///< what electrodes would record, in the table
+    std::optional<double> scale;         ///< where the colours of strain (ratio) or error (mm) end
+    std::vector<double> times_s;         ///< ascending: these moments instead of every frame
+    std::optional<std::string> quality;  ///< sim::quality_named; "video", or "preview" for a draft
+    std::optional<int> antialiasing;     ///< samples per pixel and side, 1..4; 1 for a draft
+    bool draft = false;      ///< quickly, to look at: of what is not given, the quickest
+    bool landmarks = false;  ///< their places in the table
+    bool emg = false;        ///< what electrodes would record, in the table
     int threads =
         2;  ///< 1, or more to simulate beside drawing, several frames at once; same frames
 };
+
+/// Of the simulation, whether given or not.
+std::string quality_of(const AnimateOptions& options);
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for
 /// input, RunError when writing fails, Interrupted when asked to stop.

@@ -11,15 +11,14 @@
 #include <thread>
 
 #include "app/animate.h"
+#include "app/bench_pictures.h"
 #include "app/bench_solids.h"
 #include "app/bench_steps.h"
+#include "app/median.h"
 #include "app/rig_files.h"
-#include "app/scene_from_rig.h"
 #include "app/staged_file.h"
 #include "app/stopwatch.h"
 #include "app/version.h"
-#include "media/video_writer.h"
-#include "render/offscreen_view.h"
 #include "sim/stress.h"
 #include "track/timeline.h"
 
@@ -30,7 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kTrack_s = 4.0;
-constexpr int kPictures = 9, kEncoded = 60;
 
 // A smile, raised brows, a blink, an open jaw, a frown: whatever is slow about a face happens in it.
 Json bench_script(const std::string& rig, double duration_s) {
@@ -52,13 +50,6 @@ Json bench_script(const std::string& rig, double duration_s) {
         },
         "events": [{"blink": {}, "start_s": 0.5}]
     })");
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 Json describe_machine() {
@@ -92,6 +83,7 @@ class ScratchFolder {
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     fs::path operator/(const char* name) const { return path_ / name; }
+    const fs::path& path() const { return path_; }
 
   private:
     fs::path path_;
@@ -106,8 +98,8 @@ struct Bench {
         return [this](double t_s) { return timeline.at(t_s); };
     }
 
-    // All steps of the track on one core; leaves the poses of some of its frames.
-    Json simulate(const std::string& quality, std::vector<sim::FacePose>* poses) const {
+    // All steps of the track on one core.
+    Json simulate(const std::string& quality) const {
         watch.tell(0, "simulating, " + quality);
         sim::Face face(files.rig, files.mesh, sim::quality_named(quality), files.place());
         face.start(drive());
@@ -119,7 +111,6 @@ struct Bench {
             const Stopwatch stopwatch;
             iterations += face.step(drive()).iterations;
             step_ms.push_back(1e3 * stopwatch.seconds());
-            if (poses && step % (steps / kPictures) == 0) poses->push_back(face.pose());
         }
         return {{"nodes", face.node_count()},
                 {"tets", face.tet_count()},
@@ -171,38 +162,6 @@ struct Bench {
                 {"largest_volume_error", volume_error}};
     }
 
-    Json draw(int side_px, const rig::Head& head, const std::vector<sim::FacePose>& poses,
-              std::vector<Image>* pictures) const {
-        const int threads = static_cast<int>(std::thread::hardware_concurrency());
-        render::ViewOptions options;
-        options.width_px = options.height_px = side_px;
-        options.threads = threads > 1 ? threads : 0;
-        const Stopwatch building;
-        render::OffscreenView view(scene_from_rig(head, files.rig, files.mesh), options);
-        const double build_s = building.seconds();
-        std::vector<double> picture_ms;
-        for (std::size_t i = 0; i < poses.size(); ++i) {
-            watch.tell(0.3 + 0.3 * static_cast<double>(i) / static_cast<double>(poses.size()),
-                       "drawing");
-            const Stopwatch stopwatch;
-            Image image = view.draw(pose_for_view(poses[i]));
-            picture_ms.push_back(1e3 * stopwatch.seconds());
-            if (pictures) pictures->push_back(std::move(image));
-        }
-        return {{"build_s", build_s}, {"frame_ms", median(picture_ms)}};
-    }
-
-    double encode_fps(const std::vector<Image>& pictures, const fs::path& file) const {
-        watch.tell(0.6, "writing");
-        const Stopwatch stopwatch;
-        media::VideoWriter video(
-            file, {.width_px = pictures.front().width_px, .height_px = pictures.front().height_px});
-        for (int frame = 0; frame < kEncoded; ++frame)
-            video.append(pictures[static_cast<std::size_t>(frame) % pictures.size()]);
-        video.finish();
-        return kEncoded / stopwatch.seconds();
-    }
-
     // One second from script to video
     Json whole_way(const ScratchFolder& scratch) const {
         watch.tell(0.7, "from script to video");
@@ -229,34 +188,34 @@ struct Bench {
     }
 };
 
-Json bench_rig(const fs::path& rig_file, bool only_steps, const Watch& watch) {
+Json bench_rig(const fs::path& rig_file, bool only_steps, bool only_pictures, const Watch& watch) {
     RigFiles files = read_rig_files(rig_file);
+    const ScratchFolder scratch;
     if (only_steps)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
                 {"steps", bench_steps(files, usual_step_benches(), watch)}};
+    if (only_pictures)
+        return {{"rig", rig_file.generic_string()},
+                {"name", files.rig.name},
+                {"pictures", bench_pictures(files, scratch.path(), watch)},
+                {"peak_memory_mb", peak_memory_mb()}};
     const track::ChannelTable channels = files.rig.channels();
     const auto script = track::read_script(
         JsonCursor::from_json(bench_script(rig_file.generic_string(), kTrack_s), "bench"), channels,
         files.rig.facs, files.rig.expressions);
     const Bench bench{std::move(files), track::Timeline(script, channels), watch};
 
-    const ScratchFolder scratch;
-    std::vector<sim::FacePose> poses;
-    std::vector<Image> pictures;
     Json out;
     out["rig"] = rig_file.generic_string();
     out["name"] = bench.files.rig.name;
     out["vertices"] = bench.files.mesh.vertex_count();
-    out["preview"] = bench.simulate("preview", nullptr);
-    out["video"] = bench.simulate("video", &poses);
-    out["fine"] = bench.simulate("fine", nullptr);
+    out["preview"] = bench.simulate("preview");
+    out["video"] = bench.simulate("video");
+    out["fine"] = bench.simulate("fine");
     out["fine_volume_muscles"] = bench.compare_solids();
-    const rig::Head head = rig::place_head(bench.files.rig, bench.files.mesh, bench.files.place());
     out["steps"] = bench_steps(bench.files, usual_step_benches(), watch);
-    out["draw_512"] = bench.draw(512, head, poses, nullptr);
-    out["draw_1024"] = bench.draw(1024, head, poses, &pictures);
-    out["encode_1024_fps"] = bench.encode_fps(pictures, scratch / "encoded.mp4");
+    out["pictures"] = bench_pictures(bench.files, scratch.path(), watch);
     out["whole_way"] = bench.whole_way(scratch);
     out["peak_memory_mb"] = peak_memory_mb();
     return out;
@@ -318,10 +277,10 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
                 watch.progress((static_cast<double>(i) + share) / parts,
                                rigs[i].string() + ", " + what);
             };
-        out["rigs"].push_back(bench_rig(rigs[i], options.only_steps, one));
+        out["rigs"].push_back(bench_rig(rigs[i], options.only_steps, options.only_pictures, one));
     }
     out["solids"] = Json::array();
-    if (options.only_steps) return out;
+    if (options.only_steps || options.only_pictures) return out;
     Watch solids = watch;
     if (watch.progress)
         solids.progress = [&](double share, const std::string& what) {

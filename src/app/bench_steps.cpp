@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/median.h"
 #include "app/stopwatch.h"
 #include "track/timeline.h"
 
@@ -72,12 +73,6 @@ StepRun play(const RigFiles& files, const sim::DriveAt& drive, const StepBench& 
         out.skin.push_back(face.skin_nodes());
     }
     return out;
-}
-
-double median_of_steps(std::vector<double> values) {
-    const auto half = values.begin() + static_cast<long>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    return *half;
 }
 
 }  // namespace
@@ -155,7 +150,7 @@ Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases, con
              {"tets", quick.tets},
              {"steps", one.steps},
              {"iterations", quick.iterations},
-             {"step_ms", median_of_steps(quick.step_ms)},
+             {"step_ms", median(quick.step_ms)},
              {"mean_step_ms", std::accumulate(quick.step_ms.begin(), quick.step_ms.end(), 0.0) /
                                   static_cast<double>(quick.step_ms.size())},
              {"rms_mm", 1e3 * std::sqrt(squares / static_cast<double>(count))},

@@ -69,7 +69,8 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
         record.scale_to = Sight::scale_end(shot.view.show, options.scale);
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
-    record.quality = options.quality;
+    record.quality = quality_of(options);
+    record.antialiasing = shot.view.supersampling;
     record.jaw = script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
     record.nodes = face.node_count();
     record.tets = face.tet_count();
@@ -103,7 +104,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     const Stopwatch total;
 
     // Read what was asked for
-    const sim::Quality quality = sim::quality_named(options.quality);
+    const sim::Quality quality = sim::quality_named(quality_of(options));
     const RigFiles files = read_rig_files(shot.script.rig_file);
     const track::ChannelTable channels = files.rig.channels();
     const track::ScriptDescription script =
@@ -133,7 +134,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                       shot.view.height_px, landmarks, options.scale);
     std::optional<ReferenceRun> reference;
     if (options.against)
-        reference.emplace(*options.against, shot.script.rig_file, options.quality,
+        reference.emplace(*options.against, shot.script.rig_file, quality_of(options),
                           scene.rest.rows());
     RunRecord record = describe(options, shot, script, files, face);
     record.warnings = warnings_about(script, files.rig.muscles);
@@ -215,7 +216,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                      drawing.seconds()};
     };
     const auto show = [&](int frame, Drawn drawn) {
-        watch.tell(static_cast<double>(frame) / shot.frames, "rendering");
+        watch.tell(static_cast<double>(frame) / shot.frames, kRendering);
         const Stopwatch marking;
         Image& image = drawn.image;
         sight.draw_over(drawn.positions, image);

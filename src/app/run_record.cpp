@@ -59,6 +59,7 @@ Json RunRecord::json() const {
     json["shutter"] = {{"open_deg", shutter_deg}, {"moments", shutter_moments}};
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["quality"] = quality;
+    json["antialiasing"] = antialiasing;
     json["jaw"] = {{"moved_by", jaw},
                    {"widest_opening_mm", widest_jaw_mm},
                    {"greatest_tooth_force_n", greatest_bite_n}};

@@ -47,6 +47,7 @@ struct RunRecord {
     double shutter_deg = 0;
     int shutter_moments = 1;  ///< averaged in a frame
     std::string quality;
+    int antialiasing = 2;        ///< samples per pixel and side
     std::string jaw;             ///< what moves it
     double widest_jaw_mm = 0;    ///< at the incisors, of any frame
     double greatest_bite_n = 0;  ///< of all teeth, when muscles move the jaw

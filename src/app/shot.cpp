@@ -33,6 +33,9 @@ media::VideoOptions video_options(const AnimateOptions& options, const Shot& sho
     video.height_px = shot.view.height_px;
     video.fps = shot.script.fps;
     video.alpha = shot.view.background.transparent;
+    const bool is_h264 =
+        options.out.extension() == ".mp4" || (options.out.extension() == ".mov" && !video.alpha);
+    if (options.draft && is_h264 && !video.preset) video.preset = "veryfast";
     if (options.audio_offset && !options.audio)
         throw Error("--audio-offset", "a recording to place, by --audio", "none");
     if (!options.audio) return video;
@@ -94,6 +97,10 @@ void check_marks(const SyncMarks& marks, const Shot& shot) {
 
 }  // namespace
 
+std::string quality_of(const AnimateOptions& options) {
+    return options.quality.value_or(options.draft ? "preview" : "video");
+}
+
 Shot plan_shot(const AnimateOptions& options) {
     Shot shot;
     shot.script = track::read_script_header(options.script);
@@ -121,7 +128,10 @@ Shot plan_shot(const AnimateOptions& options) {
                       .distance_m = asked.distance_m,
                       .view_angle_deg = asked.view_angle_deg,
                       .aperture_mm = asked.aperture_mm};
-    shot.view.supersampling = asked.antialiasing;
+    shot.view.supersampling = options.antialiasing.value_or(options.draft ? 1 : asked.antialiasing);
+    if (shot.view.supersampling < 1 || shot.view.supersampling > 4)
+        throw Error("--antialiasing", "samples per pixel and side in [1, 4]",
+                    std::to_string(shot.view.supersampling));
     shot.shutter_deg = options.shutter_deg.value_or(asked.shutter_deg);
     if (!(shot.shutter_deg >= 0 && shot.shutter_deg <= 360))
         throw Error("--shutter", "degrees in [0, 360]", format_number(shot.shutter_deg));

@@ -17,19 +17,22 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// What this thread has spent on a core: other programs do not count.
-class CoreStopwatch {
+/// What this thread, or all threads of this process, have spent on cores: other programs do not count.
+template <clockid_t kClock>
+class ClockStopwatch {
   public:
     double seconds() const { return now() - begin_; }
 
   private:
     static double now() {
         timespec time{};
-        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        ::clock_gettime(kClock, &time);
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
     double begin_ = now();
 };
+using CoreStopwatch = ClockStopwatch<CLOCK_THREAD_CPUTIME_ID>;
+using ProcessStopwatch = ClockStopwatch<CLOCK_PROCESS_CPUTIME_ID>;
 
 }  // namespace risorius::app

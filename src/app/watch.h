@@ -13,6 +13,9 @@ class Interrupted : public std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// What film() tells of every frame.
+constexpr const char* kRendering = "rendering";
+
 struct Watch {
     std::function<void(double share, const std::string& what)> progress;  ///< share of the run done
     std::function<bool()> stopped;

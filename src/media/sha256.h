@@ -1,4 +1,4 @@
-// SHA-256 of bytes and files, as lower-case hexadecimal (libavutil). For run records: which script, which mesh, which frames.
+// SHA-256 of bytes and files, as lower-case hexadecimal. For run records: which script, which mesh, which frames.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <numbers>
 
 #include "core/error.h"
@@ -37,6 +38,9 @@ ViewOptions checked(ViewOptions options) {
     check_range("threads", options.threads, 0, 256);
     return options;
 }
+
+/// For reports only.
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Box {
     Vec3 min = Vec3::Constant(1e9), max = Vec3::Constant(-1e9);
@@ -274,7 +278,10 @@ struct OffscreenView::Impl {
         hair->draw();
         buffers->bind();
         glDisable(GL_FRAMEBUFFER_SRGB);
+        glFinish();  // which reading would wait for
+        const double drawn_s = processor_s();
         picture.read_back(tile, resolve, image);
+        read_back_s += processor_s() - drawn_s;
     }
 
     ViewOptions options;
@@ -301,6 +308,7 @@ struct OffscreenView::Impl {
     std::optional<SkyAboutEyes>
         sky_about_eyes;  ///< a copy of its own, which keeps what was seen last
     GLuint frame_buffer = 0;
+    double read_back_s = 0;
 };
 
 OffscreenView::OffscreenView(const Scene& scene, const ViewOptions& options)
@@ -325,6 +333,7 @@ Image OffscreenView::draw(const Pose& pose) {
     const GlContext::Current current(view.context);
 
     // What moved
+    view.read_back_s = 0;
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);
     if (auto& sky = view.sky_about_eyes)
@@ -377,6 +386,8 @@ Image OffscreenView::draw(const std::vector<Pose>& poses) {
                                                                    : draw(poses[i]));
     return mean_of(images);
 }
+
+double OffscreenView::read_back_s() const { return impl_->read_back_s; }
 
 Vec2 OffscreenView::project(const Vec3& world) const {
     const Eigen::Vector4d clip = impl_->camera.clip_from_world * world.homogeneous();

@@ -80,6 +80,9 @@ class OffscreenView {
     /// The mean in linear light of what several moments look like: a shutter that was open for all of them.
     Image draw(const std::vector<Pose>& poses);
 
+    /// Processor time of the process, s, from when the last picture was drawn until it was in memory.
+    double read_back_s() const;
+
     /// Pixel position (x right, y down, from the top left corner) of a world point.
     Vec2 project(const Vec3& world) const;
     /// The camera as OpenGL has it: x right and y up in [-w, w] in the picture.

@@ -67,10 +67,18 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
     command.add_option(
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
+    command.add_option("--quality", options.quality,
+                       "How carefully to simulate: preview, video (when not given) or fine");
     command
-        .add_option("--quality", options.quality,
-                    "How carefully to simulate: preview, video or fine")
-        ->capture_default_str();
+        .add_option(
+            "--antialiasing", options.antialiasing,
+            "Samples per pixel and side, 1 to 4, another number than the script's, 2 when it "
+            "gives none")
+        ->type_name("INT");
+    command.add_flag(
+        "--draft", options.draft,
+        "Quickly, to look at: --quality preview, --antialiasing 1 and --preset veryfast "
+        "unless given");
     command
         .add_option(
             "--threads", options.threads,
