@@ -38,7 +38,7 @@ class SceneBuffers {
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
     /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
-    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest.
+    /// batches that have one (shadows are thrown by both sides); of where things are now. Skin with wrinkles on it apart from the rest.
     enum Purpose { kSeen, kShadow };
     void choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose);
     /// What was chosen, of which batches() are the whole.
