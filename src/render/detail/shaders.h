@@ -65,7 +65,8 @@ std::string muscle_shader();
 std::string eye_shader(bool own);
 std::string cornea_shader();
 std::string teeth_shader(bool own);
-std::string mucosa_shader(bool tongue, bool own);  ///< of gums and the wall of the mouth, or the tongue
+std::string mucosa_shader(bool tongue,
+                          bool own);  ///< of gums and the wall of the mouth, or the tongue
 std::string matte_shader();
 std::string lash_shader();
 std::string strand_vertex_shader();
