@@ -56,6 +56,7 @@ Json RunRecord::json() const {
     json["show"] = show;
     json["background"] = background;
     json["colour"] = "sRGB values, tagged BT.709 in video files";
+    json["graphics"] = graphics;
     json["quality"] = quality;
     json["antialiasing"] = antialiasing;
     json["jaw"] = {{"moved_by", jaw},

@@ -42,6 +42,7 @@ struct RunRecord {
     int fps = 60, frames = 0, width_px = 0, height_px = 0;
     double first_frame_s = 0;  ///< 0 but for a still
     std::string camera, show, background;
+    std::string graphics;  ///< render::gl_in_use()
     std::string quality;
     int antialiasing = 2;        ///< samples per pixel and side
     std::string jaw;             ///< what moves it
