@@ -42,9 +42,11 @@ struct AnimateOptions {
     std::optional<std::int64_t>
         audio_offset;  ///< samples from the first frame to its first, of its own rate
     SyncMarks marks{};
+    std::optional<double> shutter_deg;  ///< 0..360: motion blur; see Shot
     std::vector<std::string> passes;    ///< pass_names(): ground truth as pictures, into OUT.passes
     std::optional<double> turntable_s;  ///< the face of this time, turned once round
     std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
+    std::optional<double> scale;         ///< where the colours of strain (ratio) or error (mm) end
     std::vector<double> times_s;         ///< ascending: these moments instead of every frame
     std::optional<std::string> quality;  ///< sim::quality_named; "video", or "preview" for a draft
     std::optional<int> antialiasing;     ///< samples per pixel and side, 1..4; 1 for a draft

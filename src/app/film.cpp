@@ -2,6 +2,7 @@
 #include "app/film.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numbers>
 
@@ -63,6 +64,10 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.width_px = shot.view.width_px;
     record.height_px = shot.view.height_px;
     record.camera = shot.view.camera;
+    record.shutter_deg = shot.shutter_deg;
+    record.shutter_moments = shot.moments();
+    if (shot.view.show == render::Show::kStrain || shot.view.show == render::Show::kError)
+        record.scale_to = Sight::scale_end(shot.view.show, options.scale);
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = quality_of(options);
@@ -74,6 +79,15 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.dropped_tets = face.dropped_tets();
     record.fibres = face.fibre_count();
     return record;
+}
+
+/// In face, eyes and mouth, when masks are wanted.
+std::array<double, 3> luminance_within(const std::optional<PassWriter>& passes,
+                                       const Image& image) {
+    if (!passes) return {};
+    const PassWriter::Masks& masks = passes->masks();
+    return {media::mean_luminance(image, masks.face), media::mean_luminance(image, masks.eyes),
+            media::mean_luminance(image, masks.mouth)};
 }
 
 /// The whole head turned about the vertical axis, to its left.
@@ -119,7 +133,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     const render::OffscreenView& view = *views[0];
     const LandmarkPoints landmarks(face.head(), files.rig);
     const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
-                      shot.view.height_px, landmarks);
+                      shot.view.height_px, landmarks, options.scale);
     std::optional<ReferenceRun> reference;
     if (options.against)
         reference.emplace(*options.against, shot.script.rig_file, quality_of(options),
@@ -135,6 +149,8 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                               .emg = {}};
     for (std::size_t side = 0; side < 2; ++side)
         columns.eye_forward[side] = face.head().eyes[side].forward;
+    columns.masks =
+        std::find(options.passes.begin(), options.passes.end(), "masks") != options.passes.end();
     columns.photodiode = options.marks.photodiode.has_value();
     const auto driven = [&](double t_s) { return face.driven(timeline.at(t_s)); };
     track::SimulatedEmg emg(channels, driven);
@@ -148,10 +164,13 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                        shot.view.width_px, shot.view.height_px, landmarks);
     media::Sha256 hash;
     int most_inverted_tets = 0;
-    const auto simulate = [&](int frame) {
-        const Stopwatch stage;
-        const double t_s = shot.time_s(frame);
-        if (frame == 0) face.start(drive);
+    // Of a shutter's moments the middle one is the frame's own time, of which the table tells.
+    const auto simulate_moment = [&](int frame, int moment) {
+        const double offset = shot.moment_offset(moment);
+        const double t_s = shot.still_time
+                               ? shot.first_s
+                               : std::max(0.0, shot.time_s(frame) + offset / shot.script.fps);
+        if (frame == 0 && moment == 0) face.start(drive);
         while (script.header.motion == track::Motion::kDynamic &&
                face.time_s() + 2 * face.step_s() < t_s) {  // what leads up to a still
             watch.tell(face.time_s() / t_s, "simulating");
@@ -159,10 +178,10 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         }
         sim::FacePose pose = face.pose_at(t_s, drive);
         const double angle_rad =
-            options.turntable_s ? 2 * std::numbers::pi * frame / shot.frames : 0.0;
+            options.turntable_s ? 2 * std::numbers::pi * (frame + offset) / shot.frames : 0.0;
         if (options.turntable_s) pose = turned(std::move(pose), angle_rad);
         const Eigen::VectorXd activation = face.activation_at(t_s);
-        table.add(frame, t_s, driven(t_s), activation, pose);
+        if (moment == shot.moments() / 2) table.add(frame, t_s, driven(t_s), activation, pose);
         record.widest_jaw_mm = std::max(record.widest_jaw_mm, 1e3 * pose.jaw.open_m);
         record.greatest_bite_n = std::max(record.greatest_bite_n, pose.tooth_force_n);
         most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
@@ -175,29 +194,38 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         }
         seen.values = sight.values(pose.vertices,
                                    reference ? std::optional(reference->at(t_s)) : std::nullopt);
-        record.timing.simulate_s += stage.seconds();
         return seen;
+    };
+    const auto simulate = [&](int frame) {
+        const Stopwatch stage;
+        std::vector<render::Pose> poses;
+        for (int moment = 0; moment < shot.moments(); ++moment)
+            poses.push_back(simulate_moment(frame, moment));
+        record.timing.simulate_s += stage.seconds();
+        return poses;
     };
     struct Drawn {
         Points positions;
         Image image;
         double draw_s;
     };
-    const auto draw = [&](int worker, int /*frame*/, render::Pose pose) {
+    const auto draw = [&](int worker, int /*frame*/, std::vector<render::Pose> poses) {
         const Stopwatch drawing;
         std::unique_ptr<render::OffscreenView>& own = views[static_cast<std::size_t>(worker)];
         if (!own) own = std::make_unique<render::OffscreenView>(scene, view);
-        Image image = own->draw(pose);
-        return Drawn{std::move(pose.positions), std::move(image), drawing.seconds()};
+        Image image = own->draw(poses);
+        return Drawn{std::move(poses[poses.size() / 2].positions), std::move(image),
+                     drawing.seconds()};
     };
     const auto show = [&](int frame, Drawn drawn) {
         watch.tell(static_cast<double>(frame) / shot.frames, kRendering);
         const Stopwatch marking;
         Image& image = drawn.image;
         sight.draw_over(drawn.positions, image);
-        table.add_picture(pictures.measure(image), pictures.lit(frame));
-        pictures.mark(frame, image);
         if (passes) passes->add(frame, drawn.positions);
+        table.add_picture(pictures.measure(image), luminance_within(passes, image),
+                          pictures.lit(frame));
+        pictures.mark(frame, image);
         hash.add(image.rgba.data(), image.rgba.size());
         record.timing.draw_s += drawn.draw_s + marking.seconds();
         const Stopwatch encoding;

@@ -39,6 +39,7 @@ FrameTable::FrameTable(const track::ChannelTable& channels, const LandmarkPoints
         for (const std::string& id : points_.ids())
             for (const char* part : kLandmarkParts) head_ += "\t" + id + "." + part;
     head_ += "\tluminance_mean\tluminance_sd\tcontrast_rms\tmotion_energy";
+    if (options_.masks) head_ += "\tluminance_face\tluminance_eyes\tluminance_mouth";
     if (options_.photodiode) head_ += "\tphotodiode";
     head_ += "\n";
 }
@@ -75,11 +76,14 @@ void FrameTable::add(int frame, double time_s, const track::Drive& drive,
     rows_.push_back(std::move(row));
 }
 
-void FrameTable::add_picture(const media::PictureMeasures& picture, bool photodiode_lit) {
+void FrameTable::add_picture(const media::PictureMeasures& picture,
+                             const std::array<double, 3>& within, bool photodiode_lit) {
     std::string cells;
     for (const double value : {picture.luminance_mean, picture.luminance_sd, picture.contrast_rms})
         cells += cell(value, 6);
     cells += cell(picture.motion_energy, 9);
+    if (options_.masks)
+        for (const double value : within) cells += std::isnan(value) ? "\t" : cell(value, 6);
     if (options_.photodiode) cells += photodiode_lit ? "\t1" : "\t0";
     pictures_.push_back(std::move(cells));
 }

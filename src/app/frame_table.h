@@ -14,6 +14,7 @@
 //   eye_yaw_deg.l .r, eye_pitch_deg.l .r        where each eye looks in space, the head's turn included: left and up > 0
 //   <landmark>.x_mm .y_mm .z_mm .u_px .v_px     with landmarks: world, and in the picture from its top left corner
 //   luminance_mean, luminance_sd, contrast_rms, motion_energy       of the picture without its marks; media/luminance.h
+//   luminance_face .eyes .mouth                 with masks: mean luminance within each; empty where nothing of it is seen
 //   photodiode        1 where its square is white, with a photodiode
 #pragma once
 
@@ -35,6 +36,7 @@ struct FrameTableOptions {
     std::function<Vec2(const Vec3& world)> project;     ///< pixels; needed with landmarks
     std::function<Eigen::VectorXd(double time_s)> emg;  ///< per column; empty: no such columns
     std::array<Vec3, 2> eye_forward{Vec3::UnitZ(), Vec3::UnitZ()};  ///< where the eyes look at rest
+    bool masks = false;                                             ///< luminance within each
     bool photodiode = false;
 };
 
@@ -46,7 +48,9 @@ class FrameTable {
     void add(int frame, double time_s, const track::Drive& drive, const Eigen::VectorXd& activation,
              const sim::FacePose& pose);
     /// What the picture of the next frame shows, in order; may be told on another thread than add().
-    void add_picture(const media::PictureMeasures& picture, bool photodiode_lit);
+    /// `within`: luminance in face, eyes and mouth, with masks.
+    void add_picture(const media::PictureMeasures& picture, const std::array<double, 3>& within,
+                     bool photodiode_lit);
     std::string text() const;
 
   private:

@@ -144,7 +144,8 @@ void PassWriter::write_masks(int frame, const render::SeenSurface& seen,
                             (0.5 - clip.y() / clip.w() * 0.5) * height);
     }
     const std::vector<Vec2> oval = rounded(hull_of(std::move(border)));
-    std::vector<std::uint16_t> face(parts.size(), 0), eyes(face), mouth(face);
+    auto& [face, eyes, mouth] = masks_;
+    for (std::vector<std::uint16_t>* mask : {&face, &eyes, &mouth}) mask->assign(parts.size(), 0);
     for (int y = 0, i = 0; y < height; ++y)
         for (int x = 0; x < width; ++x, ++i) {
             const auto at = static_cast<std::size_t>(i);

@@ -9,6 +9,7 @@
 //   results.json              camera, names of parts, list of files
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,12 @@ class PassWriter {
     void add(int frame, const Points& positions);
     void commit();
 
+    /// Pixels of the last frame, not 0 within; empty when no masks are wanted.
+    struct Masks {
+        std::vector<std::uint16_t> face, eyes, mouth;
+    };
+    const Masks& masks() const { return masks_; }
+
   private:
     bool wanted(const char* pass) const;
     std::filesystem::path file_of(const char* what, int frame, const char* ending);
@@ -46,6 +53,7 @@ class PassWriter {
     Eigen::Matrix4d clip_from_world_;
     LandmarkPoints landmarks_;
     std::optional<render::SeenSurface> before_;
+    Masks masks_;
 };
 
 }  // namespace risorius::app

@@ -54,7 +54,9 @@ Json RunRecord::json() const {
     json["height_px"] = height_px;
     json["camera"] = camera;
     json["show"] = show;
+    if (scale_to) json["scale_to"] = *scale_to;
     json["background"] = background;
+    json["shutter"] = {{"open_deg", shutter_deg}, {"moments", shutter_moments}};
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["graphics"] = graphics;
     json["quality"] = quality;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/texture_picture.h"
 #include "sim/lids.h"
 
 namespace risorius::app {
@@ -23,22 +24,39 @@ std::optional<Material> material_of(const std::string& role) {
     return std::nullopt;
 }
 
-// The triangles of one group that `wanted` accepts, with their texture coordinates. Seams of the skin are closed by
+/// Of each triangle of a group as geom::triangulate() gives them.
+std::vector<int> textures_of(const geom::PolygonMesh& mesh, int group) {
+    std::vector<int> textures;
+    for (int face = 0; face < mesh.face_count(); ++face) {
+        const auto f = static_cast<std::size_t>(face);
+        if (mesh.face_group[f] != group) continue;
+        const int texture = mesh.face_texture.empty() ? -1 : mesh.face_texture[f];
+        textures.insert(textures.end(), static_cast<std::size_t>(mesh.corner_count(face) - 2),
+                        texture);
+    }
+    return textures;
+}
+
+// The triangles of one group and texture that `wanted` accepts, with their texture coordinates. Seams of the skin are closed by
 // letting every vertex be the one that stands for it, so that normals run across them.
 render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh, int group,
-                           Material material, const std::function<bool(int vertex)>& wanted) {
+                           Material material, int texture,
+                           const std::function<bool(int vertex)>& wanted) {
     Triangles corners;
     const Triangles all = geom::triangulate(mesh, {group}, &corners);
+    const std::vector<int> texture_of = textures_of(mesh, group);
     std::vector<long> kept;
     Triangles welded = all;
     for (long f = 0; f < all.rows(); ++f) {
         for (int k = 0; k < 3; ++k) welded(f, k) = head.welded[static_cast<std::size_t>(all(f, k))];
         const bool collapsed = welded(f, 0) == welded(f, 1) || welded(f, 1) == welded(f, 2) ||
                                welded(f, 2) == welded(f, 0);
-        if (!collapsed && wanted(all(f, 0))) kept.push_back(f);
+        if (!collapsed && texture_of[static_cast<std::size_t>(f)] == texture && wanted(all(f, 0)))
+            kept.push_back(f);
     }
     render::Surface surface;
     surface.material = material;
+    surface.texture = texture;
     const long count = static_cast<long>(kept.size());
     surface.triangles.resize(count, 3);
     if (mesh.corner_texcoord.rows() > 0) surface.texcoords.resize(3 * count, 2);
@@ -69,6 +87,26 @@ Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
     return shut;
 }
 
+// Reads a picture when the first surface wants it.
+class TexturePictures {
+  public:
+    TexturePictures(const geom::PolygonMesh& mesh, bool wanted, std::vector<Image>& images)
+        : mesh_(mesh), images_(images), index_(mesh.textures.size(), wanted ? kUnread : -1) {}
+
+    int index_of(int texture) {
+        const auto t = static_cast<std::size_t>(texture);
+        if (index_[t] != kUnread) return index_[t];
+        images_.push_back(read_texture(mesh_.textures[t]));
+        return index_[t] = static_cast<int>(images_.size()) - 1;
+    }
+
+  private:
+    static constexpr int kUnread = -2;
+    const geom::PolygonMesh& mesh_;
+    std::vector<Image>& images_;
+    std::vector<int> index_;
+};
+
 }  // namespace
 
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
@@ -77,14 +115,20 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
     scene.rest = head.vertices;
     scene.shut = eyes_shut(head, rig);
     scene.landmarks = head.landmarks;
+    TexturePictures pictures(mesh, rig.look.textures == "mesh", scene.textures);
 
-    // One surface per group of faces; the tongue is told from the gums piece by piece
+    // One surface per group of faces and texture; the tongue is told from the gums piece by piece
     const auto add = [&](int group, Material material, const std::function<bool(int)>& wanted) {
-        render::Surface surface = surface_of(head, mesh, group, material, wanted);
         const std::string& role = head.role_of_group[static_cast<std::size_t>(group)];
-        if (material == Material::kEye || material == Material::kCornea)
-            surface.eye = role.ends_with("_l") ? 0 : 1;
-        if (surface.triangles.rows() > 0) scene.surfaces.push_back(std::move(surface));
+        const bool clear = material == Material::kCornea || material == Material::kLashes;
+        for (int texture = -1; texture < static_cast<int>(mesh.textures.size()); ++texture) {
+            render::Surface surface = surface_of(head, mesh, group, material, texture, wanted);
+            if (material == Material::kEye || material == Material::kCornea)
+                surface.eye = role.ends_with("_l") ? 0 : 1;
+            if (surface.triangles.rows() == 0) continue;
+            surface.texture = texture < 0 || clear ? -1 : pictures.index_of(texture);
+            scene.surfaces.push_back(std::move(surface));
+        }
     };
     const auto is_tongue = [&](int vertex) {
         return head.carrier[static_cast<std::size_t>(vertex)] == rig::Carrier::kTongue;
@@ -115,6 +159,8 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                   .iris_tone = rig.look.iris_tone,
                   .freckles = rig.look.freckles,
                   .scalp_hair = rig.look.scalp_hair,
+                  .hair_length_mm = rig.look.hair_length_mm,
+                  .beard_length_mm = rig.look.beard_length_mm,
                   .beard = rig.look.beard,
                   .age = rig.look.age,
                   .seed = static_cast<unsigned>(rig.look.seed)};

@@ -132,6 +132,9 @@ Shot plan_shot(const AnimateOptions& options) {
     if (shot.view.supersampling < 1 || shot.view.supersampling > 4)
         throw Error("--antialiasing", "samples per pixel and side in [1, 4]",
                     std::to_string(shot.view.supersampling));
+    shot.shutter_deg = options.shutter_deg.value_or(asked.shutter_deg);
+    if (!(shot.shutter_deg >= 0 && shot.shutter_deg <= 360))
+        throw Error("--shutter", "degrees in [0, 360]", format_number(shot.shutter_deg));
     shot.view.light.preset = asked.light.preset;
     shot.view.light.turn_deg = asked.light.turn_deg;
     shot.view.light.exposure_ev = asked.light.exposure_ev;
@@ -155,6 +158,13 @@ Shot plan_shot(const AnimateOptions& options) {
         throw compared ? Error("--show error", "a script to compare with, by --against", "none")
                        : Error("--against", "--show error, which compares",
                                "--show " + options.show.value_or(asked.show));
+    if (options.scale) {
+        if (!compared && shot.view.show != render::Show::kStrain)
+            throw Error("--scale", "--show strain or error, which have one",
+                        "--show " + options.show.value_or(asked.show));
+        if (!(*options.scale > 0 && *options.scale <= 1000))
+            throw Error("--scale", "a number in (0, 1000]", format_number(*options.scale));
+    }
     check_marks(options.marks, shot);
     for (const std::string& pass : options.passes) {
         index_of_name("--passes", pass, pass_names());

@@ -20,6 +20,16 @@ struct Shot {
     std::vector<double> times_s;  ///< of every frame where they are not even
     bool still_time = false;      ///< all frames show first_s
 
+    /// Of a frame's length, 360 deg, the shutter is open for so much, half of it before the frame's time: the picture is the mean in
+    /// linear light of that many moments, at the middles of equal pieces. 0: the frame's time alone.
+    double shutter_deg = 0;
+    static constexpr int kShutterMoments = 9;
+    int moments() const { return shutter_deg > 0 ? kShutterMoments : 1; }
+    /// From the frame's time to a moment's, in frames.
+    double moment_offset(int moment) const {
+        return shutter_deg / 360 * (moment - (moments() - 1) / 2) / moments();
+    }
+
     double time_s(int frame) const {
         if (!times_s.empty()) return times_s[static_cast<std::size_t>(frame)];
         return still_time ? first_s : first_s + static_cast<double>(frame) / script.fps;

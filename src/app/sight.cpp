@@ -83,12 +83,16 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
 
 Sight::Sight(render::Show show, const render::Scene& scene, const rig::Head& head,
              const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
-             int height_px, const LandmarkPoints& landmarks)
-    : show_(show), rest_(scene.rest), landmarks_(landmarks) {
+             int height_px, const LandmarkPoints& landmarks, std::optional<double> scale)
+    : show_(show), scale_end_(scale_end(show, scale)), rest_(scene.rest), landmarks_(landmarks) {
     if (show == render::Show::kStrain || show == render::Show::kError) skin_ = skin_of(scene);
     if (show == render::Show::kWire) edges_ = edges_of(head, mesh);
     if (show == render::Show::kWire || show == render::Show::kLandmarks)
         surface_.emplace(scene, view.clip_from_world(), width_px, height_px);
+}
+
+double Sight::scale_end(render::Show show, std::optional<double> given) {
+    return given.value_or(show == render::Show::kStrain ? kMostStrain : kMostError_mm);
 }
 
 std::optional<render::SkinValues> Sight::values(const Points& positions,
@@ -96,14 +100,14 @@ std::optional<render::SkinValues> Sight::values(const Points& positions,
     if (show_ == render::Show::kStrain)
         return render::SkinValues{.name = "strain",
                                   .unit = "ratio",
-                                  .from = -kMostStrain,
-                                  .to = kMostStrain,
+                                  .from = -scale_end_,
+                                  .to = scale_end_,
                                   .at = principal_strain(skin_, rest_, positions)};
     if (show_ != render::Show::kError || !reference) return std::nullopt;
     render::SkinValues values{.name = "error",
                               .unit = "mm",
                               .from = 0,
-                              .to = kMostError_mm,
+                              .to = scale_end_,
                               .at = std::vector<double>(static_cast<std::size_t>(rest_.rows()),
                                                         std::numeric_limits<double>::quiet_NaN())};
     for (Eigen::Index i = 0; i < skin_.size(); ++i) {

@@ -23,7 +23,10 @@ class Sight {
   public:
     Sight(render::Show show, const render::Scene& scene, const rig::Head& head,
           const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
-          int height_px, const LandmarkPoints& landmarks);
+          int height_px, const LandmarkPoints& landmarks, std::optional<double> scale = {});
+
+    /// Where the colours of strain (both ways from 0) and error end: 0.4 and 5 mm when it is not given.
+    static double scale_end(render::Show show, std::optional<double> given);
 
     /// Colours for the pose; `reference` is where the vertices are in the other run.
     std::optional<render::SkinValues> values(const Points& positions,
@@ -32,6 +35,7 @@ class Sight {
 
   private:
     render::Show show_;
+    double scale_end_;
     Points rest_;
     Triangles skin_;
     std::vector<std::array<int, 2>> edges_;

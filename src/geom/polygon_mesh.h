@@ -2,12 +2,22 @@
 // Vertex order is the file's own, so that displacement tables by vertex index keep their meaning.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/types.h"
 
 namespace risorius::geom {
+
+/// A picture that gives faces their colour.
+struct Texture {
+    std::filesystem::path file;
+    std::string named_in;  ///< place that names it, for messages: "head.mtl:7"
+    std::vector<std::uint8_t>
+        embedded;  ///< the picture's file itself where it lies within the mesh's
+};
 
 struct PolygonMesh {
     Points positions;  ///< V x 3
@@ -17,6 +27,9 @@ struct PolygonMesh {
     TexCoords corner_texcoord;       ///< C x 2, or 0 rows when the file has none
     std::vector<int> face_group;     ///< F, index into group_names
     std::vector<std::string> group_names;
+    std::vector<Texture>
+        textures;  ///< the files need not be there; who wants their colours reads them
+    std::vector<int> face_texture;  ///< F, into textures or -1; empty when there are none
 
     int vertex_count() const { return static_cast<int>(positions.rows()); }
     int face_count() const { return static_cast<int>(face_begin.size()) - 1; }

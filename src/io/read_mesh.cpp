@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/json_cursor.h"
 #include "io/detail/obj_reader.h"
+#include "io/detail/obj_textures.h"
 #include "io/detail/scene_reader.h"
 
 namespace risorius::io {
@@ -54,7 +55,9 @@ geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOpt
     const std::string ending = lower_case_ending(file);
     geom::PolygonMesh mesh;
     if (ending == ".obj") {
-        mesh = detail::read_obj(read_text(file), name);
+        detail::ObjMaterials materials;
+        mesh = detail::read_obj(read_text(file), name, &materials);
+        detail::add_obj_textures(file, materials, mesh);
     } else {
         const bool keeps_order = ending == ".glb" || ending == ".gltf" || ending == ".ply";
         mesh = detail::read_scene(file, keeps_order);

@@ -11,6 +11,8 @@
 //   per node with a mesh, named after it; "node.material" where a node has several; node transforms
 //   are
 //                applied
+//   textures     the colour pictures of materials: "map_Kd" of MTL files, base colour of glTF,
+//                diffuse colour elsewhere; files beside the mesh or inside it
 //   units        the unit stated in FBX and COLLADA files is applied, giving metres; then
 //   `metres_per_unit` multiplies texture      v up, as in OBJ (glTF's v is turned)
 #pragma once

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace risorius::media {
 
@@ -33,6 +34,17 @@ const std::array<Table, 3>& luminance_of_byte() {
 double relative_luminance(const std::uint8_t* rgb) {
     const std::array<Table, 3>& of = luminance_of_byte();
     return of[0][rgb[0]] + of[1][rgb[1]] + of[2][rgb[2]];
+}
+
+double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask) {
+    double weight = 0, sum = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (mask[i] == 0) continue;
+        const std::uint8_t* pixel = image.rgba.data() + 4 * i;
+        weight += pixel[3] / 255.0;
+        sum += pixel[3] / 255.0 * relative_luminance(pixel);
+    }
+    return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
 PictureMeasures LuminanceMeter::measure(const Image& image) {

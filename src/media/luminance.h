@@ -5,6 +5,7 @@
 // A screen whose luminance grows with the decoded value shows them in proportion; transparent pixels count by their opacity.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -26,6 +27,9 @@ class LuminanceMeter {
   private:
     std::vector<float> before_;
 };
+
+/// Mean of Y where the mask is not 0; not a number where it is 0 everywhere.
+double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask);
 
 /// Y of an sRGB pixel.
 double relative_luminance(const std::uint8_t* rgb);

@@ -16,13 +16,16 @@
 #include "render/detail/materials.h"
 #include "render/detail/muscle_layer.h"
 #include "render/detail/occlusion.h"
+#include "render/detail/own_textures.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/resolve.h"
 #include "render/detail/scene_buffers.h"
 #include "render/detail/shaders.h"
+#include "render/detail/shell_layer.h"
 #include "render/detail/skin_layer.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/strand_layer.h"
+#include "render/detail/tear_layer.h"
 #include "render/value_colour.h"
 
 namespace risorius::render {
@@ -61,7 +64,7 @@ Box skin_box(const Scene& scene) {
 
 /// Painted scalp hair would hide what lies below; the brows stay.
 Scene without_hair(Scene scene) {
-    scene.look.scalp_hair = 0;
+    scene.look.scalp_hair = scene.look.hair_length_mm = scene.look.beard_length_mm = 0;
     return scene;
 }
 
@@ -97,6 +100,7 @@ struct Baked {
     std::optional<SkyAboutEyes> sky_about_eyes;
     std::vector<Strand> hair;
     bool mesh_lashes = true;
+    std::unique_ptr<OwnTextures> own;
     GLuint paint_map = 0, pore_map = 0;
     ~Baked() {  // in the context of the last view
         glDeleteTextures(1, &paint_map);
@@ -139,6 +143,11 @@ struct OffscreenView::Impl {
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
+        tears = std::make_unique<TearLayer>(scene);
+        buffers->bind();
+        shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene,
+                                              plan_skin(scene, centre), centre,
+                                              buffers->paintable_triangles(baked->inside));
 
         buffers->bind();
         const int shaded = shaded_per_side();
@@ -182,8 +191,9 @@ struct OffscreenView::Impl {
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
-        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, centre,
-                                    buffers->paintable_triangles(out->inside),
+        out->own = std::make_unique<OwnTextures>(scene, *buffers);
+        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *out->own,
+                                    centre, buffers->paintable_triangles(out->inside),
                                     paint_side(options.height_px / camera.frame_height_m));
         out->pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre, *out);
@@ -193,8 +203,9 @@ struct OffscreenView::Impl {
 
     /// Lashes of the mesh are only drawn where none of their own can be grown.
     void grow_hair(const Scene& scene, const Vec3& centre, Baked& out) const {
-        out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
-                              buffers->paintable_triangles(out.inside));
+        if (!has_own_skin(scene))
+            out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
+                                  buffers->paintable_triangles(out.inside));
         bool lashes = true;
         for (const int eye : {0, 1}) {
             const std::vector<Strand> some = plan_lashes(scene, eye);
@@ -213,6 +224,8 @@ struct OffscreenView::Impl {
         lights.reset();
         materials.reset();
         hair.reset();
+        tears.reset();
+        shells.reset();
         muscles.reset();
         buffers.reset();
     }
@@ -253,10 +266,14 @@ struct OffscreenView::Impl {
                 materials->draw_skin(batch, *buffers);
             } else {
                 materials->use(batch, pose, marks);
+                baked->own->bind(batch);
                 buffers->draw(batch);
             }
         }
         materials->done();
+        buffers->bind();
+        shells->draw();
+        tears->draw();
         hair->draw();
         buffers->bind();
         glDisable(GL_FRAMEBUFFER_SRGB);
@@ -280,6 +297,8 @@ struct OffscreenView::Impl {
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
+    std::unique_ptr<TearLayer> tears;
+    std::unique_ptr<ShellLayer> shells;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
     std::unique_ptr<Framebuffer> target;
@@ -322,6 +341,7 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
     view.hair->upload(pose, view.marks);
+    view.tears->upload(pose, view.marks);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
@@ -349,8 +369,19 @@ Image OffscreenView::draw(const Pose& pose) {
 Image OffscreenView::draw(const std::vector<Pose>& poses) {
     if (poses.empty()) throw Error("poses", "at least one", "none");
     if (poses.size() == 1) return draw(poses.front());
+    const auto same = [](const Points& a, const Points& b) {
+        return a.rows() == b.rows() && a == b;
+    };
+    const auto looks_as = [&](const Pose& a, const Pose& b) {
+        return same(a.positions, b.positions) && a.eye_rotation == b.eye_rotation &&
+               a.jaw_open == b.jaw_open && same(a.fold_depth, b.fold_depth) &&
+               same(a.muscle_positions, b.muscle_positions) && a.activations == b.activations &&
+               !a.values && !b.values;
+    };
     std::vector<Image> images;
-    for (const Pose& pose : poses) images.push_back(draw(pose));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        images.push_back(i > 0 && looks_as(poses[i], poses[i - 1]) ? images.back()
+                                                                   : draw(poses[i]));
     return mean_of(images);
 }
 

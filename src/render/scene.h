@@ -33,6 +33,8 @@ struct Surface {
     TexCoords texcoords;        ///< 3F x 2 per triangle corner, or 0 rows
     int eye = -1;               ///< for kEye and kCornea: 0 left, 1 right
     double reflectance = 0.18;  ///< of kMatte; those of a scene share it
+    int texture =
+        -1;  ///< into the scene's, for all but kMatte, kCornea and kLashes; -1: generated colours
 };
 
 struct Eye {
@@ -49,9 +51,11 @@ struct Look {
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
     Vec3 iris_tone{0.35, 0.50, 0.60};
-    double freckles = 0.15;   ///< 0..1
-    double scalp_hair = 0.6;  ///< 0..1, short hair painted above the hairline
-    double beard = 0.0;       ///< 0..1, from none over a shadow to a few days' growth
+    double freckles = 0.15;        ///< 0..1
+    double scalp_hair = 0.6;       ///< 0..1, short hair painted above the hairline
+    double hair_length_mm = 0.0;   ///< of the scalp, standing off the skin; 0: cropped, as painted
+    double beard_length_mm = 0.0;  ///< likewise
+    double beard = 0.0;            ///< 0..1, from none over a shadow to a few days' growth
     double age =
         0.0;  ///< 0..1, young to old: spots, thinner redness, paler lips, dry skin, grey hair
     unsigned seed = 1;
@@ -77,6 +81,8 @@ struct Scene {
     Points
         shut;  ///< V x 3, or no rows: with the eyes shut, for the shade on lids that have unrolled from their crease
     std::vector<Surface> surfaces;
+    std::vector<Image>
+        textures;  ///< sRGB, alpha is not looked at; (0, 0) of texture coordinates is below, left
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Look look;
@@ -84,6 +90,9 @@ struct Scene {
         fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown
 };
+
+/// Whether the skin's colour is a picture of the mesh's, which then shows brows, beard and the hair of the scalp too.
+bool has_own_skin(const Scene& scene);
 
 /// A quantity on the skin, shown as colour in place of the skin's own, with a scale in the upper left corner.
 struct SkinValues {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "render/detail/hair_area.h"
 #include "render/detail/lip_area.h"
 
 namespace risorius::render {
@@ -60,8 +61,9 @@ bool is_clear(const Surface& surface) {
 
 const std::vector<std::string>& part_names() {
     static const std::vector<std::string> names{
-        "background", "skin",    "lips",       "sclera_l", "sclera_r", "iris_l", "iris_r",
-        "pupil_l",    "pupil_r", "eye_corner", "teeth",    "gums",     "tongue", "mouth"};
+        "background", "skin",    "lips",    "sclera_l",   "sclera_r", "iris_l",
+        "iris_r",     "pupil_l", "pupil_r", "eye_corner", "teeth",    "gums",
+        "tongue",     "mouth",   "hair",    "brow_l",     "brow_r"};
     return names;
 }
 
@@ -71,7 +73,8 @@ SurfacePasses::SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_fro
       height_(height_px),
       clip_from_world_(clip_from_world),
       rest_(scene.rest),
-      eyes_(scene.eyes) {
+      eyes_(scene.eyes),
+      hair_(std::make_shared<HairArea>(scene)) {
     const LipArea lips(scene.landmarks);
     Eigen::Index count = 0;
     for (const Surface& surface : scene.surfaces)
@@ -169,6 +172,7 @@ std::vector<std::uint16_t> SurfacePasses::parts(const SeenSurface& seen) const {
         if (seen.triangle[i] < 0) continue;
         Part part = part_[static_cast<std::size_t>(seen.triangle[i])];
         const bool left = part == Part::kScleraLeft, right = part == Part::kScleraRight;
+        if (part == Part::kSkin) part = hair_->at(at(seen, i, rest_)).value_or(part);
         if (left || right) part = ring_of_eye(at(seen, i, rest_), eyes_[right ? 1 : 0], right);
         out[i] = static_cast<std::uint16_t>(part);
     }

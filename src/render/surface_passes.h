@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ enum class Part : std::uint8_t {
     kGums,
     kTongue,
     kMouth,  ///< its inside
+    kHair,   ///< of the scalp, as far as it grows from what is seen
+    kBrowLeft,
+    kBrowRight,
 };
 /// "background", "skin", ... in the order of Part.
 const std::vector<std::string>& part_names();
@@ -42,6 +46,8 @@ struct SeenSurface {
     std::vector<float> second, third;  ///< weights of its second and third corner, in space
     std::vector<float> nearness;  ///< depth in clip space, -1 near .. 1 far; 2 where nothing is
 };
+
+class HairArea;
 
 class SurfacePasses {
   public:
@@ -77,6 +83,7 @@ class SurfacePasses {
     std::vector<Part> part_;  ///< per triangle; kScleraLeft or kScleraRight for the whole eye
     Points rest_;
     std::array<Eye, 2> eyes_;
+    std::shared_ptr<const HairArea> hair_;
 };
 
 }  // namespace risorius::render

@@ -73,13 +73,17 @@ void visit_fields(LipsDescription& lips, Visit visit) {
 }
 template <typename Visit>
 void visit_fields(LookDescription& look, Visit visit) {
+    static const std::vector<std::string_view> kTextures{"mesh", "generated"};
+    visit("textures", look.textures, kTextures);
     visit("skin_tone", look.skin_tone);
     visit("lip_tone", look.lip_tone);
     visit("hair_tone", look.hair_tone);
     visit("iris_tone", look.iris_tone);
     visit("freckles", look.freckles, Range{0, 1});
     visit("scalp_hair", look.scalp_hair, Range{0, 1});
+    visit("hair_length_mm", look.hair_length_mm, Range{0, 15});
     visit("beard", look.beard, Range{0, 1});
+    visit("beard_length_mm", look.beard_length_mm, Range{0, 15});
     visit("age", look.age, Range{0, 1});
     visit("seed", look.seed);
 }

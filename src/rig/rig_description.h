@@ -89,15 +89,19 @@ struct LipsDescription {
     double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
-/// Appearance generated for heads without textures; colours sRGB 0..1.
+/// Appearance generated for heads without textures of their own; colours sRGB 0..1.
 struct LookDescription {
+    std::string textures =
+        "mesh";  ///< "mesh": pictures of the mesh's materials where it has them; "generated": never
     Vec3 skin_tone{0.80, 0.60, 0.50};
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};
     Vec3 iris_tone{0.35, 0.50, 0.60};
     double freckles = 0.15;
     double scalp_hair = 0.6;
+    double hair_length_mm = 0.0;
     double beard = 0.0;
+    double beard_length_mm = 0.0;
     double age = 0.0;
     int seed = 1;
 };

@@ -17,6 +17,7 @@
 #include "sim/jaw_dynamics.h"
 #include "sim/jaw_synergies.h"
 #include "sim/lids.h"
+#include "sim/lining.h"
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
 #include "sim/skin_binding.h"
@@ -86,6 +87,7 @@ struct Face::Impl {
     FaceTissue tissue;
     std::optional<SkinBinding> binding;
     std::optional<SkinLayer> skin;
+    Lining lining;
     std::optional<Follow>
         follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
 
@@ -126,6 +128,7 @@ struct Face::Impl {
           shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
+          lining(head),
           jaw_joint(head, rig.jaw),
           neck(head),
           motion(neck, tissue.rest(), piece_s),
@@ -489,7 +492,10 @@ struct Face::Impl {
                                          lid_pose(1, state.activation, drive)};
         out.vertices = head.vertices;
         binding->apply(displacement, moved, out.vertices);
-        if (folds == Folds::kFormed) out.fold_depth = skin->apply(state.activation, out.vertices);
+        if (folds == Folds::kFormed) {
+            out.fold_depth = skin->apply(state.activation, out.vertices);
+            lining.stay_behind(out.vertices);
+        }
         out.head = head_motion(head, drive);
         const FollowDrive follow_drive{moved,
                                        turned,

@@ -32,7 +32,8 @@ struct ScriptView {
     bool orthographic = false;                         ///< "projection"
     std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
     double aperture_mm = 0;
-    int antialiasing = 2;  ///< 1..4 samples per pixel and side
+    double shutter_deg = 0;  ///< 0..360 of a frame that the shutter is open, around its time
+    int antialiasing = 2;    ///< 1..4 samples per pixel and side
     ScriptLight light;
     bool transparent = false;  ///< background "transparent"
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1

@@ -101,5 +101,14 @@ TEST(Luminance, FollowsTheCurveOfSrgbAndTheWeightsOfBt709) {
     EXPECT_NEAR(relative_luminance(green), 0.7152, 1e-12);
 }
 
+TEST(Luminance, WithinAMaskIsTheMeanOfItsPixelsAlone) {
+    Image image(2, 1);
+    image.rgba = {255, 255, 255, 255, 0, 0, 0, 255};
+    EXPECT_EQ(mean_luminance(image, {1, 0}), 1.0);
+    EXPECT_EQ(mean_luminance(image, {0, 255}), 0.0);
+    EXPECT_DOUBLE_EQ(mean_luminance(image, {1, 1}), 0.5);
+    EXPECT_TRUE(std::isnan(mean_luminance(image, {0, 0})));
+}
+
 }  // namespace
 }  // namespace risorius::media

@@ -139,6 +139,31 @@ TEST(Light, ExposureTurnsWithTheCameraSoThatASetOfViewsIsExposedAlike) {
     EXPECT_LT((exposure_for(front, 0) - exposure_for(side, 0)).norm(), 1e-4);
 }
 
+TEST(Light, SurroundingsLightTheSideTheyAreBrightOnAndTurnWithTheirAngle) {
+    RoundHead head;
+    // Columns run from behind over the subject's right, front (the middle) and left.
+    Surroundings from_left{16, 8, std::vector<float>(16 * 8 * 3, 0.1F)};
+    for (std::size_t y = 2; y < 6; ++y)
+        for (std::size_t x = 11; x < 14; ++x)
+            for (std::size_t k = 0; k < 3; ++k) from_left.rgb[3 * (16 * y + x) + k] = 5.0F;
+    ViewOptions options = lit_by("studio");
+    options.light.surroundings = from_left;
+    const auto sides = [&](double turn_deg) {
+        options.light.turn_deg = turn_deg;
+        OffscreenView view(head.scene, options);
+        const Image image = view.draw(head.pose);
+        const auto at = [&](double x) {
+            const Vec2 p = view.project(RoundHead::on_skin(x, -0.02));
+            return linear(image.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()))[1]);
+        };
+        return std::pair(at(0.07), at(-0.07));
+    };
+    const auto [left, right] = sides(0);
+    EXPECT_GT(left, 3 * right);
+    const auto [turned_left, turned_right] = sides(-180);
+    EXPECT_LT(turned_left, 1.5 * turned_right);
+}
+
 TEST(Light, WrongLightIsNamed) {
     const auto message = [](const LightOptions& options) -> std::string {
         try {

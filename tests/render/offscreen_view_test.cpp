@@ -303,6 +303,35 @@ TEST(OffscreenView, LipsAreRedderThanTheCheek) {
               1.08 * redness(RoundHead::on_skin(-0.045, -0.035)));
 }
 
+TEST(OffscreenView, HairOfSomeLengthStandsOffTheScalpAndOnlyThere) {
+    RoundHead head;
+    head.scene.landmarks["tr"] = RoundHead::on_skin(0, 0.06);
+    head.scene.landmarks["fht_l"] = RoundHead::on_skin(0.05, 0.04);
+    head.scene.landmarks["fht_r"] = RoundHead::on_skin(-0.05, 0.04);
+    ViewOptions options = small();
+    options.background.transparent = true;
+    options.width_px = options.height_px = 64;
+    options.supersampling = 1;
+    /// Beside the crown and beside the chin
+    const auto opacities = [&] {
+        OffscreenView view(head.scene, options);
+        const Image image = view.draw(head.pose);
+        std::array<int, 2> sum{0, 0};
+        for (const int end : {0, 1}) {
+            const Vec2 p = view.project(Vec3(0, (end == 0 ? 1 : -1) * (kHeadRadius_m + 0.006), 0));
+            for (int dx = -2; dx <= 2; ++dx)
+                sum[static_cast<std::size_t>(end)] +=
+                    image.pixel(static_cast<int>(p.x()) + dx, static_cast<int>(p.y()))[3];
+        }
+        return sum;
+    };
+    EXPECT_EQ(opacities(), (std::array<int, 2>{0, 0}));
+    head.scene.look.hair_length_mm = 15;
+    const std::array<int, 2> hairy = opacities();
+    EXPECT_GT(hairy[0], 2 * 255);
+    EXPECT_EQ(hairy[1], 0);
+}
+
 TEST(OffscreenView, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil) {
     RoundHead head;
     ViewOptions options = small();
@@ -315,8 +344,22 @@ TEST(OffscreenView, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil) {
         return brightness(mean_colour(image, view.project(eye + Vec3(x, y, 0.0105)), 1));
     };
     const double white = at(0.0, -0.0083), iris = at(0.0, -0.0038), pupil = at(0.0, 0.0);
-    EXPECT_GT(white, 1.25 * iris);
+    EXPECT_GT(white, 1.2 * iris);  // of an iris where the cornea gathers light
     EXPECT_GT(iris, 1.25 * pupil);
+}
+
+TEST(OffscreenView, TheIrisIsBrighterOnTheSideAwayFromTheLamp) {
+    RoundHead head;
+    ViewOptions options = small();
+    options.width_px = options.height_px = 384;
+    OffscreenView view(head.scene, options);
+    const Image image = view.draw(head.pose);
+    const Vec3 eye = head.scene.eyes[0].centre;
+    const auto at = [&](double x, double y) {
+        return brightness(mean_colour(image, view.project(eye + Vec3(x, y, 0.0105)), 1));
+    };
+    // The key light comes from the subject's right and above; the mirrored lamps lie on that side.
+    EXPECT_GT(at(0.0030, -0.0024), 1.2 * at(-0.0036, -0.0014));
 }
 
 TEST(OffscreenView, ThePupilTurnsWithTheEye) {

@@ -47,6 +47,35 @@ Scene square_scene() {
 
 std::size_t pixel_at(int x, int y) { return static_cast<std::size_t>(y * kPictureWidth + x); }
 
+TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
+    RoundHead head;
+    auto& marks = head.scene.landmarks;
+    marks["tr"] = RoundHead::on_skin(0, 0.06);
+    marks["fht_l"] = RoundHead::on_skin(0.05, 0.04);
+    marks["fht_r"] = RoundHead::on_skin(-0.05, 0.04);
+    for (const int side : {1, -1}) {
+        const std::string s = side > 0 ? "_l" : "_r";
+        double x = 0.012;
+        for (const char* id : {"bm", "bc", "bp", "bl"})
+            marks[id + s] = RoundHead::on_skin(side * (x += 0.008), 0.040);
+    }
+    const SurfacePasses passes(head.scene, camera_ahead(true), kPictureWidth, kPictureHeight);
+    const std::vector<std::uint16_t> parts = passes.parts(passes.look(head.scene.rest));
+    const auto at = [&](double x, double y) {  // 0.4 m are 80 px
+        return static_cast<Part>(
+            parts[pixel_at(60 + static_cast<int>(200 * x), 40 - static_cast<int>(200 * y))]);
+    };
+    EXPECT_EQ(at(0, 0.085), Part::kHair);
+    EXPECT_EQ(at(0, 0.045), Part::kSkin);
+    EXPECT_EQ(at(0.03, 0.040), Part::kBrowLeft);
+    EXPECT_EQ(at(-0.03, 0.040), Part::kBrowRight);
+
+    head.scene.look.scalp_hair = 0;
+    const SurfacePasses shaved(head.scene, camera_ahead(true), kPictureWidth, kPictureHeight);
+    const std::vector<std::uint16_t> bare = shaved.parts(shaved.look(head.scene.rest));
+    EXPECT_EQ(std::count(bare.begin(), bare.end(), static_cast<std::uint16_t>(Part::kHair)), 0);
+}
+
 TEST(SurfacePasses, ASquareAMetreAwayIsThatDeepAndFacesTheCamera) {
     for (const bool orthographic : {false, true}) {
         const SurfacePasses passes(square_scene(), camera_ahead(orthographic), kPictureWidth,

@@ -85,13 +85,19 @@ void add_render(CLI::App& app) {
     command->add_option(
         "--show", options.show,
         "Another sight of the face: skin; muscles, coloured by their activation under "
-        "translucent skin; wire, the edges of the mesh; strain of the skin, -0.4 to "
-        "0.4; error, the distance from another script's face, 0 to 5 mm; landmarks");
+        "translucent skin; wire, the edges of the mesh; strain of the skin; error, the "
+        "distance from another script's face; landmarks");
     command->add_option("--against", options.against, "With --show error: the other script");
+    command->add_option(
+        "--scale", options.scale,
+        "With --show strain or error: where its colours end, a ratio (0.4) or mm (5)");
     command->add_option("--still", options.still_s, "One picture, of this time in seconds");
     command->add_option(
         "--turntable", options.turntable_s,
         "The face of this time, in seconds, turned once round while the video lasts");
+    command->add_option("--shutter", options.shutter_deg,
+                        "Motion blur: how long the shutter is open, 0 to 360 degrees of a frame, "
+                        "around the frame's time; 180 is usual");
     command->add_flag("--landmarks", options.landmarks,
                       "Write the landmarks into the table too: mm in space and pixels");
     command->add_flag("--emg", options.emg,

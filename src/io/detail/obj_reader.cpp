@@ -51,6 +51,10 @@ class ObjReader {
         return finish();
     }
 
+    ObjMaterials take_materials() {
+        return {std::move(libraries_), std::move(material_names_), std::move(face_material_)};
+    }
+
   private:
     std::string_view next_line(std::size_t& at) {
         std::size_t end = text_.find('\n', at);
@@ -94,7 +98,11 @@ class ObjReader {
             group_ = group_named(rest, group_names_, group_of_name_);
         } else if (key == "usemtl") {
             material_ = group_named(rest, material_names_, material_of_name_);
-        } else if (stranger_.empty() && key != "vn" && key != "mtllib" && key != "s") {
+        } else if (key == "mtllib") {
+            while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+            while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+            libraries_.emplace_back(rest);
+        } else if (stranger_.empty() && key != "vn" && key != "s") {
             stranger_ = quoted(key);
             stranger_line_ = line_;
         }
@@ -237,7 +245,7 @@ class ObjReader {
     std::vector<int> corner_vertex_, corner_texcoord_;
     bool has_groups_ = false;
     int group_ = kUnnamed, material_ = kUnnamed;
-    std::vector<std::string> group_names_, material_names_;
+    std::vector<std::string> group_names_, material_names_, libraries_;
     std::unordered_map<std::string, int> group_of_name_, material_of_name_;
     std::string stranger_;
     int stranger_line_ = 0;
@@ -245,8 +253,12 @@ class ObjReader {
 
 }  // namespace
 
-geom::PolygonMesh read_obj(const std::string& text, const std::string& name) {
-    return ObjReader(text, name).read();
+geom::PolygonMesh read_obj(const std::string& text, const std::string& name,
+                           ObjMaterials* materials) {
+    ObjReader reader(text, name);
+    geom::PolygonMesh mesh = reader.read();
+    if (materials) *materials = reader.take_materials();
+    return mesh;
 }
 
 }  // namespace risorius::io::detail

@@ -1,6 +1,7 @@
 #include "io/detail/scene_reader.h"
 
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -71,6 +72,7 @@ class SceneReader {
             for (std::size_t c = 0; c < texcoords_.size(); ++c)
                 mesh_.corner_texcoord.row(static_cast<long>(c)) = texcoords_[c].transpose();
         }
+        if (mesh_.textures.empty()) mesh_.face_texture.clear();
         return std::move(mesh_);
     }
 
@@ -152,6 +154,7 @@ class SceneReader {
         const bool mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
         const bool textured = mesh.HasTextureCoords(0);
         any_texcoord_ |= textured;
+        const int texture = textured ? texture_of(mesh) : -1;
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices < 3) continue;  // points and lines
@@ -164,7 +167,33 @@ class SceneReader {
             }
             mesh_.face_begin.push_back(static_cast<int>(mesh_.corner_vertex.size()));
             mesh_.face_group.push_back(group);
+            mesh_.face_texture.push_back(texture);
         }
+    }
+
+    /// Index of the colour picture of a material; -1 without one.
+    int texture_of(const aiMesh& mesh) {
+        const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+        aiString path;
+        if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) != aiReturn_SUCCESS &&
+            material.GetTexture(aiTextureType_DIFFUSE, 0, &path) != aiReturn_SUCCESS)
+            return -1;
+        const auto [entry, is_new] =
+            texture_at_.try_emplace(path.C_Str(), static_cast<int>(mesh_.textures.size()));
+        if (!is_new) return entry->second;
+        std::string relative = path.C_Str();
+        std::replace(relative.begin(), relative.end(), '\\', '/');
+        geom::Texture texture{std::filesystem::path(name_).parent_path() / relative,
+                              name_ + ":material \"" + material.GetName().C_Str() + "\"",
+                              {}};
+        // Of height 0: the bytes of a picture's file
+        if (const aiTexture* inside = scene_.GetEmbeddedTexture(path.C_Str());
+            inside && inside->mHeight == 0) {
+            const auto* bytes = reinterpret_cast<const std::uint8_t*>(inside->pcData);
+            texture.embedded.assign(bytes, bytes + inside->mWidth);
+        }
+        mesh_.textures.push_back(std::move(texture));
+        return entry->second;
     }
 
     int new_group(const aiNode& node, const std::vector<const aiMesh*>& meshes, std::size_t m) {
@@ -196,6 +225,7 @@ class SceneReader {
     std::vector<Vec2> texcoords_;
     bool any_texcoord_ = false;
     std::set<std::string> names_;
+    std::map<std::string, int> texture_at_;
 };
 
 }  // namespace

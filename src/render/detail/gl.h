@@ -22,6 +22,7 @@ namespace risorius::render {
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus) \
     X(PFNGLCLEARPROC, glClear) \
     X(PFNGLCLEARCOLORPROC, glClearColor) \
+    X(PFNGLCOLORMASKPROC, glColorMask) \
     X(PFNGLCOMPILESHADERPROC, glCompileShader) \
     X(PFNGLCREATEPROGRAMPROC, glCreateProgram) \
     X(PFNGLCREATESHADERPROC, glCreateShader) \
@@ -37,6 +38,7 @@ namespace risorius::render {
     X(PFNGLDRAWARRAYSPROC, glDrawArrays) \
     X(PFNGLDRAWBUFFERPROC, glDrawBuffer) \
     X(PFNGLDRAWELEMENTSPROC, glDrawElements) \
+    X(PFNGLDRAWELEMENTSINSTANCEDPROC, glDrawElementsInstanced) \
     X(PFNGLENABLEPROC, glEnable) \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, glEnableVertexAttribArray) \
     X(PFNGLFINISHPROC, glFinish) \
@@ -62,6 +64,7 @@ namespace risorius::render {
     X(PFNGLREADPIXELSPROC, glReadPixels) \
     X(PFNGLRENDERBUFFERSTORAGEPROC, glRenderbufferStorage) \
     X(PFNGLSHADERSOURCEPROC, glShaderSource) \
+    X(PFNGLTEXBUFFERPROC, glTexBuffer) \
     X(PFNGLTEXPARAMETERIPROC, glTexParameteri) \
     X(PFNGLTEXSTORAGE2DPROC, glTexStorage2D) \
     X(PFNGLTEXSTORAGE3DPROC, glTexStorage3D) \

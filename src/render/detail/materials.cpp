@@ -9,22 +9,22 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, Materials::Skin skin, bool folds) {
+std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool own) {
     switch (material) {
         case Material::kSkin:
             return skin == Materials::Skin::kVeil    ? veil_shader(folds)
                    : skin == Materials::Skin::kLayer ? skin_layer_shader(folds)
                                                      : skin_shader(folds);
         case Material::kEye:
-            return eye_shader();
+            return eye_shader(own);
         case Material::kCornea:
             return cornea_shader();
         case Material::kTeeth:
-            return teeth_shader();
+            return teeth_shader(own);
         case Material::kGums:
         case Material::kTongue:
         case Material::kMouth:
-            return mucosa_shader();
+            return mucosa_shader(material == Material::kTongue, own);
         case Material::kLashes:
             return lash_shader();
         case Material::kMatte:
@@ -106,12 +106,12 @@ Mat3 eye_axes(const Eye& eye) {
 
 }  // namespace
 
-std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material,
+std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material, bool own,
                                                    bool folds, Skin how,
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
     auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
-                                               fragment_shader(material, how, folds));
+                                               fragment_shader(material, how, folds, own));
     program->use();
     if (muscles && material == Material::kSkin) {
         muscles->tell(*program);
@@ -140,7 +140,6 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
     if (material == Material::kMouth) set(program->location("albedo"), kMouth);
     if (material == Material::kLashes)
         set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
-    glUniform1f(program->location("bumps"), material == Material::kTongue ? 0.55F : 0.12F);
     return program;
 }
 
@@ -150,12 +149,13 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
-        if (!programs_.contains(batch.material))
-            programs_.emplace(batch.material,
-                              make_program(scene, batch.material, false, skin, muscles));
+        const bool own = batch.texture >= 0;
+        if (!programs_.contains({batch.material, own}))
+            programs_.emplace(std::pair(batch.material, own),
+                              make_program(scene, batch.material, own, false, skin, muscles));
     }
     if (scene.fold_phase.rows() > 0)
-        folded_skin_ = make_program(scene, Material::kSkin, true, skin, muscles);
+        folded_skin_ = make_program(scene, Material::kSkin, false, true, skin, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
     for (std::size_t side = 0; side < 2; ++side) {
@@ -203,7 +203,7 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 }
 
 void Materials::draw_skin(const Batch& batch, const SceneBuffers& buffers) const {
-    programs_.at(Material::kSkin)->use();
+    programs_.at({Material::kSkin, false})->use();
     buffers.draw_smooth(batch);
     if (!buffers.has_wrinkled(batch)) return;
     folded_skin_->use();
@@ -218,9 +218,10 @@ void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& mark
         values_->use();
         return;
     }
-    const GlProgram& program = *programs_.at(batch.material);
+    const GlProgram& program = *programs_.at({batch.material, batch.texture >= 0});
     program.use();
-    if (batch.material == Material::kEye) set_eye(program, batch.eye, pose, marks);
+    if (batch.material == Material::kEye || batch.material == Material::kCornea)
+        set_eye(program, batch.eye, pose, marks);
     if (batch.material == Material::kCornea) {
         glEnable(GL_BLEND);
         glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);

@@ -31,12 +31,14 @@ class Materials {
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 
   private:
-    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool folds,
-                                            Skin skin, const MuscleLayer* muscles) const;
+    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool own,
+                                            bool folds, Skin skin,
+                                            const MuscleLayer* muscles) const;
     void set_eye(const GlProgram& program, int side, const Pose& pose,
                  const PosedMarks& marks) const;
 
-    std::map<Material, std::unique_ptr<GlProgram>> programs_;
+    std::map<std::pair<Material, bool>, std::unique_ptr<GlProgram>>
+        programs_;                               ///< of generated or own colours
     std::unique_ptr<GlProgram> folded_skin_;     ///< when the scene has folds
     mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
     std::array<Eye, 2> eyes_;

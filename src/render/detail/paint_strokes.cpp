@@ -57,84 +57,41 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
     }
 }
 
-/// Cells of the map that ears cover.
-class EarMask {
-  public:
-    EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
-            const std::vector<unsigned>& skin)
-        : covered_(kSide * kSide, false) {
-        constexpr int kSteps = 6;
-        for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
-            Vec3 corner[3];
-            bool ear = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
-                ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
-            }
-            if (!ear) continue;
-            for (int a = 0; a <= kSteps; ++a)
-                for (int b = 0; a + b <= kSteps; ++b)
-                    covered_[cell(paint_place(
-                        (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
-                        centre))] = true;
-        }
-    }
-    bool at(const Vec2& place) const { return covered_[cell(place)]; }
-
-  private:
-    static constexpr std::size_t kSide = 256;
-    static std::size_t cell(const Vec2& place) {
-        const auto along = [](double x) {
-            return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
-        };
-        return along(place.y()) * kSide + along(place.x());
-    }
-    std::vector<bool> covered_;
-};
-
 /// Cropped hair beyond the hairline, lying away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            StrokeRandom& random, StrokePad& pad) {
     if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
-    constexpr int kHairs = 90000;
+    // Evenly spread by the sequence of the plastic number (Roberts 2018): chance alone leaves bald spots and clots.
+    constexpr int kHairs = 170000;
+    constexpr double kPlastic = 1.32471795724474602596;
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
     const auto crown = scene.landmarks.find("v");
     const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
     const Vec2 whorl = paint_place(top + Vec3(0.008, 0, -0.03), centre);
     for (int i = 0; i < kHairs; ++i) {
-        const double radius = 0.5 * std::sqrt(random.next());
-        const double turn = 2 * std::numbers::pi * random.next();
+        const double u = (i + 0.5) / kPlastic, v = (i + 0.5) / (kPlastic * kPlastic);
+        const double radius = 0.5 * std::sqrt(u - std::floor(u));
+        const double turn = 2 * std::numbers::pi * (v - std::floor(v));
         const double keep = random.next(), length_draw = random.next(), bend = random.next(),
                      shade = random.next();
         const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
-        const double inside = (radius - hairline_radius(plan, root)) / 0.030;
-        if (keep > std::clamp(inside + 0.25, 0.0, 1.0)) continue;
+        // The line itself is ragged, and thins out over a centimetre.
+        const double inside = (radius - hairline_radius(plan, root)) / 0.034;
+        const double thick = std::clamp(inside + 0.22, 0.0, 1.0);
+        if (keep > thick * thick * (3 - 2 * thick)) continue;
         Vec2 away = root - whorl;
         const double distance = away.norm();
         away = distance > 1e-4 ? Vec2(away / distance) : Vec2(0, 1);
         const double angle = (bend - 0.5) * 0.8;
         const Vec2 direction(std::cos(angle) * away.x() - std::sin(angle) * away.y(),
                              std::sin(angle) * away.x() + std::cos(angle) * away.y());
-        const double length = 0.0018 + 0.0020 * length_draw;
+        const double length = 0.0014 + 0.0016 * length_draw;
         if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
-        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00017,
-                hair * (0.6 + 0.8 * shade),
-                scene.look.scalp_hair * (0.60 + 0.4 * keep) * std::clamp(0.35 + inside, 0.0, 1.0));
+        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
+                hair * (0.65 + 0.6 * shade),
+                std::min(1.0, 1.3 * scene.look.scalp_hair) * (0.45 + 0.45 * length_draw) *
+                    std::clamp(0.35 + inside, 0.0, 1.0));
     }
-}
-
-/// Within the red of the lips or half a millimetre from it.
-bool inside_lips(const SkinPlan& plan, const Vec3& p) {
-    bool inside = false;
-    const std::vector<Vec3>& outline = plan.lip_outline;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
-        if ((a.y() > p.y()) != (b.y() > p.y()) &&
-            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-            inside = !inside;
-    }
-    return inside && p.z() > plan.lip_back_m;
 }
 
 /// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
@@ -189,29 +146,72 @@ void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, St
 
 }  // namespace
 
+EarMask::EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                 const std::vector<unsigned>& skin)
+    : covered_(kSide * kSide, false) {
+    constexpr int kSteps = 6;
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+        Vec3 corner[3];
+        bool ear = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
+            ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
+        }
+        if (!ear) continue;
+        for (int a = 0; a <= kSteps; ++a)
+            for (int b = 0; a + b <= kSteps; ++b)
+                covered_[cell(paint_place(
+                    (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
+                    centre))] = true;
+    }
+}
+
+std::size_t EarMask::cell(const Vec2& place) {
+    const auto along = [](double x) {
+        return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
+    };
+    return along(place.y()) * kSide + along(place.x());
+}
+
+bool inside_lips(const SkinPlan& plan, const Vec3& p) {
+    bool inside = false;
+    const std::vector<Vec3>& outline = plan.lip_outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+            inside = !inside;
+    }
+    return inside && p.z() > plan.lip_back_m;
+}
+
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, StrokeRandom& random) {
     const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
     const std::size_t end = line.size() - 1;
     const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
-    const double t = std::pow(random.next(), 0.85);
+    // Dense over the first two thirds, then ever sparser: the tail ends in single hairs.
+    const double draw = std::pow(random.next(), 0.85);
+    const double t = draw < 0.62 ? draw : draw - 0.40 * (draw - 0.62) * random.next();
     const double at = t * static_cast<double>(end);
     const auto k = std::min(static_cast<std::size_t>(at), end - 1);
     const Vec2 axis = (map(k + 1) - map(k)).normalized();
     const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
     // Full in the middle, thin at the tail, ragged at the head
     const double half_band =
-        0.0050 * (0.50 + 0.50 * std::min(1.0, t / 0.22)) * (1.0 - 0.74 * std::pow(t, 1.6));
+        0.0050 * (0.50 + 0.50 * std::min(1.0, t / 0.22)) * (1.0 - 0.58 * std::pow(t, 1.6));
     const double offset = random.next() + random.next() - 1.0;
     BrowHair hair;
     hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
                 kMapPerMetre * (offset * half_band - 0.0006) * up;
     const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
-                        42.0 * offset * std::min(1.0, t / 0.3) + 24.0 * (random.next() - 0.5);
+                        42.0 * offset * std::min(1.0, t / 0.3) +
+                        (24.0 + 18.0 * t) * (random.next() - 0.5);
     const double angle = lean * std::numbers::pi / 180;
-    hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.35 * t);
+    hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.42 * t);
     hair.step =
         0.4 * kMapPerMetre * hair.length_m * (std::cos(angle) * axis + std::sin(angle) * up);
-    hair.density = std::min(1.0, 0.35 + t / 0.22);
+    hair.density = std::min(1.0, 0.35 + t / 0.22) * (1.0 - 0.75 * std::pow(t, 3));
     return hair;
 }
 

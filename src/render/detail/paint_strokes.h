@@ -28,6 +28,22 @@ struct BrowHair {
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
                         StrokeRandom& random);
 
+/// Cells of the map that ears cover.
+class EarMask {
+  public:
+    EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+            const std::vector<unsigned>& skin);
+    bool at(const Vec2& place) const { return covered_[cell(place)]; }
+
+  private:
+    static constexpr std::size_t kSide = 256;
+    static std::size_t cell(const Vec2& place);
+    std::vector<bool> covered_;
+};
+
+/// Within the red of the lips or half a millimetre from it.
+bool inside_lips(const SkinPlan& plan, const Vec3& p);
+
 struct StrokeVertex {
     float place[2];  ///< on the map
     float local[2];  ///< along 0..1 from the root, across -1..1

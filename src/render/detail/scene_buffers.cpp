@@ -52,30 +52,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     : smooth_(scene.rest, triangle_lists(scene)) {
     // Batches: near triangles first, so that hidden ones fail the depth test before they are shaded.
     for (const Material material : kDrawOrder)
-        for (const int eye : {-1, 0, 1}) {
-            std::vector<Face> faces;
-            for (const Surface& surface : scene.surfaces) {
-                const bool of_eye = material == Material::kEye || material == Material::kCornea;
-                if (surface.material != material || (of_eye ? std::max(surface.eye, 0) : -1) != eye)
-                    continue;
-                for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-                    faces.push_back({surface.triangles(f, 0), surface.triangles(f, 1),
-                                     surface.triangles(f, 2)});
-            }
-            if (faces.empty()) continue;
-            bool cull = false;
-            if (material == Material::kSkin) {
-                cull = is_wound_outwards(scene.rest, faces, paint_centre);
-            } else if (material == Material::kEye || material == Material::kTeeth) {
-                wind_outwards(scene.rest, faces);
-                cull = true;
-            }
-            order_for_drawing(scene.rest, camera, faces);
-            batches_.push_back({material, eye, static_cast<int>(indices_.size()),
-                                static_cast<int>(3 * faces.size()), cull});
-            for (const Face& face : faces)
-                for (const int v : face) indices_.push_back(static_cast<unsigned>(v));
-        }
+        for (const int eye : {-1, 0, 1})
+            for (int texture = -1; texture < static_cast<int>(scene.textures.size()); ++texture)
+                add_batch(scene, material, eye, texture, camera, paint_centre);
     index_count_ = static_cast<int>(indices_.size());
 
     const auto vertices = static_cast<std::size_t>(scene.rest.rows());
@@ -122,6 +101,33 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     upload(scene.rest);
     attribute(kPosition, 3, 6, 0);
     attribute(kNormal, 3, 6, 3);
+}
+
+void SceneBuffers::add_batch(const Scene& scene, Material material, int eye, int texture,
+                             const Vec3& camera, const Vec3& paint_centre) {
+    std::vector<Face> faces;
+    const bool of_eye = material == Material::kEye || material == Material::kCornea;
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != material || (of_eye ? std::max(surface.eye, 0) : -1) != eye ||
+            (material == Material::kSkin ? -1 : surface.texture) != texture)
+            continue;
+        for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
+            faces.push_back(
+                {surface.triangles(f, 0), surface.triangles(f, 1), surface.triangles(f, 2)});
+    }
+    if (faces.empty()) return;
+    bool cull = false;
+    if (material == Material::kSkin) {
+        cull = is_wound_outwards(scene.rest, faces, paint_centre);
+    } else if (material == Material::kEye || material == Material::kTeeth) {
+        wind_outwards(scene.rest, faces);
+        cull = true;
+    }
+    order_for_drawing(scene.rest, camera, faces);
+    batches_.push_back({material, eye, texture, static_cast<int>(indices_.size()),
+                        static_cast<int>(3 * faces.size()), cull});
+    for (const Face& face : faces)
+        for (const int v : face) indices_.push_back(static_cast<unsigned>(v));
 }
 
 SceneBuffers::~SceneBuffers() {
@@ -218,7 +224,8 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpos
         wrinkled_choice_.clear();
         for (int k = 0; k < batch.index_count; k += 3) {
             const unsigned* face = indices_.data() + batch.first_index + k;
-            if (!is_seen(face, batch.cull_back)) continue;
+            // Own colours are found by the number of the triangle in its batch.
+            if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
             const bool wrinkled =
                 apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
             std::vector<unsigned>& to = wrinkled ? wrinkled_choice_ : choice_;

@@ -17,6 +17,7 @@ namespace risorius::render {
 struct Batch {
     Material material;
     int eye;
+    int texture;  ///< of the scene, or -1; the skin has its own in its paint
     int first_index;
     int index_count;
     bool cull_back;  ///< counter-clockwise from outside, so what turns away is hidden
@@ -47,6 +48,7 @@ class SceneBuffers {
     bool has_wrinkled(const Batch& batch) const { return chosen_of(batch).wrinkled > 0; }
 
     const std::vector<Batch>& batches() const { return batches_; }
+    const std::vector<unsigned>& indices() const { return indices_; }
     int index_count() const { return index_count_; }
     int skin_index_count() const;
     const std::vector<float>& normals() const { return normals_; }
@@ -63,6 +65,8 @@ class SceneBuffers {
         return chosen_[purpose][static_cast<std::size_t>(&batch - batches_.data())];
     }
     void draw(const Batch& batch, Purpose purpose, int first, int count) const;
+    void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
+                   const Vec3& paint_centre);
 
     SmoothNormals smooth_;
     std::vector<Batch> batches_;

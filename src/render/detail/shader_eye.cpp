@@ -15,6 +15,17 @@ float window_light(vec3 back, vec3 l, float edge) {
     return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
 }
 
+// Normal in the frame of the eye at q from its centre: a cornea curves with 1.31 times the radius of its iris and goes over into
+// the ball. Meshes have no, little or a coarse bulge.
+vec3 cornea_normal(vec3 q, vec3 ball, float iris) {
+    vec2 c = q.xy / (1.31 * iris);
+    vec3 bulge = vec3(c, sqrt(max(1.0 - dot(c, c), 0.05)));
+    return normalize(mix(ball, bulge, q.z > 0.0 ? smoothstep(1.15, 0.90, length(q.xy) / iris) : 0.0));
+}
+
+// The furrow around the cornea is too narrow to show a lamp of its own.
+float off_furrow(float r) { return 1.0 - 0.9 * smoothstep(0.86, 0.94, r) * smoothstep(1.22, 1.12, r); }
+
 // What the tear film mirrors, where `open` of it sees the room.
 vec3 wet_gloss(vec3 n, vec3 v, float open) {
     vec3 back = reflect(-v, n);
@@ -60,6 +71,17 @@ float lid_shade(vec3 p) {
     return mix(1.0, (0.16 + 0.84 * upper) * (0.55 + 0.45 * lower) * (0.55 + 0.45 * corner), lids);
 }
 
+// Thin lines where a noise passes a height; they wander from the corners towards the iris, p in mm.
+float vein(vec3 p, float width) {
+    float a = noise(p * vec3(0.22, 0.75, 0.75) + 40.0 + 1.3 * noise(p * 0.8 + 60.0));
+    return smoothstep(width, 0.0, abs(a - 0.5));
+}
+float veins(vec3 p, float far) {
+    float thick = vein(p, 0.055) * smoothstep(0.25, 0.6, noise(p * 0.5 + 20.0));
+    float fine = vein(1.9 * p + 11.0, 0.075) * smoothstep(0.25, 0.6, noise(p * 0.7 + 80.0));
+    return 0.12 * fine + far * (0.65 * thick + 0.40 * fine);
+}
+
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
@@ -67,11 +89,7 @@ void main() {
     vec3 hit = q;
     vec3 wet = n;   // normal of the tear film
     if (!separate_cornea) {
-        // Scans have little or no corneal bulge; a cornea curves with 1.31 times the radius of its iris.
-        vec2 c = q.xy / (1.31 * iris_radius);
-        vec3 bulge = vec3(c, sqrt(max(1.0 - dot(c, c), 0.05)));
-        float on_cornea = q.z > 0.0 ? smoothstep(1.15, 0.90, length(q.xy) / iris_radius) : 0.0;
-        vec3 local = normalize(mix(eye_from_world * n, bulge, on_cornea));
+        vec3 local = cornea_normal(q, eye_from_world * n, iris_radius);
         wet = local * eye_from_world;
         vec3 d = refract(-(eye_from_world * v), local, 1.0 / 1.336);
         float depth = max(q.z - iris_depth, 0.0) / max(-d.z, 0.2);
@@ -81,13 +99,13 @@ void main() {
     float r = length(hit.xy) / iris_radius;
     bool ahead = q.z > 0.0;
 
-    // Sclera: warm white, redder and veined towards the corners
-    vec3 white = vec3(0.70, 0.655, 0.61);
-    vec2 w = q.xy * 900.0;
-    float ridge = 1.0 - abs(2.0 * noise(vec3(w * vec2(0.35, 1.1) + 40.0 + 1.5 * noise(vec3(w * 0.6 + 60.0, 3.0)), 7.0)) - 1.0);
-    float far = smoothstep(1.15, 2.1, surface_r);
-    white *= mix(vec3(1.0), vec3(0.93, 0.62, 0.57), far * smoothstep(0.90, 1.0, ridge) * 0.75);
-    white *= mix(vec3(1.0), vec3(0.95, 0.80, 0.76), far * 0.6);
+    // Sclera: warm white, veined and redder towards the corners, bluish where it thins out over the iris' edge
+    float far = smoothstep(1.10, 2.0, surface_r);
+    vec3 white = mix(vec3(0.82, 0.785, 0.745), vec3(0.78, 0.675, 0.62), far);
+    white *= mix(vec3(1.0), vec3(0.92, 0.46, 0.40), veins(q * 1000.0, far));
+    vec3 from_inner = position - lid_inner;
+    float caruncle = lids * exp(-dot(from_inner, from_inner) * 4.5e4);
+    white = mix(white, vec3(0.62, 0.30, 0.26), 0.9 * caruncle);
 
     // Iris: fibres, a warm collarette around the pupil, a dark limbal ring
     vec2 round_ = hit.xy / max(length(hit.xy), 1e-6);
@@ -98,15 +116,20 @@ void main() {
     vec3 iris = base * (0.22 + 0.75 * fibre);
     vec3 warm = vec3(0.24, 0.13, 0.045) * (0.5 + 0.9 * fibre);
     iris = mix(iris, warm, 0.55 * smoothstep(0.42, 0.08, ring + 0.25 * (fibre - 0.5)));
-    iris *= mix(1.0, 0.28, smoothstep(0.72, 1.0, r));
+    iris *= mix(1.0, 0.30, smoothstep(0.74, 0.98, r));
     iris *= smoothstep(-0.05, 0.16, ring) * 0.75 + 0.25;
-    // Light through the cornea gathers on the side away from it.
-    vec3 l = eye_from_world * key_direction.xyz;
-    float gathered = 1.0 - 0.55 * dot(round_, l.xy) * clamp(r, 0.0, 1.0);
+    // Light through the cornea gathers in a crescent on the side away from the lamp, the more the farther the lamp is aside.
+    vec2 l = (eye_from_world * key_direction.xyz).xy;
+    float away = -dot(round_, l) * r;
+    float gathered = 1.0 - 0.40 * length(l) + 1.5 * smoothstep(-0.15, 0.55, away) * smoothstep(1.02, 0.80, r) * length(l);
     vec3 inner = mix(vec3(0.004), iris * gathered, smoothstep(p - 0.05, p + 0.04, r));
-    float is_iris = ahead ? 1.0 - smoothstep(0.92, 1.06, r) : 0.0;
+    // The sclera reaches over the iris' rim and shows it through.
+    float is_iris = ahead ? 1.0 - smoothstep(0.90, 1.10, r) : 0.0;
     vec3 albedo = mix(white, inner, is_iris);
-    albedo *= mix(1.0, 0.80, smoothstep(1.25, 1.02, r) * (1.0 - is_iris));
+    albedo *= mix(vec3(1.0), vec3(0.70, 0.74, 0.78), ahead ? smoothstep(1.24, 1.02, r) * (1.0 - is_iris) : 0.0);
+
+    albedo = own_colour(rest, albedo);
+    if (kOwn) albedo *= mix(1.0, gathered, is_iris);
 
     float open = lid_shade(position);
     float s = key_visibility(position, n) * open;
@@ -117,19 +140,25 @@ void main() {
     vec3 c = albedo * light;
 
     // Wet surface: a window of the key, one of the fill, and the surroundings
-    if (!separate_cornea) c += wet_gloss(wet, v, open);
+    if (!separate_cornea) c += wet_gloss(wet, v, open * off_furrow(surface_r));
     colour = vec4(shown(c), 1.0);
 }
 )";
 
 constexpr const char* kCornea = R"(
 in vec3 position;
-in vec3 normal;
+in vec3 rest;
 out vec4 colour;
+uniform mat3 eye_from_rest;
+uniform mat3 eye_from_world;
+uniform vec3 centre;        // rest, m
+uniform float iris_radius;
 void main() {
-    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+    vec3 q = eye_from_rest * (rest - centre);
+    vec3 n = cornea_normal(q, normalize(q), iris_radius) * eye_from_world;
     vec3 v = normalize(camera.xyz - position);
-    vec3 gloss = wet_gloss(n, v, smoothstep(0.0, 0.4, key_visibility(position, n)));
+    vec3 gloss = wet_gloss(n, v, smoothstep(0.0, 0.4, key_visibility(position, n)) *
+                     (q.z > 0.0 ? off_furrow(length(q.xy) / iris_radius) : 1.0));
     // Premultiplied: clear glass adds its highlight and hides next to nothing.
     colour = vec4(shown(gloss), clamp(dot(gloss, vec3(0.3)), 0.0, 0.9));
 }
@@ -137,7 +166,9 @@ void main() {
 
 }  // namespace
 
-std::string eye_shader() { return lighting_chunk() + noise_chunk() + kWindow + kEye; }
+std::string eye_shader(bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kWindow + kEye;
+}
 std::string cornea_shader() { return lighting_chunk() + kWindow + kCornea; }
 
 }  // namespace risorius::render

@@ -23,6 +23,7 @@ void main() {
     vec3 k = key_direction.xyz;
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 enamel = vec3(0.62, 0.575, 0.49) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
+    enamel = own_colour(rest, enamel);
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
     vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.35, 0.32, 0.28)) + soft * tint;
@@ -32,21 +33,42 @@ void main() {
 }
 )";
 
+// The back of the tongue: a furrow in the middle, papillae of half a millimetre with redder ones among them, and a pale coat.
+constexpr const char* kTongueBack = R"(
+const float kWet = 1.8;
+vec3 back_of(vec3 n, vec3 tint, inout vec3 m) {
+    float above = smoothstep(0.1, 0.7, n.y);
+    float x = rest.x / 0.0030;
+    m.x -= 0.85 * above * x * exp(-x * x);
+    vec3 p = rest * 1900.0 + 700.0;
+    float papillae = noise(p);
+    m += above * 0.9 * (vec3(noise(p + 19.0), papillae, noise(p + 37.0)) - 0.5);
+    float red = smoothstep(0.80, 0.90, noise(rest * 620.0 + 90.0));
+    vec3 coat = mix(tint, vec3(0.50, 0.27, 0.24), above * 0.55 * papillae * (1.0 - red));
+    return coat * (1.0 - 0.45 * above * exp(-2.0 * x * x)) * (0.72 + 0.5 * papillae);
+}
+)";
+constexpr const char* kSmoothMucosa = R"(
+const float kWet = 1.0;
+vec3 back_of(vec3 n, vec3 tint, vec3 m) { return tint; }
+)";
+
 constexpr const char* kMucosa = R"(
 uniform vec3 albedo;      // linear
-uniform float bumps;      // amplitude of the papillae
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz;
     vec3 p = rest * 1400.0 + 500.0;
     float a = noise(p);
-    vec3 m = normalize(n + bumps * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5));
+    vec3 m = n + 0.12 * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5);
+    vec3 tint = back_of(n, own_colour(rest, albedo * (0.8 + 0.4 * a)), m);
+    m = normalize(m);
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 light = key_card.rgb * s * kept * scattered(dot(m, k), vec3(0.4, 0.2, 0.15)) + soft;
     vec3 gloss = key_card.rgb * s * min(glint(m, v, k, 0.26, 0.03), 1.2);
     gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(m, v), 0.0, 1.0), 0.26, 0.03) * mirrored(reflect(-v, m), 1.0);
-    colour = vec4(shown(albedo * (0.8 + 0.4 * a) * light + gloss), 1.0);
+    colour = vec4(shown(tint * light + kWet * gloss), 1.0);
 }
 )";
 
@@ -61,8 +83,13 @@ void main() {
 
 }  // namespace
 
-std::string teeth_shader() { return lighting_chunk() + noise_chunk() + kMouthInputs + kTeeth; }
-std::string mucosa_shader() { return lighting_chunk() + noise_chunk() + kMouthInputs + kMucosa; }
+std::string teeth_shader(bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs + kTeeth;
+}
+std::string mucosa_shader(bool tongue, bool own) {
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs +
+           (tongue ? kTongueBack : kSmoothMucosa) + kMucosa;
+}
 std::string matte_shader() { return lighting_chunk() + kMouthInputs + kMatte; }
 
 }  // namespace risorius::render

@@ -84,7 +84,7 @@ void main() {
 
     vec2 from_middle = place - 0.5;
     float r = length(from_middle);
-    float hair = smoothstep(-0.006, 0.034, r - hair_start(from_middle) + 0.010 * (noise(p * 0.35 + 3.0) - 0.5));
+    float hair = smoothstep(-0.010, 0.042, r - hair_start(from_middle) + 0.016 * (noise(p * 0.30 + 3.0) - 0.5) + 0.008 * (noise(p * 0.9 + 33.0) - 0.5));
     for (int i = 0; i < 2; ++i) {
         if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;
         vec3 from_top = ear_high[i].xyz - rest;
@@ -92,9 +92,9 @@ void main() {
         float bowl = smoothstep(0.010, 0.020, from_top.y) * smoothstep(0.034, 0.028, from_top.z) * smoothstep(0.0, 0.005, from_top.z);
         hair *= smoothstep(0.002, -0.001, out_of) * (1.0 - bowl);
     }
-    vec3 under_hair = mix(albedo, hair_tone, 0.85) * vec3(0.88, 0.90, 0.93);
+    vec3 under_hair = mix(albedo, hair_tone, 0.88) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
-    oil *= 1.0 - 0.85 * hair;
+    oil *= 1.0 - 0.97 * hair * min(1.0, 1.7 * scalp_hair);
 
     // Hair that is cut at the skin still darkens it.
     float shadow = 0.0;

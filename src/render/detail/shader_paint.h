@@ -7,6 +7,8 @@ namespace risorius::render {
 
 std::string paint_vertex_shader();
 std::string paint_fragment_shader();
+std::string own_skin_vertex_shader();  ///< of the mesh's own pictures, over the paint
+std::string own_skin_shader();
 std::string stroke_vertex_shader();
 std::string stroke_fragment_shader();
 

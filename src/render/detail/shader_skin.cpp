@@ -33,7 +33,8 @@ void main() {
 
     // The paint lies almost along world x and y on the face, which is frame enough for pores.
     // Lips have none, and towards the back the map is too stretched for them.
-    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, length(paint - 0.5)) + 0.08;
+    float aside = length(paint - 0.5);
+    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, aside) + 0.08 * smoothstep(0.38, 0.31, aside);
     vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
     vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
     vec3 m = n - slope.x * t - slope.y * cross(n, t);
@@ -52,7 +53,7 @@ void main() {
     vec3 diffuse = key * kept + soft * (open * turned);
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
-    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil)), told());
+    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }
 )";
 

@@ -30,7 +30,10 @@ enum TextureUnit {
     kMuscleDepthUnit = 4,
     kFibreUnit = 5,
     kMirrorUnit = 6,
-    kSkinLayerUnit = 7
+    kSkinLayerUnit = 7,
+    kOwnColourUnit = 8,
+    kOwnPlaceUnit = 9,
+    kHairLengthUnit = 10
 };
 enum VertexAttribute {
     kPosition = 0,
@@ -58,14 +61,20 @@ std::string values_vertex_shader();
 std::string values_shader();  ///< of the skin when it shows a quantity
 std::string muscle_vertex_shader();
 std::string muscle_shader();
-std::string eye_shader();
+// With `own` their colour is of the mesh's own picture.
+std::string eye_shader(bool own);
 std::string cornea_shader();
-std::string teeth_shader();
-std::string mucosa_shader();  ///< gums, tongue and the wall of the mouth
+std::string teeth_shader(bool own);
+std::string mucosa_shader(bool tongue,
+                          bool own);  ///< of gums and the wall of the mouth, or the tongue
 std::string matte_shader();
 std::string lash_shader();
 std::string strand_vertex_shader();
 std::string strand_shader();
+std::string shell_vertex_shader();
+std::string shell_shader();
+std::string tear_vertex_shader();
+std::string tear_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights
 std::string object_shader();
 
@@ -74,5 +83,6 @@ std::string frame_chunk();   ///< version, frame block
 std::string lights_chunk();  ///< after it: lamps and surroundings
 std::string lighting_chunk();  ///< both and the shadow
 std::string noise_chunk();
+std::string own_colour_chunk(bool own);  ///< own_colour(rest position, generated colour)
 
 }  // namespace risorius::render

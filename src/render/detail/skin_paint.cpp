@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/detail/gl_context.h"
+#include "render/detail/own_textures.h"
 #include "render/detail/paint_strokes.h"
 #include "render/detail/shader_paint.h"
 #include "render/detail/skin_plan.h"
@@ -111,8 +112,8 @@ int paint_side(double pixels_per_metre) {
     return side;
 }
 
-GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles,
-                  int side) {
+GLuint paint_skin(const Scene& scene, const OwnTextures& own, const Vec3& centre,
+                  const std::vector<unsigned>& triangles, int side) {
     GLuint map = 0, depth = 0, framebuffer = 0, elements = 0;
     glGenTextures(1, &map);
     glBindTexture(GL_TEXTURE_2D, map);
@@ -162,11 +163,14 @@ GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsi
         glDeleteBuffers(1, &elements);
     }
 
-    // Hair and freckles over it
+    // Hair and freckles over it, or the picture that shows them
+    if (has_own_skin(scene)) own.paint_skin(scene, centre, triangles);
     glDisable(GL_DEPTH_TEST);
-    draw_strokes(plan_strokes(scene, plan, centre, triangles));
+    if (!has_own_skin(scene)) draw_strokes(plan_strokes(scene, plan, centre, triangles));
     glEnable(GL_DEPTH_TEST);
 
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, map);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteRenderbuffers(1, &depth);

@@ -11,6 +11,8 @@
 
 namespace risorius::render {
 
+class OwnTextures;
+
 /// Place on the map, 0..1 each way.
 Vec2 paint_place(const Vec3& rest, const Vec3& centre);
 
@@ -23,8 +25,8 @@ int paint_side(double pixels_per_metre);
 
 /// Draws the map with the bound vertex array (attributes kRest and kPaintPlace) and these triangles.
 /// Returns a mip-mapped texture: square root of linear albedo, and oil in alpha. The context must be current.
-GLuint paint_skin(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& triangles,
-                  int side);
+GLuint paint_skin(const Scene& scene, const OwnTextures& own, const Vec3& centre,
+                  const std::vector<unsigned>& triangles, int side);
 
 /// A tile of pores: slopes of the surface around 0.5, repeating.
 GLuint make_pores(unsigned seed);

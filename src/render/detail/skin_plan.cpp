@@ -231,9 +231,9 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
             region.known = true;
             const double x = ear[2].x(), out = 0.06 * (x > 0 ? 1 : -1);
             region.low = {std::min(x, x + out) - 0.01, ear[1].y() - 0.006, ear[2].z() - 0.050};
-            region.high = {std::max(x, x + out) + 0.01, ear[0].y() + 0.006, ear[2].z() + 0.006};
+            region.high = {std::max(x, x + out) + 0.01, ear[0].y() + 0.008, ear[2].z() + 0.006};
             region.out_m = std::abs(x) + 0.002;
-            region.lean = 0.20;
+            region.lean = 0.13;
         }
         const std::vector<Vec3> brow = marks.all({"bm" + s, "bc" + s, "bp" + s, "bl" + s});
         if (!brow.empty()) plan.brows[side] = smooth_curve(brow, 12);

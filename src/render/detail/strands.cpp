@@ -143,9 +143,35 @@ class FrontOfEye {
     std::vector<Cell> cells_;
 };
 
+/// The corners of an eye, inner first.
+std::optional<std::array<Vec3, 2>> eye_corners(const Scene& scene, int eye) {
+    std::array<Vec3, 2> corner;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto mark =
+            scene.landmarks.find((k == 0 ? "en" : "ex") + std::string(eye == 0 ? "_l" : "_r"));
+        if (mark == scene.landmarks.end()) return std::nullopt;
+        corner[k] = mark->second;
+    }
+    if (std::abs((corner[1] - corner[0]).x()) < 0.005) return std::nullopt;
+    return corner;
+}
+
+FrontOfEye front_between(const Scene& scene, int eye, const std::array<Vec3, 2>& corner) {
+    constexpr double kHeight_m = 0.016;
+    return {scene,
+            eye,
+            {std::min(corner[0].x(), corner[1].x()),
+             std::min(corner[0].y(), corner[1].y()) - kHeight_m},
+            {std::max(corner[0].x(), corner[1].x()),
+             std::max(corner[0].y(), corner[1].y()) + kHeight_m}};
+}
+
+constexpr double kOntoLid_m = 0.0003;  ///< roots of lashes
+
 /// The end of a lid in one column: up (or down) from the eye to the first skin, and a little onto it.
-std::optional<SkinPlace> lid_end(const FrontOfEye& front, const Vec2& middle, double up) {
-    constexpr double kSearch_m = 0.007, kOnto_m = 0.0003;
+std::optional<SkinPlace> lid_end(const FrontOfEye& front, const Vec2& middle, double up,
+                                 double onto_m = kOntoLid_m) {
+    constexpr double kSearch_m = 0.007;
     // The middle line may lie on a lid: the eye is then a little above or below.
     double start = 0;
     bool found = false;
@@ -163,7 +189,7 @@ std::optional<SkinPlace> lid_end(const FrontOfEye& front, const Vec2& middle, do
         const FrontOfEye::Cell* cell = front.at(middle + Vec2(0, start + up * off));
         if (!cell) return std::nullopt;
         if (cell->eye) continue;
-        const FrontOfEye::Cell* onto = front.at(middle + Vec2(0, start + up * (off + kOnto_m)));
+        const FrontOfEye::Cell* onto = front.at(middle + Vec2(0, start + up * (off + onto_m)));
         return onto && !onto->eye ? onto->place : cell->place;
     }
     return std::nullopt;
@@ -220,7 +246,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
             if (!root || !ahead) continue;
             Strand strand;
             strand.root = *root;
-            strand.width_m = 0.000085 + 0.00003 * random.next();
+            strand.width_m = (0.000085 + 0.00003 * random.next()) * (0.45 + 0.55 * hair.density);
             strand.shade = shade;
             const Mat3 frame = skin_frame(*root, scene.rest);
             Vec3 along = (ahead->on(scene.rest) - root->on(scene.rest)).normalized();
@@ -241,32 +267,22 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
 
 std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
     std::vector<Strand> strands;
-    const std::string side = eye == 0 ? "_l" : "_r";
-    std::array<Vec3, 2> corner;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const auto mark = scene.landmarks.find((k == 0 ? "en" : "ex") + side);
-        if (mark == scene.landmarks.end()) return strands;
-        corner[k] = mark->second;
-    }
-    const Vec3 across = corner[1] - corner[0];
-    if (std::abs(across.x()) < 0.005) return strands;
-    const double height = 0.016;
-    const FrontOfEye front(
-        scene, eye,
-        {std::min(corner[0].x(), corner[1].x()), std::min(corner[0].y(), corner[1].y()) - height},
-        {std::max(corner[0].x(), corner[1].x()), std::max(corner[0].y(), corner[1].y()) + height});
+    const auto corner = eye_corners(scene, eye);
+    if (!corner) return strands;
+    const Vec3 across = (*corner)[1] - (*corner)[0];
+    const FrontOfEye front = front_between(scene, eye, *corner);
 
     for (const bool upper : {true, false}) {
         StrokeRandom random(scene.look.seed * 131U + (upper ? 1U : 2U));  // eyes mirror each other
         // Some ninety and fifty lashes, none near the inner corner (textbooks: 90-160 and 75-80 in several rows)
-        const int count = upper ? 112 : 62;
+        const int count = upper ? 126 : 66;
         const double first = upper ? 0.12 : 0.22, last = 0.985;
         double tuft = 0;
         for (int i = 0; i < count; ++i) {
             if (i % 4 == 0) tuft = 0.30 * (random.next() - 0.5);
             const double s = first + (last - first) * (i + 0.2 + 0.6 * random.next()) / count;
             const double jitter = random.next(), long_ = random.next(), shade = random.next();
-            const Vec2 middle = (corner[0] + s * across).head<2>();
+            const Vec2 middle = ((*corner)[0] + s * across).head<2>();
             const auto root = lid_end(front, middle, upper ? 1 : -1);
             if (!root) continue;
             Strand strand;
@@ -278,12 +294,26 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
             const double aside =
                 1.15 * (s - 0.46) + tuft * (0.6 - 0.3 * (i % 4)) + 0.12 * (jitter - 0.5);
             strand.offset = lash_shape(length * (0.72 + 0.28 * long_), aside, upper);
-            strand.width_m = upper ? 0.00012 : 0.00008;
+            strand.width_m = upper ? 0.00015 : 0.00009;
             strand.shade = 0.20 + 0.2 * shade;
             strands.push_back(strand);
         }
     }
     return strands;
+}
+
+std::vector<SkinPlace> plan_tear_line(const Scene& scene, int eye) {
+    constexpr int kColumns = 40;
+    std::vector<SkinPlace> places;
+    const auto corner = eye_corners(scene, eye);
+    if (!corner) return places;
+    const FrontOfEye front = front_between(scene, eye, *corner);
+    for (int i = 0; i <= kColumns; ++i) {
+        const double s = 0.05 + 0.92 * i / kColumns;
+        const Vec2 middle = ((1 - s) * (*corner)[0] + s * (*corner)[1]).head<2>();
+        if (const auto end = lid_end(front, middle, -1, 0)) places.push_back(*end);
+    }
+    return places;
 }
 
 }  // namespace risorius::render

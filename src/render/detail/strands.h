@@ -47,4 +47,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
 /// Lashes of one eye along the ends of its lids as they are seen from the front; none when the eye is shut or not marked.
 std::vector<Strand> plan_lashes(const Scene& scene, int eye);
 
+/// Where the lower lid meets the eye, from the inner to the outer corner; none when the eye is shut or not marked.
+std::vector<SkinPlace> plan_tear_line(const Scene& scene, int eye);
+
 }  // namespace risorius::render

@@ -1,0 +1,34 @@
+// The tears that stand along the lower lids: a concave line of water between lid and eye, which mirrors the lamps.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/detail/gl_context.h"
+#include "render/detail/posed_marks.h"
+#include "render/detail/strands.h"
+
+namespace risorius::render {
+
+class TearLayer {
+  public:
+    /// Without lids that can be found nothing is drawn. The context must be current.
+    explicit TearLayer(const Scene& scene);
+    ~TearLayer();
+    TearLayer(const TearLayer&) = delete;
+    TearLayer& operator=(const TearLayer&) = delete;
+
+    void upload(const Pose& pose, const PosedMarks& marks);
+    /// Adds its light to what is there; binds a vertex array of its own.
+    void draw() const;
+
+  private:
+    std::array<std::vector<SkinPlace>, 2> lines_;  ///< of the left and the right eye
+    std::array<Eye, 2> eyes_;
+    GlProgram program_;
+    std::vector<float> vertices_;
+    GLuint array_ = 0, buffer_ = 0, elements_ = 0;
+    int index_count_ = 0;
+};
+
+}  // namespace risorius::render
