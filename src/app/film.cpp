@@ -15,6 +15,7 @@
 #include "app/stopwatch.h"
 #include "app/three_stages.h"
 #include "media/sha256.h"
+#include "render/gl_choice.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
 #include "track/simulated_emg.h"
@@ -71,6 +72,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.background = shot.background_text();
     record.quality = quality_of(options);
     record.antialiasing = shot.view.supersampling;
+    record.graphics = render::gl_in_use();
     record.jaw = script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
     record.nodes = face.node_count();
     record.tets = face.tet_count();

@@ -58,6 +58,7 @@ Json RunRecord::json() const {
     json["background"] = background;
     json["shutter"] = {{"open_deg", shutter_deg}, {"moments", shutter_moments}};
     json["colour"] = "sRGB values, tagged BT.709 in video files";
+    json["graphics"] = graphics;
     json["quality"] = quality;
     json["antialiasing"] = antialiasing;
     json["jaw"] = {{"moved_by", jaw},

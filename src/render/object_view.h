@@ -1,4 +1,4 @@
-// Draws deformed objects off-screen (OSMesa) as figures in papers show them: a transparent shaded surface, its grid as
+// Draws deformed objects off-screen as figures in papers show them: a transparent shaded surface, its grid as
 // wires that pale with distance, nodes that are held as balls. White background, z up, a
 // three-quarter view in mild perspective, framed so that every vertex is inside.
 //

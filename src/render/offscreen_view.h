@@ -1,4 +1,4 @@
-// Draws a scene off-screen (OSMesa) into images: linear light, shadow, antialiasing, one shader program per material.
+// Draws a scene off-screen into images: linear light, shadow, antialiasing, one shader program per material.
 //
 // Deterministic: the same scene, pose and options give the same bytes, for any number of threads.
 #pragma once

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "render/gl_choice.h"
 #include "render/round_head.h"
 
 namespace risorius::render {
@@ -56,7 +57,8 @@ std::string message_of(const Call& call) {
 }
 
 /// The fingerprint drawn by a fresh process, in which the driver has made no choice of threads yet.
-std::uint64_t fingerprint_of_a_fresh_process(int threads) {
+/// 0 where the back end has no context, 1 where it is a graphics processor's.
+std::uint64_t fingerprint_of_a_fresh_process(int threads, const char* gl = "osmesa") {
     int ends[2];
     if (pipe(ends) != 0) return 0;
     const pid_t child = fork();
@@ -64,7 +66,13 @@ std::uint64_t fingerprint_of_a_fresh_process(int threads) {
         const RoundHead head;
         ViewOptions options = small();
         options.threads = threads;
-        const std::uint64_t hash = fingerprint(OffscreenView(head.scene, options).draw(head.pose));
+        choose_gl(gl, "test");
+        std::uint64_t hash = 0;
+        try {
+            hash = fingerprint(OffscreenView(head.scene, options).draw(head.pose));
+            if (gl_in_use().find("llvmpipe") == std::string::npos) hash = 1;
+        } catch (const RunError&) {
+        }
         const bool written = write(ends[1], &hash, sizeof hash) == sizeof hash;
         _exit(written ? 0 : 1);
     }
@@ -83,6 +91,20 @@ TEST(OffscreenView, APictureIsTheSameForEveryRunAndNumberOfThreads) {
     EXPECT_EQ(fingerprint_of_a_fresh_process(0), alone);
     EXPECT_EQ(fingerprint_of_a_fresh_process(1), alone);
     EXPECT_EQ(fingerprint_of_a_fresh_process(2), alone);
+}
+
+TEST(OffscreenView, EglWithoutAGraphicsProcessorDrawsTheSameAsOsmesa) {
+    const std::uint64_t in_memory = fingerprint_of_a_fresh_process(0);
+    const std::uint64_t by_egl = fingerprint_of_a_fresh_process(0, "egl");
+    if (by_egl <= 1) GTEST_SKIP() << "no EGL, or one with a graphics processor";
+    EXPECT_EQ(by_egl, in_memory);
+    EXPECT_EQ(fingerprint_of_a_fresh_process(2, "egl"), in_memory);
+}
+
+TEST(OffscreenView, AnUnknownWayToDrawIsNamed) {
+    EXPECT_EQ(message_of([] { choose_gl("eql", "--gl"); }),
+              "--gl: expected one of \"auto\", \"osmesa\", \"egl\" (did you mean \"egl\"?), "
+              "found \"eql\"");
 }
 
 TEST(OffscreenView, AFrameDoesNotDependOnTheFramesBefore) {

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "render/gl_choice.h"
 
 namespace risorius::cli {
 
@@ -79,6 +80,14 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
         "--draft", options.draft,
         "Quickly, to look at: --quality preview, --antialiasing 1 and --preset veryfast "
         "unless given");
+    command
+        .add_option_function<std::string>(
+            "--gl", [](const std::string& name) { render::choose_gl(name, "--gl"); },
+            "What draws: osmesa, in memory; egl, where there is EGL; auto, EGL where it has a "
+            "graphics "
+            "processor, or else OSMesa. The environment's RISORIUS_GL does the same for all "
+            "commands")
+        ->type_name("NAME");
     command
         .add_option(
             "--threads", options.threads,

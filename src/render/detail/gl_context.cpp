@@ -4,11 +4,10 @@
 #include <mutex>
 
 #include "core/error.h"
+#include "render/detail/gl_backend.h"
 
 namespace risorius::render {
 namespace {
-
-constexpr int kWindowSide = 16;
 
 std::mutex& creation_mutex() {
     static std::mutex mutex;
@@ -33,35 +32,25 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 
 }  // namespace
 
-GlContext::GlContext(int threads, const GlContext* shared)
-    : window_(kWindowSide * kWindowSide * 4) {
+GlContext::GlContext(int threads, const GlContext* shared) {
     // The driver reads its thread count from the environment when its one screen is made.
     const std::lock_guard<std::mutex> lock(creation_mutex());
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-    const int attributes[] = {OSMESA_FORMAT,
-                              OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              0,
-                              OSMESA_PROFILE,
-                              OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION,
-                              4,
-                              OSMESA_CONTEXT_MINOR_VERSION,
-                              5,
-                              0};
-    context_ = OSMesaCreateContextAttribs(attributes, shared ? shared->context_ : nullptr);
-    if (!context_) throw RunError("no OpenGL 4.5 context (OSMesa)");
+    GlBackend& backend = gl_backend();
+    context_ = backend.make_context(shared ? shared->context_ : nullptr);
+    if (!context_) throw RunError(std::string("no OpenGL 4.5 context (") + backend.name() + ")");
+    const Current current(*this);
+    note_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
 }
 
-GlContext::~GlContext() { OSMesaDestroyContext(context_); }
+GlContext::~GlContext() { gl_backend().destroy(context_); }
 
 GlContext::Current::Current(GlContext& context) {
-    if (!OSMesaMakeCurrent(context.context_, context.window_.data(), GL_UNSIGNED_BYTE, kWindowSide,
-                           kWindowSide))
+    if (!gl_backend().make_current(context.context_))
         throw RunError("the OpenGL context cannot be bound to this thread");
 }
 
-GlContext::Current::~Current() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+GlContext::Current::~Current() { gl_backend().make_current(nullptr); }
 
 GlProgram::GlProgram(const std::string& name, const std::string& vertex,
                      const std::string& fragment) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "render/detail/gl.h"
 
@@ -27,8 +26,7 @@ class GlContext {
     };
 
   private:
-    OSMesaContext context_ = nullptr;
-    std::vector<unsigned char> window_;  ///< OSMesa insists on a window; nothing is drawn there
+    void* context_ = nullptr;  ///< of gl_backend()
 };
 
 /// Compiles and links; throws RunError with the compiler's words. An empty fragment source draws depth only.
