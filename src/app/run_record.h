@@ -46,7 +46,7 @@ struct RunRecord {
     std::optional<double> scale_to;  ///< where the colours of strain (ratio) or error (mm) end
     double shutter_deg = 0;
     int shutter_moments = 1;  ///< averaged in a frame
-    std::string graphics;  ///< render::gl_in_use()
+    std::string graphics;     ///< render::gl_in_use()
     std::string quality;
     int antialiasing = 2;        ///< samples per pixel and side
     std::string jaw;             ///< what moves it

@@ -100,6 +100,7 @@ struct Baked {
     std::optional<SkyAboutEyes> sky_about_eyes;
     std::vector<Strand> hair;
     bool mesh_lashes = true;
+    std::unique_ptr<OwnTextures> own;
     GLuint paint_map = 0, pore_map = 0;
     ~Baked() {  // in the context of the last view
         glDeleteTextures(1, &paint_map);
@@ -137,7 +138,6 @@ struct OffscreenView::Impl {
                 picture.tile_width_samples(), picture.tile_height_samples());
         buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre);
 
-        own = std::make_unique<OwnTextures>(scene, *buffers);
         baked = first ? first->baked : bake(scene, centre);
         sky_about_eyes = baked->sky_about_eyes;
         buffers->set_occlusion(baked->sky, baked->inside);
@@ -192,8 +192,9 @@ struct OffscreenView::Impl {
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
-        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *own, centre,
-                                    buffers->paintable_triangles(out->inside),
+        out->own = std::make_unique<OwnTextures>(scene, *buffers);
+        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *out->own,
+                                    centre, buffers->paintable_triangles(out->inside),
                                     paint_side(options.height_px / camera.frame_height_m));
         out->pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre, *out);
@@ -227,7 +228,6 @@ struct OffscreenView::Impl {
         tears.reset();
         shells.reset();
         muscles.reset();
-        own.reset();
         buffers.reset();
     }
 
@@ -267,7 +267,7 @@ struct OffscreenView::Impl {
                 materials->draw_skin(batch, *buffers);
             } else {
                 materials->use(batch, pose, marks);
-                own->bind(batch);
+                baked->own->bind(batch);
                 buffers->draw(batch);
             }
         }
@@ -297,7 +297,6 @@ struct OffscreenView::Impl {
     std::unique_ptr<SceneBuffers> buffers;
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
     std::unique_ptr<Materials> materials;
-    std::unique_ptr<OwnTextures> own;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;

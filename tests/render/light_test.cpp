@@ -164,6 +164,44 @@ TEST(Light, SurroundingsLightTheSideTheyAreBrightOnAndTurnWithTheirAngle) {
     EXPECT_LT(turned_left, 1.5 * turned_right);
 }
 
+TEST(Light, NoneThatComesInAtAnOpeningGoesOutThroughTheBack) {
+    // A hollow head in front of a card, closed and with an opening towards the key light
+    const auto shadow_of = [](bool open) {
+        RoundHead head = with_card(0.5);
+        head.scene.rest.bottomRows(4) << -1, -1, -0.14, 1, -1, -0.14, 1, 1, -0.14, -1, 1, -0.14;
+        head.pose.positions = head.scene.rest;
+        std::erase_if(head.scene.surfaces, [](const Surface& surface) {
+            return surface.material != Material::kSkin && surface.material != Material::kMatte;
+        });
+        Triangles& skin = head.scene.surfaces.front().triangles;
+        const Vec3 opening = Vec3(-0.5, 0.5, 0.75).normalized();
+        Eigen::Index kept = 0;
+        for (Eigen::Index f = 0; f < skin.rows(); ++f) {
+            const Vec3 p = head.scene.rest.row(skin(f, 0)).transpose();
+            if (!open || p.normalized().dot(opening) < std::cos(0.6))
+                skin.row(kept++) = skin.row(f);
+        }
+        skin.conservativeResize(kept, 3);
+        OffscreenView view(head.scene, lit_by("studio"));
+        return std::pair(view.draw(head.pose), view.project(Vec3(kHeadRadius_m * 1.1, 0, 0)));
+    };
+    const auto [closed, rim] = shadow_of(false);
+    const Image open = shadow_of(true).first;
+    const double radius = rim.x() - 64;
+    int beside = 0, darkest = 255, lightest = 0;
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x) {
+            if (std::hypot(x - 64, y - 64) < radius + 2) continue;
+            const int a = closed.pixel(x, y)[1], b = open.pixel(x, y)[1];
+            EXPECT_NEAR(a, b, 3) << x << " " << y;
+            darkest = std::min(darkest, a);
+            lightest = std::max(lightest, a);
+            ++beside;
+        }
+    EXPECT_GT(beside, 1000);
+    EXPECT_GT(lightest, darkest + 40) << "a shadow lies on the card";
+}
+
 TEST(Light, WrongLightIsNamed) {
     const auto message = [](const LightOptions& options) -> std::string {
         try {

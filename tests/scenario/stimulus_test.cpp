@@ -298,6 +298,11 @@ TEST(StimulusOptions, OfNoUseTogetherAreRefusedWithTheirPlace) {
     EXPECT_EQ(refused("-o a.mp4 --show error"),
               "risorius: --show error: expected a script to compare with, by --against, found "
               "none\n");
+    EXPECT_EQ(refused("-o a.mp4 --scale 2"),
+              "risorius: --scale: expected --show strain or error, which have one, found --show "
+              "skin\n");
+    EXPECT_EQ(refused("-o a.mp4 --shutter 400"),
+              "risorius: --shutter: expected degrees in [0, 360], found 400\n");
     EXPECT_EQ(refused("-o a.mp4 --losless"),
               "risorius: render: expected only what risorius render --help lists (did you mean "
               "\"--lossless\"?), found \"--losless\"\n");
