@@ -43,10 +43,10 @@ struct RunRecord {
     int fps = 60, frames = 0, width_px = 0, height_px = 0;
     double first_frame_s = 0;  ///< 0 but for a still
     std::string camera, show, background;
-    std::string graphics;            ///< render::gl_in_use()
     std::optional<double> scale_to;  ///< where the colours of strain (ratio) or error (mm) end
     double shutter_deg = 0;
     int shutter_moments = 1;  ///< averaged in a frame
+    std::string graphics;  ///< render::gl_in_use()
     std::string quality;
     int antialiasing = 2;        ///< samples per pixel and side
     std::string jaw;             ///< what moves it
