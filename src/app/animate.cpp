@@ -32,6 +32,8 @@ class Output {
     void finish() {
         if (video_)
             video_->finish();
+        else if (!still_.deep.empty())
+            media::write_png16(still_, out_);
         else
             media::write_png(still_, out_);
     }

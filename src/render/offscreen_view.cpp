@@ -161,8 +161,9 @@ struct OffscreenView::Impl {
                                                   : Materials::Skin::kPlain;
         materials = std::make_unique<Materials>(scene, *buffers, skin, muscles.get());
         lights = std::make_unique<Lights>(camera, centre, options.light);
-        target = std::make_unique<Framebuffer>(picture.tile_width_samples(),
-                                               picture.tile_height_samples());
+        target = std::make_unique<Framebuffer>(
+            picture.tile_width_samples(), picture.tile_height_samples(),
+            options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);
         glGenBuffers(1, &frame_buffer);
         glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
         glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);

@@ -1,4 +1,4 @@
-// From samples of 8 bits to pixels of 16: the mean of N x N of them in linear light has some 2 log2 N bits more.
+// From samples in linear light of 32-bit floating point to pixels of 16 bits, and from these to 8.
 #pragma once
 
 #include <array>
@@ -14,14 +14,13 @@ class DeepResolve {
   public:
     explicit DeepResolve(const Background& background);
 
-    /// As Resolve, into image.deep.
-    void resolve(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
+    /// As Resolve, from linear samples, into image.deep and its nearest bytes into image.rgba.
+    void resolve(const std::vector<float>& samples, int supersampling, const Tile& tile,
                  Image& image) const;
 
   private:
     bool transparent_;
-    std::array<double, 3> background_;        ///< linear
-    std::array<double, 256> linear_of_byte_;  ///< sRGB
+    std::array<double, 3> background_;  ///< linear
 };
 
 }  // namespace risorius::render

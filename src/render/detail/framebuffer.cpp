@@ -17,10 +17,12 @@ void check_range(const char* field, int value, int least, int most) {
                     std::to_string(value));
 }
 
-Framebuffer::Framebuffer(int width, int height) {
+Framebuffer::Framebuffer(int width, int height, Colour colour) {
     glGenRenderbuffers(2, buffers_);
     glBindRenderbuffer(GL_RENDERBUFFER, buffers_[0]);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
+    glRenderbufferStorage(GL_RENDERBUFFER,
+                          colour == Colour::kLinearFloats ? GL_RGBA32F : GL_SRGB8_ALPHA8, width,
+                          height);
     glBindRenderbuffer(GL_RENDERBUFFER, buffers_[1]);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
     glGenFramebuffers(1, &framebuffer_);
@@ -69,12 +71,16 @@ void TiledPicture::set_viewport(const Tile& tile) const {
 }
 
 void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, Image& image) {
-    glReadPixels(0, 0, tile.width * supersampling_, tile.height * supersampling_, GL_RGBA,
-                 GL_UNSIGNED_BYTE, samples_.data());
-    resolve(samples_, supersampling_, tile, image);
-    if (!deep_) return;
+    const int width = tile.width * supersampling_, height = tile.height * supersampling_;
+    if (!deep_) {
+        glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, samples_.data());
+        resolve(samples_, supersampling_, tile, image);
+        return;
+    }
+    deep_samples_.resize(samples_.size());
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, deep_samples_.data());
     if (image.deep.empty()) image.deep.resize(image.rgba.size());
-    deep_->resolve(samples_, supersampling_, tile, image);
+    deep_->resolve(deep_samples_, supersampling_, tile, image);
 }
 
 }  // namespace risorius::render

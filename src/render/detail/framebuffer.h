@@ -20,10 +20,11 @@ constexpr int kMostSupersampling = 4;
 /// Throws Error naming the field for a value outside of [least, most].
 void check_range(const char* field, int value, int least, int most);
 
-/// sRGB colour with alpha, and depth. The context must be current.
+/// sRGB colour with alpha, or linear colour in floating point, and depth. The context must be current.
 class Framebuffer {
   public:
-    Framebuffer(int width, int height);
+    enum class Colour { kSrgbBytes, kLinearFloats };
+    Framebuffer(int width, int height, Colour colour = Colour::kSrgbBytes);
     ~Framebuffer();
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
@@ -39,7 +40,7 @@ class TiledPicture {
   public:
     TiledPicture(int width_px, int height_px, int supersampling);
 
-    /// From now on pictures get 16 bits besides, over this background.
+    /// From now on pictures get 16 bits besides, over this background; what is drawn into holds linear floats.
     void keep_deep(const Background& background) { deep_.emplace(background); }
 
     std::vector<Tile> tiles() const;
@@ -55,6 +56,7 @@ class TiledPicture {
   private:
     int width_, height_, supersampling_, tile_width_, tile_height_;
     std::vector<std::uint8_t> samples_;
+    std::vector<float> deep_samples_;
     std::optional<DeepResolve> deep_;
 };
 

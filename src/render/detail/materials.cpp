@@ -106,8 +106,8 @@ Mat3 eye_axes(const Eye& eye) {
 
 }  // namespace
 
-std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material, bool own,
-                                                   bool folds, Skin how,
+std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material,
+                                                   bool folds, Skin how, bool own,
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
     auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
@@ -152,10 +152,10 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
         const bool own = batch.texture >= 0;
         if (!programs_.contains({batch.material, own}))
             programs_.emplace(std::pair(batch.material, own),
-                              make_program(scene, batch.material, own, false, skin, muscles));
+                              make_program(scene, batch.material, false, skin, own, muscles));
     }
     if (scene.fold_phase.rows() > 0)
-        folded_skin_ = make_program(scene, Material::kSkin, false, true, skin, muscles);
+        folded_skin_ = make_program(scene, Material::kSkin, true, skin, /*own=*/false, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
     for (std::size_t side = 0; side < 2; ++side) {

@@ -31,9 +31,8 @@ class Materials {
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 
   private:
-    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool own,
-                                            bool folds, Skin skin,
-                                            const MuscleLayer* muscles) const;
+    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool folds,
+                                            Skin skin, bool own, const MuscleLayer* muscles) const;
     void set_eye(const GlProgram& program, int side, const Pose& pose,
                  const PosedMarks& marks) const;
 

@@ -225,8 +225,9 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpos
         wrinkled_choice_.clear();
         for (int k = 0; k < batch.index_count; k += 3) {
             const unsigned* face = indices_.data() + batch.first_index + k;
-            // Own colours are found by the number of the triangle in its batch.
-            if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
+            // What has a texture is looked up by the number of its triangle.
+            // Light that has come in at the mouth does not go out at the back of the head.
+            if (batch.texture < 0 && !is_seen(face, batch.cull_back && purpose == kSeen)) continue;
             const bool wrinkled =
                 apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
             std::vector<unsigned>& to = wrinkled ? wrinkled_choice_ : choice_;
@@ -299,7 +300,7 @@ void SceneBuffers::upload_choice(Purpose purpose) {
 void SceneBuffers::draw(const Batch& batch, Purpose purpose, int first, int count) const {
     if (count == 0) return;
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_elements_[purpose]);
-    if (batch.cull_back) glEnable(GL_CULL_FACE);
+    if (batch.cull_back && purpose == kSeen) glEnable(GL_CULL_FACE);
     glDrawElements(
         GL_TRIANGLES, count, GL_UNSIGNED_INT,
         reinterpret_cast<const void*>(static_cast<std::size_t>(first) * sizeof(unsigned)));

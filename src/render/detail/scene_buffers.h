@@ -39,7 +39,7 @@ class SceneBuffers {
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
     /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
-    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest.
+    /// batches that have one (shadows are thrown by both sides); of where things are now. Skin with wrinkles on it apart from the rest.
     enum Purpose { kSeen, kShadow };
     void choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose);
     /// Leaves out, of what was chosen to be seen, eyes, teeth, gums and tongue where they lie behind the skin. What lines the
@@ -61,6 +61,8 @@ class SceneBuffers {
     std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
 
   private:
+    void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
+                   const Vec3& paint_centre);
     /// In the elements of a purpose: first smooth triangles, then wrinkled ones, in indices.
     struct Chosen {
         int first = 0, smooth = 0, wrinkled = 0;
@@ -70,8 +72,6 @@ class SceneBuffers {
     }
     void upload_choice(Purpose purpose);
     void draw(const Batch& batch, Purpose purpose, int first, int count) const;
-    void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
-                   const Vec3& paint_centre);
 
     SmoothNormals smooth_;
     std::vector<Batch> batches_;

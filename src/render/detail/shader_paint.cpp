@@ -94,7 +94,8 @@ void main() {
     }
     vec3 under_hair = mix(albedo, hair_tone, 0.88) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
-    oil *= 1.0 - 0.97 * hair * min(1.0, 1.7 * scalp_hair);
+    float matte = smoothstep(-0.045, 0.010, r - hair_start(from_middle));
+    oil *= 1.0 - (0.55 * matte + 0.43 * hair) * min(1.0, 1.7 * scalp_hair);
 
     // Hair that is cut at the skin still darkens it.
     float shadow = 0.0;
