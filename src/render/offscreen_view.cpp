@@ -245,6 +245,7 @@ struct OffscreenView::Impl {
             skin_layer->begin(tile.width, tile.height);
             for (const Batch& batch : buffers->batches())
                 if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
+            buffers->leave_out_hidden(skin_layer->farthest());
         }
         picture.set_viewport(tile);
         if (muscles) {

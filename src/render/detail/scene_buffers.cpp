@@ -190,20 +190,21 @@ int SceneBuffers::skin_index_count() const {
 
 void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose) {
     const std::size_t vertices = positions_.size() / 3;
-    clip_places_.resize(3 * vertices);
+    clip_places_.resize(4 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
         const Eigen::Vector4f clip =
             clip_from_world *
             Eigen::Vector4f(positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2], 1.0F);
-        clip_places_[3 * v] = clip.x() / clip.w();
-        clip_places_[3 * v + 1] = clip.y() / clip.w();
-        clip_places_[3 * v + 2] = clip.w();
+        clip_places_[4 * v] = clip.x() / clip.w();
+        clip_places_[4 * v + 1] = clip.y() / clip.w();
+        clip_places_[4 * v + 2] = clip.z() / clip.w();
+        clip_places_[4 * v + 3] = clip.w();
     }
     const auto is_seen = [&](const unsigned* face, bool cull_back) {
-        const float *a = clip_places_.data() + 3 * static_cast<std::size_t>(face[0]),
-                    *b = clip_places_.data() + 3 * static_cast<std::size_t>(face[1]),
-                    *c = clip_places_.data() + 3 * static_cast<std::size_t>(face[2]);
-        if (a[2] <= 0 || b[2] <= 0 || c[2] <= 0) return true;
+        const float *a = clip_places_.data() + 4 * static_cast<std::size_t>(face[0]),
+                    *b = clip_places_.data() + 4 * static_cast<std::size_t>(face[1]),
+                    *c = clip_places_.data() + 4 * static_cast<std::size_t>(face[2]);
+        if (a[3] <= 0 || b[3] <= 0 || c[3] <= 0) return true;
         for (std::size_t k = 0; k < 2; ++k)
             if ((a[k] < -1 && b[k] < -1 && c[k] < -1) || (a[k] > 1 && b[k] > 1 && c[k] > 1))
                 return false;
@@ -236,6 +237,60 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpos
         chosen[i].wrinkled = static_cast<int>(wrinkled_choice_.size());
         choice_.insert(choice_.end(), wrinkled_choice_.begin(), wrinkled_choice_.end());
     }
+    upload_choice(purpose);
+}
+
+void SceneBuffers::leave_out_hidden(const FarthestSkin& skin) {
+    const auto is_hidden = [&](const unsigned* face) {
+        float left = 1e9F, right = -1e9F, low = 1e9F, high = -1e9F, near = 1e9F;
+        for (int k = 0; k < 3; ++k) {
+            const float* p = clip_places_.data() + 4 * static_cast<std::size_t>(face[k]);
+            if (p[3] <= 0) return false;
+            const float x = (0.5F * p[0] + 0.5F) * skin.width,
+                        y = (0.5F * p[1] + 0.5F) * skin.height;
+            left = std::min(left, x);
+            right = std::max(right, x);
+            low = std::min(low, y);
+            high = std::max(high, y);
+            near = std::min(near, 0.5F * p[2] + 0.5F);
+        }
+        // A pixel more on each side: samples lie beside the middle of theirs.
+        constexpr float kPixel = 1.0F / FarthestSkin::kCell;
+        const int from_x = std::max(static_cast<int>(left - kPixel), 0),
+                  to_x = std::min(static_cast<int>(right + kPixel), skin.columns - 1),
+                  from_y = std::max(static_cast<int>(low - kPixel), 0),
+                  to_y = std::min(static_cast<int>(high + kPixel), skin.rows - 1);
+        for (int y = from_y; y <= to_y; ++y)
+            for (int x = from_x; x <= to_x; ++x)
+                if (near <= skin.depth[static_cast<std::size_t>(y * skin.columns + x)])
+                    return false;
+        return true;
+    };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+        Chosen& chosen = chosen_[kSeen][i];
+        const Material material = batches_[i].material;
+        const bool may_hide = batches_[i].texture < 0 &&
+                              (material == Material::kEye || material == Material::kTeeth ||
+                               material == Material::kGums || material == Material::kTongue);
+        const auto from = static_cast<std::size_t>(chosen.first);
+        const std::size_t end = from + static_cast<std::size_t>(chosen.smooth + chosen.wrinkled);
+        chosen.first = static_cast<int>(kept);
+        for (std::size_t k = from; k < end; k += 3) {
+            if (may_hide && is_hidden(choice_.data() + k)) {
+                chosen.smooth -= 3;
+                continue;
+            }
+            std::copy_n(choice_.begin() + static_cast<std::ptrdiff_t>(k), 3,
+                        choice_.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += 3;
+        }
+    }
+    choice_.resize(kept);
+    upload_choice(kSeen);
+}
+
+void SceneBuffers::upload_choice(Purpose purpose) {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_elements_[purpose]);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(choice_.size() * sizeof(unsigned)), choice_.data(),

@@ -8,6 +8,7 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/lash_strands.h"
+#include "render/detail/skin_layer.h"
 #include "render/detail/smooth_normals.h"
 #include "render/scene.h"
 
@@ -41,6 +42,9 @@ class SceneBuffers {
     /// batches that have one (shadows are thrown by both sides); of where things are now. Skin with wrinkles on it apart from the rest.
     enum Purpose { kSeen, kShadow };
     void choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose);
+    /// Leaves out, of what was chosen to be seen, eyes, teeth, gums and tongue where they lie behind the skin. What lines the
+    /// mouth stays: a gap narrower than the layer's pixels shows it.
+    void leave_out_hidden(const FarthestSkin& skin);
     /// What was chosen, of which batches() are the whole.
     void draw(const Batch& batch, Purpose purpose = kSeen) const;
     void draw_smooth(const Batch& batch) const;    ///< without wrinkles
@@ -66,6 +70,7 @@ class SceneBuffers {
     const Chosen& chosen_of(const Batch& batch, Purpose purpose = kSeen) const {
         return chosen_[purpose][static_cast<std::size_t>(&batch - batches_.data())];
     }
+    void upload_choice(Purpose purpose);
     void draw(const Batch& batch, Purpose purpose, int first, int count) const;
 
     SmoothNormals smooth_;
@@ -77,7 +82,7 @@ class SceneBuffers {
     std::vector<float> positions_, normals_, moving_, fold_depth_;
     std::array<std::vector<Chosen>, 2> chosen_;
     std::vector<unsigned> choice_, wrinkled_choice_;
-    std::vector<float> clip_places_;      ///< x, y over w, and whether it lies before the camera
+    std::vector<float> clip_places_;      ///< x, y, z over w, and w
     std::vector<std::uint8_t> wrinkled_;  ///< per vertex, now
     int index_count_ = 0;
     std::array<GLuint, 2> chosen_elements_{0, 0};

@@ -1,5 +1,7 @@
 #include "render/detail/skin_layer.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "render/detail/shaders.h"
 
@@ -23,7 +25,7 @@ SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glGenRenderbuffers(1, &depth_);
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
     glGenFramebuffers(1, &framebuffer_);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
@@ -39,13 +41,43 @@ SkinLayer::~SkinLayer() {
     glDeleteTextures(1, &colour_);
 }
 
-void SkinLayer::begin(int width_px, int height_px) const {
+void SkinLayer::begin(int width_px, int height_px) {
+    drawn_width_ = width_px * shaded_;
+    drawn_height_ = height_px * shaded_;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, width_px * shaded_, height_px * shaded_);
+    glViewport(0, 0, drawn_width_, drawn_height_);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_FRAMEBUFFER_SRGB);
+}
+
+const FarthestSkin& SkinLayer::farthest() {
+    constexpr int kCell = FarthestSkin::kCell;
+    const auto width = static_cast<std::size_t>(drawn_width_);
+    depths_.resize(width * static_cast<std::size_t>(drawn_height_));
+    glReadPixels(0, 0, drawn_width_, drawn_height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
+    farthest_.columns = (drawn_width_ + kCell - 1) / kCell;
+    farthest_.rows = (drawn_height_ + kCell - 1) / kCell;
+    farthest_.width = static_cast<float>(drawn_width_) / kCell;
+    farthest_.height = static_cast<float>(drawn_height_) / kCell;
+    farthest_.depth.assign(
+        static_cast<std::size_t>(farthest_.columns) * static_cast<std::size_t>(farthest_.rows),
+        0.0F);
+    std::vector<float> column(width);
+    for (int row = 0; row < farthest_.rows; ++row) {
+        std::fill(column.begin(), column.end(), 0.0F);
+        for (int y = row * kCell; y < std::min((row + 1) * kCell, drawn_height_); ++y) {
+            const float* depths = depths_.data() + static_cast<std::size_t>(y) * width;
+            for (std::size_t x = 0; x < width; ++x)
+                column[x] = depths[x] > column[x] ? depths[x] : column[x];
+        }
+        float* cells = farthest_.depth.data() +
+                       static_cast<std::size_t>(row) * static_cast<std::size_t>(farthest_.columns);
+        for (std::size_t x = 0; x < width; ++x)
+            cells[x / kCell] = std::max(cells[x / kCell], column[x]);
+    }
+    return farthest_;
 }
 
 void SkinLayer::use() const {

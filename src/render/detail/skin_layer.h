@@ -5,9 +5,19 @@
 // and Luebke 2011, Subpixel Reconstruction Antialiasing.
 #pragma once
 
+#include <vector>
+
 #include "render/detail/gl_context.h"
 
 namespace risorius::render {
+
+/// The greatest depth, 0..1, in cells of the picture; 1 where some of a cell shows no skin.
+struct FarthestSkin {
+    static constexpr int kCell = 16;  ///< places along each side of a cell
+    int columns = 0, rows = 0;
+    float width = 0, height = 0;  ///< of the picture, in cells
+    std::vector<float> depth;     ///< rows from the bottom
+};
 
 class SkinLayer {
   public:
@@ -18,12 +28,18 @@ class SkinLayer {
     SkinLayer& operator=(const SkinLayer&) = delete;
 
     /// Skin is to be shaded into the layer; its part of this size is cleared.
-    void begin(int width_px, int height_px) const;
+    void begin(int width_px, int height_px);
     /// Skin is to be drawn into the bound framebuffer as it was shaded, in the bytes of sRGB.
     void use() const;
 
+    /// How far away the skin in the layer is at most, cell by cell. Waits for the drawing.
+    const FarthestSkin& farthest();
+
   private:
     int shaded_;
+    FarthestSkin farthest_;
+    std::vector<float> depths_;
+    int drawn_width_ = 0, drawn_height_ = 0;
     GlProgram program_;
     GLuint framebuffer_ = 0, colour_ = 0, bytes_ = 0, depth_ = 0;
 };
