@@ -48,7 +48,9 @@ SkinLayer::SkinLayer(const rig::Head& head, const rig::RigDescription& rig, cons
     : folds_(rig.skin.wrinkles > 0),
       lines_(folds_ ? lay_wrinkle_lines(head, rig, shell.fine) : WrinkleLines{}),
       wrinkles_(lines_, folds_ ? shell.fine : Triangles(0, 3), head.vertices,
-                {.strength = rig.skin.wrinkles, .mean_over_m = head.mm(3)}),
+                {.strength = rig.skin.wrinkles,
+                 .mean_over_m = head.mm(3),
+                 .mean_along_crease_m = head.mm(9)}),
       surface_(sheet_of(head, rig, jaw, lids, shell, mesh)),
       cords_(head, rig) {
     if (folds_) cords_.mark(lines_);

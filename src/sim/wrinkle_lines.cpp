@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -216,7 +217,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         }
         // The nasolabial fold
         {
-            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.8};
+            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.5};
             pattern.crease =
                 sample_curve({at("ac") + Vec3(sign * mm(2.5), mm(5), 0), at("nl1"), at("nl2"),
                               at("nl3"), at("nl3") + Vec3(sign * mm(3), mm(-9), mm(-2))},
@@ -257,6 +258,19 @@ double noise(const Vec3& p) {
         sum += weight * value(at[0], at[1], at[2]);
     }
     return sum;
+}
+
+// Where along the line the point of it lies that is nearest to p, m.
+double place_on(const Vec3& p, const std::vector<Vec3>& line) {
+    double least = std::numeric_limits<double>::infinity(), place = 0, passed = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Vec3 way = line[i + 1] - line[i];
+        const double t = std::clamp((p - line[i]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+        const double away = (p - line[i] - t * way).norm();
+        if (away < least) least = away, place = passed + t * way.norm();
+        passed += way.norm();
+    }
+    return place;
 }
 
 // Signed distance from the crease, positive to the outside of the face.
@@ -353,6 +367,14 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
         lines.wavelength(v, pattern.slot) = pattern.wavelength_m;
         owner[v][pattern.slot] = index;
     }
+    if (pattern.crease.empty()) return;
+    Crease crease{.slot = pattern.slot, .vertex = {}, .place_m = {}};
+    for (const int v : vertex)
+        if (window[v] > 0 && owner[v][pattern.slot] == index) {
+            crease.vertex.push_back(v);
+            crease.place_m.push_back(place_on(head.vertices.row(v).transpose(), pattern.crease));
+        }
+    lines.creases.push_back(crease);
 }
 
 }  // namespace
@@ -360,8 +382,10 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
 WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription& rig,
                                const Triangles& skin) {
     const long count = head.vertices.rows();
-    WrinkleLines lines{Points::Zero(count, kWrinkleSlots), Points::Zero(count, kWrinkleSlots),
-                       Points::Zero(count, kWrinkleSlots)};
+    WrinkleLines lines{Points::Zero(count, kWrinkleSlots),
+                       Points::Zero(count, kWrinkleSlots),
+                       Points::Zero(count, kWrinkleSlots),
+                       {}};
     Owners owner(static_cast<std::size_t>(count), {-1, -1, -1});
     int index = 0;
     for (const Pattern& pattern : patterns_of(head, rig.atlas)) {

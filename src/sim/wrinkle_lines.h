@@ -23,10 +23,18 @@ namespace risorius::sim {
 /// Patterns at one place, the columns of the tables below.
 inline constexpr int kWrinkleSlots = 3;
 
+/// A line that folds as a whole.
+struct Crease {
+    int slot = 0;
+    std::vector<int> vertex;      ///< where its window is open
+    std::vector<double> place_m;  ///< of each, along the line
+};
+
 struct WrinkleLines {
     Points phase;       ///< V x 3, f
     Points window;      ///< V x 3, w times the share of its depth that a fold gets here, 0..1
     Points wavelength;  ///< V x 3, l, m
+    std::vector<Crease> creases = {};
 };
 
 /// `skin` is the part of the head's skin that moves, over mesh vertices.

@@ -20,6 +20,7 @@ constexpr double kSteepest = 0.45;  // depth / span: folds steeper than this clo
 // Edges per wave from which on vertices carry the fold, and all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
 constexpr int kSamples = 64;
+constexpr double kStripPiece = 0.25;  // of a crease's mean, one piece of it
 
 double profile_slope(double phase) {
     const double s = std::sin(std::numbers::pi * phase), c = std::cos(std::numbers::pi * phase);
@@ -170,6 +171,8 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
     for (long i = 0; i < count; ++i) mean.add_diagonal(static_cast<int>(i), area_[i] + 1e-15);
     mean_.emplace(mean.build({}));
 
+    for (const Crease& crease : lines.creases) mean_along(crease, own);
+
     resolved_ = Points::Zero(count, 3);
     for (long i = 0; i < count; ++i)
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
@@ -179,6 +182,40 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
             resolved_(i, slot) = smoothstep(kFirstResolved, kResolved, per_wave);
             any_resolved_ = any_resolved_ || resolved_(i, slot) > 0;
         }
+}
+
+// A kernel over the pieces of the strip, and how much skin is in each.
+void Wrinkles::mean_along(const Crease& crease, const std::vector<int>& own) {
+    Strip strip{.slot = crease.slot, .row = {}, .place = {}, .mean = {}};
+    const double piece = kStripPiece * options_.mean_along_crease_m;
+    double last = 0;
+    for (std::size_t i = 0; i < crease.vertex.size(); ++i) {
+        const int row = own[static_cast<std::size_t>(crease.vertex[i])];
+        if (row < 0) continue;
+        strip.row.push_back(row);
+        strip.place.push_back(crease.place_m[i] / piece);
+        last = std::max(last, strip.place.back());
+    }
+    if (strip.row.empty()) return;
+    const auto count = static_cast<long>(std::floor(last)) + 2;
+    Eigen::VectorXd skin = Eigen::VectorXd::Zero(count);
+    for (std::size_t i = 0; i < strip.row.size(); ++i) {
+        const auto k = static_cast<long>(strip.place[i]);
+        const double t = strip.place[i] - static_cast<double>(k);
+        skin[k] += (1 - t) * area_[strip.row[i]];
+        skin[k + 1] += t * area_[strip.row[i]];
+    }
+    strip.mean.resize(count, count);
+    for (long a = 0; a < count; ++a) {
+        double sum = 0;
+        for (long b = 0; b < count; ++b) {
+            const double away = static_cast<double>(a - b) * kStripPiece;
+            strip.mean(a, b) = std::exp(-0.5 * away * away);
+            sum += strip.mean(a, b) * skin[b];
+        }
+        strip.mean.row(a) /= sum;
+    }
+    strips_.push_back(std::move(strip));
 }
 
 const Points& Wrinkles::compression(const Points& vertices) const {
@@ -198,6 +235,24 @@ const Points& Wrinkles::compression(const Points& vertices) const {
     compression_.array() *= inverse_area_.array();
     for (long i = 0; i < count; ++i) compression_.row(i) *= area_[i];
     mean_->solve(compression_, compression_);
+    for (const Strip& strip : strips_) {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(strip.mean.rows());
+        const auto share = [&](std::size_t i) {
+            const auto k = static_cast<long>(strip.place[i]);
+            return std::pair(k, strip.place[i] - static_cast<double>(k));
+        };
+        for (std::size_t i = 0; i < strip.row.size(); ++i) {
+            const auto [k, t] = share(i);
+            const double c = area_[strip.row[i]] * compression_(strip.row[i], strip.slot);
+            sum[k] += (1 - t) * c;
+            sum[k + 1] += t * c;
+        }
+        const Eigen::VectorXd mean = strip.mean * sum;
+        for (std::size_t i = 0; i < strip.row.size(); ++i) {
+            const auto [k, t] = share(i);
+            compression_(strip.row[i], strip.slot) = (1 - t) * mean[k] + t * mean[k + 1];
+        }
+    }
     return compression_;
 }
 

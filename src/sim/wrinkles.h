@@ -7,7 +7,8 @@
 //
 // Skin hardly shortens: beyond an onset, what it is compressed by goes into the length of its profile,
 //   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
-// c is the mean over some 3 mm (a screened Poisson equation over the surface), so that it does not depend on the mesh.
+// c is the mean over some 3 mm (a screened Poisson equation over the surface), so that it does not depend on the mesh; a
+// crease folds as a whole, by the mean over 9 mm along it and over the strip beside it.
 // Where the mesh is fine enough folds displace its vertices; the rest of their depth is for the renderer to show.
 #pragma once
 
@@ -31,6 +32,7 @@ double folded_share(double compression);  ///< e of c: share of the rest length 
 struct WrinkleOptions {
     double strength = 1.0;      ///< of what could fold, how much does; 0: none
     double mean_over_m = 3e-3;  ///< of the strain
+    double mean_along_crease_m = 9e-3;
 };
 
 class Wrinkles {
@@ -53,8 +55,17 @@ class Wrinkles {
         double weight[3];  // F n = sum weight x
         double area;
     };
+    struct Strip {  // of a crease, cut into pieces along it
+        int slot;
+        std::vector<int> row;       // of vertex_
+        std::vector<double> place;  // in pieces
+        Eigen::MatrixXd mean;       // pieces x pieces
+    };
+    void mean_along(const Crease& crease, const std::vector<int>& own);
+
     std::vector<int> vertex_;
     std::vector<Gauge> gauges_;
+    std::vector<Strip> strips_;
     Points inverse_area_;  // per vertex and slot
     Eigen::VectorXd area_;
     Points phase_, window_, wavelength_, resolved_;

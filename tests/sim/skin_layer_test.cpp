@@ -220,6 +220,42 @@ TEST(WrinkleLines, LieAcrossTheForeheadAndFanOutFromTheEyes) {
     EXPECT_LE(lines.window.maxCoeff(), 1.3);
 }
 
+TEST(Wrinkles, ACreaseFoldsAsAWholeByWhatItIsCompressedOnTheWhole) {
+    const Patch patch(1e-3, 0.0);
+    WrinkleLines lines{Points::Zero(patch.rest.rows(), 3), Points::Zero(patch.rest.rows(), 3),
+                       Points::Zero(patch.rest.rows(), 3)};
+    lines.phase.col(0) = patch.rest.col(0) / 18e-3;
+    lines.wavelength.col(0).setConstant(18e-3);
+    Crease crease;
+    for (int v = 0; v < patch.rest.rows(); ++v)
+        if (std::abs(patch.rest(v, 0)) < 6e-3) {
+            lines.window(v, 0) = 1;
+            crease.vertex.push_back(v);
+            crease.place_m.push_back(patch.rest(v, 1) + 20e-3);
+        }
+    const WrinkleOptions options{.strength = 1.0, .mean_over_m = 2e-3, .mean_along_crease_m = 9e-3};
+    const Wrinkles line(lines, patch.triangles, patch.rest, options);
+    lines.creases.push_back(crease);
+    const Wrinkles whole(lines, patch.triangles, patch.rest, options);
+    const auto at = [&](const Wrinkles& wrinkles, const Points& vertices, int j) {
+        const Points& c = wrinkles.compression(vertices);
+        for (std::size_t i = 0; i < wrinkles.vertex_indices().size(); ++i)
+            if (wrinkles.vertex_indices()[i] == node(kSide / 2, j))
+                return c(static_cast<long>(i), 0);
+        return -1.0;
+    };
+    // A dent in the middle
+    Points dent = patch.rest;
+    for (long v = 0; v < dent.rows(); ++v)
+        dent(v, 0) *= 1 - 0.4 * std::exp(-std::pow(dent(v, 1) / 4e-3, 2));
+    EXPECT_LT(at(whole, dent, kSide / 2), 0.65 * at(line, dent, kSide / 2));
+    EXPECT_GT(at(whole, dent, kSide / 2 + 12), 3 * at(line, dent, kSide / 2 + 12));
+    EXPECT_GT(at(whole, dent, kSide / 2 + 12), 0.05);
+    // An even one is what it is
+    const Points even = stretched(patch.rest, 0.8, 1.0);
+    EXPECT_NEAR(at(whole, even, kSide / 2 + 12), at(line, even, kSide / 2 + 12), 0.02);
+}
+
 TEST(SkinLayer, FoldsTheForeheadOfARaisedBrowAndNothingAtRest) {
     Face face = adult_face();
     const FacePose rest = settled(face, neutral());
