@@ -109,19 +109,24 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         Vec3 p = x.row(node.node).transpose();
         if (carried) p = to_mandible * p;
         const Vec3 rest = rest_.row(node.node).transpose();
+        std::array<double, kCandidates> squared;
         double nearest_squared = 1e300;
-        for (int c : candidates)
-            nearest_squared = std::min(nearest_squared, (bone[c].point - p).squaredNorm());
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            squared[i] = (bone[static_cast<std::size_t>(candidates[i])].point - p).squaredNorm();
+            nearest_squared = std::min(nearest_squared, squared[i]);
+        }
         // Nothing here may hang on which point is the nearest: planes that jump keep a held pose from ever coming to rest
         const double radius = std::sqrt(nearest_squared) + 1.5 * node.reach;
+        const double radius_squared = radius * radius;
         Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
         double weights = 0;
-        for (int c : candidates) {
-            const double share = 1.0 - (bone[c].point - p).squaredNorm() / (radius * radius);
-            if (share <= 0) continue;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (squared[i] >= radius_squared) continue;
+            const double share = 1.0 - squared[i] / radius_squared;
             const double w = share * share * share;
-            point += w * bone[c].point;
-            normal += w * bone[c].normal;
+            const BonePoint& near = bone[static_cast<std::size_t>(candidates[i])];
+            point += w * near.point;
+            normal += w * near.normal;
             weights += w;
         }
         point /= weights;

@@ -40,7 +40,10 @@ class StaticSolver {
     /// y = H^-1 b, n x 3 each, with the last factor; fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;
     /// The next settle() does not begin with the last factor: what it finds depends on its arguments alone.
-    void forget() { known_ = false; }
+    void forget() {
+        known_ = false;
+        touched_.clear();  // the order in which a matrix is eliminated tells what was in contact before
+    }
 
     long factors() const { return factors_; }  ///< made so far
 
