@@ -13,22 +13,13 @@
 #include <thread>
 
 #include "core/error.h"
+#include "message_of.h"
 #include "render/gl_choice.h"
 #include "render/round_head.h"
 #include "render/small_pictures.h"
 
 namespace risorius::render {
 namespace {
-
-template <class Call>
-std::string message_of(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 /// The fingerprint drawn by a fresh process, in which the driver has made no choice of threads yet.
 /// 0 where the back end has no context, 1 where it is a graphics processor's.
