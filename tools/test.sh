@@ -28,8 +28,12 @@ tools/setup.sh test
 
 logs=$(mktemp -d)
 check_build=
-# The build in the background has a process group of its own.
-trap '[[ -z $check_build ]] || kill -- "-$check_build" 2>/dev/null; rm -rf "$logs"' EXIT
+clean_up() {
+    # The build in the background has a process group of its own.
+    if [[ -n $check_build ]]; then kill -- "-$check_build" 2>/dev/null || true; fi
+    rm -rf "$logs"
+}
+trap clean_up EXIT
 jobs=$(nproc)
 failed=no
 
