@@ -85,7 +85,7 @@ cmake --build --preset release ${release_targets:+--target "${release_targets[@]
 if [[ $sanitizers != none ]]; then
     set -m
     (cmake --preset check --log-level=WARNING &&
-        nice cmake --build --preset check --parallel "$(((jobs + 1) / 2))" --target "${check_targets[@]}") \
+        nice cmake --build --preset check --parallel "$jobs" --target "${check_targets[@]}") \
         >"$logs/check-build" 2>&1 </dev/null &
     check_build=$!
     set +m
