@@ -38,7 +38,7 @@ DriveAt talking() {
     };
 }
 
-/// Built once for all of these tests: a face that is started again forgets what it did, as one of them says.
+/// Built once for the tests that start it anew.
 Face& moving_face() {
     static Face one = adult_face();
     return one;
@@ -117,7 +117,7 @@ TEST(Motion, StepsComeToTheEquilibriumThatSettlingFinds) {
 }
 
 TEST(Motion, TheSameDrivesGiveTheSameBits) {
-    Face &a = moving_face(), b = adult_face();
+    Face a = adult_face(), b = adult_face();
     const DriveAt drive = random_drive(3, 1);
     a.start(drive);
     b.start(drive);
