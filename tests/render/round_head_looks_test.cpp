@@ -22,7 +22,7 @@ class RoundHeadLooks : public testing::Test {
 
     static ViewOptions large() { return {.width_px = 384, .height_px = 384, .camera = "front"}; }
     static double brightness_at(const Vec3& place) {
-        return brightness(mean_colour(image, view->project(place), 1));
+        return brightness_of(mean_colour(image, view->project(place), 1));
     }
     static const RoundHead head;
     static std::unique_ptr<OffscreenView> view;
@@ -99,8 +99,8 @@ TEST_F(RoundHeadLooks, ThePupilTurnsWithTheEye) {
     const Image turned = view->draw(pose);
     // The pupil lies behind the surface, so look along its direction at the depth of the iris.
     const Vec3 pupil = eye.centre + turn * Vec3(0, 0, 0.0104);
-    const double there = brightness(mean_colour(turned, view->project(pupil), 1));
-    const double ahead = brightness(
+    const double there = brightness_of(mean_colour(turned, view->project(pupil), 1));
+    const double ahead = brightness_of(
         mean_colour(turned, view->project(eye.centre + Vec3(-0.002, -0.003, 0.0104)), 1));
     EXPECT_LT(there, 0.6 * ahead);
 }
@@ -133,7 +133,7 @@ TEST_F(RoundHeadLooks, ALidThatHasUnrolledIsNotShadedByTheCreaseItCameFrom) {
 
     OffscreenView as_at_rest(head.scene, small());
     const auto brightness_at = [&](OffscreenView& view) {
-        return brightness(mean_colour(view.draw(shut), view.project(groove), 1));
+        return brightness_of(mean_colour(view.draw(shut), view.project(groove), 1));
     };
     const double shaded = brightness_at(as_at_rest);
     head.scene.shut = flat;
@@ -160,7 +160,7 @@ TEST_F(RoundHeadLooks, AMouthThatOpensLetsLightOnTheTeeth) {
     head.pose.positions = head.scene.rest;
     OffscreenView view(head.scene, small());
     const Vec2 place = view.project(Vec3(0, -0.045, 0.111));
-    const double closed = brightness(mean_colour(view.draw(head.pose), place, 2));
+    const double closed = brightness_of(mean_colour(view.draw(head.pose), place, 2));
     const Eigen::Index lower = [&] {
         Eigen::Index best = 0;
         (head.scene.rest.rowwise() - head.scene.landmarks.at("li").transpose())
@@ -170,7 +170,7 @@ TEST_F(RoundHeadLooks, AMouthThatOpensLetsLightOnTheTeeth) {
         return best;
     }();
     head.pose.positions(lower, 1) -= 0.03;
-    const double open = brightness(mean_colour(view.draw(head.pose), place, 2));
+    const double open = brightness_of(mean_colour(view.draw(head.pose), place, 2));
     EXPECT_GT(open, closed + 20);
 }
 

@@ -29,7 +29,7 @@ inline std::array<double, 3> mean_colour(const Image& image, const Vec2& at, int
     return sum;
 }
 
-inline double brightness(const std::array<double, 3>& rgb) {
+inline double brightness_of(const std::array<double, 3>& rgb) {
     return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
