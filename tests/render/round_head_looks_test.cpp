@@ -15,26 +15,26 @@ namespace {
 class RoundHeadLooks : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        view = std::make_unique<OffscreenView>(head.scene, large());
-        image = view->draw(head.pose);
+        plain_view = std::make_unique<OffscreenView>(plain_head.scene, large());
+        plain_image = plain_view->draw(plain_head.pose);
     }
-    static void TearDownTestSuite() { view.reset(); }
+    static void TearDownTestSuite() { plain_view.reset(); }
 
     static ViewOptions large() { return {.width_px = 384, .height_px = 384, .camera = "front"}; }
-    static double brightness_at(const Vec3& place) {
-        return brightness_of(mean_colour(image, view->project(place), 1));
+    static double plain_brightness(const Vec3& place) {
+        return brightness_of(mean_colour(plain_image, plain_view->project(place), 1));
     }
-    static const RoundHead head;
-    static std::unique_ptr<OffscreenView> view;
-    static Image image;
+    static const RoundHead plain_head;
+    static std::unique_ptr<OffscreenView> plain_view;
+    static Image plain_image;
 };
-const RoundHead RoundHeadLooks::head;
-std::unique_ptr<OffscreenView> RoundHeadLooks::view;
-Image RoundHeadLooks::image;
+const RoundHead RoundHeadLooks::plain_head;
+std::unique_ptr<OffscreenView> RoundHeadLooks::plain_view;
+Image RoundHeadLooks::plain_image;
 
 TEST_F(RoundHeadLooks, LipsAreRedderThanTheCheek) {
     const auto redness = [&](const Vec3& p) {
-        const std::array<double, 3> c = mean_colour(image, view->project(p), 4);
+        const std::array<double, 3> c = mean_colour(plain_image, plain_view->project(p), 4);
         return c[0] / (c[1] + 1);
     };
     EXPECT_GT(redness(RoundHead::on_skin(0, -0.047)),
@@ -71,37 +71,37 @@ TEST_F(RoundHeadLooks, HairOfSomeLengthStandsOffTheScalpAndOnlyThere) {
 }
 
 TEST_F(RoundHeadLooks, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil) {
-    const Vec3 eye = head.scene.eyes[0].centre;
+    const Vec3 eye = plain_head.scene.eyes[0].centre;
     // Below the middle, away from the mirrored lamps
-    const auto at = [&](double x, double y) { return brightness_at(eye + Vec3(x, y, 0.0105)); };
+    const auto at = [&](double x, double y) { return plain_brightness(eye + Vec3(x, y, 0.0105)); };
     const double white = at(0.0, -0.0083), iris = at(0.0, -0.0038), pupil = at(0.0, 0.0);
     EXPECT_GT(white, 1.2 * iris);  // of an iris where the cornea gathers light
     EXPECT_GT(iris, 1.25 * pupil);
 }
 
 TEST_F(RoundHeadLooks, TheIrisIsBrighterOnTheSideAwayFromTheLamp) {
-    const Vec3 eye = head.scene.eyes[0].centre;
-    const auto at = [&](double x, double y) { return brightness_at(eye + Vec3(x, y, 0.0105)); };
+    const Vec3 eye = plain_head.scene.eyes[0].centre;
+    const auto at = [&](double x, double y) { return plain_brightness(eye + Vec3(x, y, 0.0105)); };
     // The key light comes from the subject's right and above; the mirrored lamps lie on that side.
     EXPECT_GT(at(0.0030, -0.0024), 1.2 * at(-0.0036, -0.0014));
 }
 
 TEST_F(RoundHeadLooks, ThePupilTurnsWithTheEye) {
-    Pose pose = head.pose;
-    const Eye& eye = head.scene.eyes[0];
+    Pose pose = plain_head.pose;
+    const Eye& eye = plain_head.scene.eyes[0];
     const Mat3 turn = Eigen::AngleAxisd(0.45, Vec3::UnitY()).toRotationMatrix();
-    for (Eigen::Index i = 0; i < head.scene.rest.rows(); ++i) {
-        const Vec3 arm = head.scene.rest.row(i).transpose() - eye.centre;
+    for (Eigen::Index i = 0; i < plain_head.scene.rest.rows(); ++i) {
+        const Vec3 arm = plain_head.scene.rest.row(i).transpose() - eye.centre;
         if (arm.norm() < eye.radius_m + 1e-6)
             pose.positions.row(i) = (eye.centre + turn * arm).transpose();
     }
     pose.eye_rotation[0] = turn;
-    const Image turned = view->draw(pose);
+    const Image turned = plain_view->draw(pose);
     // The pupil lies behind the surface, so look along its direction at the depth of the iris.
     const Vec3 pupil = eye.centre + turn * Vec3(0, 0, 0.0104);
-    const double there = brightness_of(mean_colour(turned, view->project(pupil), 1));
+    const double there = brightness_of(mean_colour(turned, plain_view->project(pupil), 1));
     const double ahead = brightness_of(
-        mean_colour(turned, view->project(eye.centre + Vec3(-0.002, -0.003, 0.0104)), 1));
+        mean_colour(turned, plain_view->project(eye.centre + Vec3(-0.002, -0.003, 0.0104)), 1));
     EXPECT_LT(there, 0.6 * ahead);
 }
 
@@ -148,7 +148,7 @@ TEST_F(RoundHeadLooks, AClosedSurfaceHidesTheTeeth) {
     RoundHead without;
     without.scene.surfaces.pop_back();
     EXPECT_EQ(fingerprint(OffscreenView(without.scene, large()).draw(without.pose)),
-              fingerprint(image));
+              fingerprint(plain_image));
 }
 
 TEST_F(RoundHeadLooks, AMouthThatOpensLetsLightOnTheTeeth) {
