@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs every test; then the tests of the folders below once more
-# with warnings as errors and the address and undefined-behaviour sanitizers.
+# Installs what is missing, builds everything and runs every test: those of the folders below with assertions, warnings as
+# errors and the address and undefined-behaviour sanitizers, all others in the release build.
 #
-#   tools/test.sh                   both
-#   tools/test.sh --no-sanitizers   the release build only
-#   tools/test.sh --all-sanitizers  every folder with sanitizers, which takes several times as long
+#   tools/test.sh                   every test once
+#   tools/test.sh --no-sanitizers   every test in the release build
+#   tools/test.sh --all-sanitizers  every test in both, which takes several times as long
 set -euo pipefail
 
 # Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
 sanitized=(core geom signal track muscle solve tissue contact plot io media)
-# Long runs of what the other suites of these folders run as well; ten times as long under sanitizers.
+# Long runs of what the other suites of these folders run as well, ten times as long under sanitizers: in the release build.
 unsanitized=(contact.Cloth contact.StackedCubes tissue.AdaptiveSolid tissue.HangingCube)
 
 case ${1:-} in
@@ -27,7 +27,13 @@ cd "$root"
 tools/setup.sh test
 
 logs=$(mktemp -d)
-trap 'rm -rf "$logs"' EXIT
+check_build=
+clean_up() {
+    # The build in the background has a process group of its own.
+    if [[ -n $check_build ]]; then kill -- "-$check_build" 2>/dev/null || true; fi
+    rm -rf "$logs"
+}
+trap clean_up EXIT
 jobs=$(nproc)
 failed=no
 
@@ -44,29 +50,59 @@ skipped_tests() {
          END { for (why in count) printf "skipped: %d test%s: %s\n", count[why], count[why] == 1 ? "" : "s", why }' "$1" | sort
 }
 
+# Folders with tests, in the order of their names.
+folders() { (cd tests && printf '%s\n' */*_test.cpp | cut -d/ -f1 | uniq); }
+
+# What is built and run in which build; an empty list of targets is everything.
+release_targets=()
+release_select=()
+check_targets=()
+check_select=()
+case $sanitizers in
+    some)
+        # Programs that are no tests, then the tests of folders that have any to run in the release build
+        release_targets=(programs)
+        for folder in $(folders); do
+            if [[ " ${sanitized[*]} " != *" $folder "* || " ${unsanitized[*]}" == *" $folder."* ]]; then
+                release_targets+=("${folder}_test")
+            fi
+            if [[ " ${sanitized[*]} " == *" $folder "* ]]; then check_targets+=("${folder}_test"); fi
+        done
+        kept=()
+        for folder in $(folders); do
+            if [[ " ${sanitized[*]} " != *" $folder "* ]]; then kept+=("$folder\\..*"); fi
+        done
+        release_select=(--tests-regex "^($(any_of "${kept[@]}" "${unsanitized[@]}"))\$")
+        check_select=(--label-regex "^($(any_of "${sanitized[@]}"))\$" --exclude-regex "^($(any_of "${unsanitized[@]}"))\$")
+        ;;
+    all) check_targets=(all) ;;
+esac
+
 cmake --preset release --log-level=WARNING
-cmake --build --preset release
-ctest --preset release --parallel "$jobs" --no-tests=error 2>&1 | tee "$logs/release" || failed=yes
+cmake --build --preset release ${release_targets:+--target "${release_targets[@]}"}
+
+# The other build fills the time in which the tests leave a core idle.
+if [[ $sanitizers != none ]]; then
+    set -m
+    (cmake --preset check --log-level=WARNING &&
+        nice cmake --build --preset check --parallel "$jobs" --target "${check_targets[@]}") \
+        >"$logs/check-build" 2>&1 </dev/null &
+    check_build=$!
+    set +m
+fi
+ctest --preset release --parallel "$jobs" --no-tests=error "${release_select[@]}" 2>&1 | tee "$logs/release" || failed=yes
 
 if [[ $sanitizers != none ]]; then
-    targets=()
-    select=()
-    if [[ $sanitizers == some ]]; then
-        for folder in "${sanitized[@]}"; do
-            if compgen -G "tests/$folder/*_test.cpp" >/dev/null; then targets+=("${folder}_test"); fi
-        done
-        select=(--label-regex "^($(any_of "${sanitized[@]}"))\$" --exclude-regex "^($(any_of "${unsanitized[@]}"))\$")
-    else
-        targets=(all)
-    fi
     # A failure here must not hide the result above, so it is noted and told at the end.
-    if cmake --preset check --log-level=WARNING && cmake --build --preset check --target "${targets[@]}"; then
-        ctest --preset check --parallel "$jobs" --no-tests=error "${select[@]}" 2>&1 |
+    if wait "$check_build"; then
+        cat "$logs/check-build"
+        ctest --preset check --parallel "$jobs" --no-tests=error "${check_select[@]}" 2>&1 |
             tee "$logs/sanitizers" || failed=yes
         printf '\nwith sanitizers: %s\n' "$(closing_line "$logs/sanitizers")"
         skipped_tests build-check/Testing/Temporary/LastTest.log
     else
         failed=yes
+        cat "$logs/check-build"
         printf '\nwith sanitizers: the build failed\n'
     fi
 fi

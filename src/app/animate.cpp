@@ -8,6 +8,7 @@
 #include "app/shot.h"
 #include "app/staged_file.h"
 #include "app/stopwatch.h"
+#include "core/error.h"
 #include "media/image_file.h"
 #include "media/video_writer.h"
 
@@ -48,6 +49,12 @@ class Output {
 
 RunRecord animate(const AnimateOptions& options, const Watch& watch) {
     const Stopwatch total;
+    if (options.out.extension() == ".png" && !options.still_s)
+        throw Error(
+            options.out.string(),
+            "--still TIME with it, the name of a video, or of a folder of PNG frames, which "
+            "ends in /",
+            "\".png\" alone");
     const Shot shot = plan_shot(options);
     check_record(beside(options.out, ".json"));
     check_table(beside(options.out, ".frames.tsv"));

@@ -17,13 +17,21 @@ fs::path beside(const fs::path& out, const char* ending) {
     return base;
 }
 
+void check_overwritten(const fs::path& file, const std::vector<std::string_view>& formats,
+                       const std::string& expected) {
+    if (!file.has_filename() || fs::is_directory(file))
+        throw Error(file.string(), expected, "a folder");
+    if (!fs::exists(file)) return;
+    const Json found = Json::parse(std::ifstream(file), nullptr, false);
+    const auto format = found.is_object() ? found.find("format") : found.end();
+    for (std::string_view known : formats)
+        if (format != found.end() && *format == known) return;
+    throw Error(file.string(), expected, "another file of that name");
+}
+
 void check_record(const fs::path& record) {
-    if (!fs::exists(record)) return;
-    const Json found = Json::parse(std::ifstream(record), nullptr, false);
-    const std::string format = found.is_object() ? found.value("format", "") : "";
-    if (format != "risorius-run" && format != "risorius-sheet" && format != "risorius-comparison")
-        throw Error(record.string(), "no file, or the record of an earlier run",
-                    "another file of that name");
+    check_overwritten(record, {"risorius-run", "risorius-sheet", "risorius-comparison"},
+                      "no file, or the record of an earlier run");
 }
 
 void check_table(const fs::path& table) {

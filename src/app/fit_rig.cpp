@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/beside.h"
 #include "app/fit_landmarks.h"
 #include "app/fit_page.h"
 #include "app/fit_strengths.h"
@@ -111,6 +112,12 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     return true;
 }
 
+// Where the mesh goes that was cut, or whose pieces were named.
+fs::path changed_mesh_file(const fs::path& rig) {
+    fs::path file = rig;
+    return file.replace_filename(rig.stem().string() + "_head.obj");
+}
+
 // Each muscle by itself, then all together.
 void scale_muscles(sim::Face& face, const FitOptions& options, const fs::path& standard,
                    const Watch& watch, rig::RigDescription& rig, FitReport& report) {
@@ -146,6 +153,12 @@ void scale_muscles(sim::Face& face, const FitOptions& options, const fs::path& s
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const Watch& watch) {
+    check_overwritten(options.out, {"risorius-rig"}, "no file, or an earlier rig");
+    if (options.metres_per_unit &&
+        !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit)))
+        throw Error("--metres-per-unit", "a number in (0, inf)",
+                    format_number(*options.metres_per_unit));
+
     // Read the mesh, the landmarks and the standard anatomy
     const fs::path standard =
         options.standard.empty() ? fs::path(RISORIUS_STANDARD_FOLDER) : options.standard;
@@ -201,6 +214,13 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
             report.notes.push_back(std::move(note));
         report.lips_cut = open_lips(options, placed, rig, mesh, report.notes);
     }
+    if (std::error_code unknown;
+        (report.lips_cut || regrouped) &&
+        fs::equivalent(options.mesh, changed_mesh_file(options.out), unknown))
+        throw Error(
+            options.out.string(),
+            "a name for the rig under which the changed mesh does not take the place of yours",
+            changed_mesh_file(options.out).string());
     std::optional<StagedFolder> folder;
     if (!options.report.empty()) folder.emplace(options.report);
     sim::Face face(rig, mesh, sim::quality_named("video"), options.out.string());
@@ -216,8 +236,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
     }
     if (report.lips_cut || regrouped) {
-        rig.mesh_file = options.out;
-        rig.mesh_file.replace_filename(options.out.stem().string() + "_head.obj");
+        rig.mesh_file = changed_mesh_file(options.out);
         io::write_obj(mesh, rig.mesh_file);
     }
     rig::write_rig(rig, options.out,

@@ -39,8 +39,8 @@ Points LandmarkWays::settle(const track::Drive& drive, int iterations) {
 
 WayTable read_landmark_ways(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "source", "expressions"});
     json.at("format").one_of({"risorius-landmark-ways"});
+    json.allow_keys({"format", "version", "source", "expressions"});
     json.at("version").integer(1, 1);
     WayTable out;
     const JsonCursor expressions = json.at("expressions");

@@ -73,10 +73,10 @@ void read_numbers(ShapesFile& shapes) {
 ShapesFile read_shapes_file(const std::filesystem::path& file, const rig::Head& head) {
     ShapesFile out{JsonCursor::read_file(file), 0, {}, {}, {}};
     const JsonCursor& json = out.json;
+    if (const auto format = json.find("format")) format->one_of({"risorius-shapes"});
     // "stats", "source" and "note" are for people
     json.allow_keys({"format", "version", "shape", "dtype", "layout", "names", "file",
                      "units_per_metre", "excitations", "on_top_of", "stats", "source", "note"});
-    if (const auto format = json.find("format")) format->one_of({"risorius-shapes"});
     if (const auto version = json.find("version")) version->integer(1, 1);
     const std::vector<JsonCursor> shape = json.at("shape").items();
     if (shape.size() != 3) json.at("shape").fail("[shapes, vertices, 3]");

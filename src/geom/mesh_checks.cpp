@@ -72,7 +72,8 @@ class MeshInspector {
     }
 
     std::string at(const Vec3& p) const {
-        return "at (" + number(p(0)) + ", " + number(p(1)) + ", " + number(p(2)) + ") m";
+        return "at (" + number(p(0)) + ", " + number(p(1)) + ", " + number(p(2)) +
+               (options_.scale == Severity::kIgnore ? ") in units of the mesh" : ") m");
     }
     Vec3 position(int v) const { return mesh_.positions.row(v).transpose(); }
     Vec3 face_centre(int f) const {

@@ -9,8 +9,8 @@ std::vector<std::string> read_calibration(const JsonCursor& json) {
         for (const JsonCursor& name : json.items()) out.push_back(name.string());
         return out;
     }
-    json.allow_keys({"format", "version", "source", "expressions"});
     json.at("format").one_of({"risorius-calibration"});
+    json.allow_keys({"format", "version", "source", "expressions"});
     json.at("version").integer(1, 1);
     json.at("source").string();
     for (const JsonCursor& name : json.at("expressions").items()) out.push_back(name.string());

@@ -185,17 +185,17 @@ std::map<std::string, Landmark> read_landmark_table(JsonCursor table) {
 
 std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "landmarks", "mesh", "note", "mesh_units_per_metre"});
     json.at("format").one_of({"risorius-landmarks"});
+    json.allow_keys({"format", "version", "landmarks", "mesh", "note", "mesh_units_per_metre"});
     json.at("version").integer(1, 1);
     return read_landmark_table(json.at("landmarks"));
 }
 
 RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
+    json.at("format").one_of({"risorius-rig"});
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
                      "facs", "expressions", "look", "calibrated_on"});
-    json.at("format").one_of({"risorius-rig"});
     json.at("version").integer(1, 1);
     RigDescription rig;
     const auto table = [&](const JsonCursor& named) {

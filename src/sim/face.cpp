@@ -549,6 +549,7 @@ void Face::start(const DriveAt& drive) {
     impl_->now.jaw = {};
     impl_->motion.start(impl_->now.x, head_motion(impl_->head, first));
     impl_->statics->forget();
+    impl_->tissue.solids().forget();
     impl_->last_move.resize(0, 3);
     if (at_rest) {
         impl_->now.activation = activation;

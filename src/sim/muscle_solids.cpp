@@ -264,6 +264,10 @@ void MuscleSolids::take(const Part& part, const Points& x, Points& local) const 
     }
 }
 
+void MuscleSolids::forget() {
+    for (Group& group : groups_) group.made_for_s = 0;
+}
+
 void MuscleSolids::begin_step(double h, const Points& x, const Eigen::VectorXd& activation) {
     if (empty()) return;
     step_s_ = h;
@@ -500,7 +504,7 @@ void MuscleSolids::scale_strength(const std::string& muscle, double factor) {
     for (Part& part : parts_)
         if (part.place.muscle->id == muscle)
             part.chains->set_f0(factor * part.chains->properties().f0_n);
-    for (Group& group : groups_) group.made_for_s = 0;
+    forget();
 }
 
 double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x,

@@ -73,6 +73,8 @@ class MuscleSolids {
     /// Adds dE/d(motion of the mandible) of nodes that are carried along; `gradient` is that by the nodes.
     void add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const;
 
+    /// Factors are made anew for the next step, as by solids that never took one.
+    void forget();
     /// Before the minimisation of a step of length h that starts at x.
     void begin_step(double h, const Points& x, const Eigen::VectorXd& activation);
 

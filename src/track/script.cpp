@@ -87,11 +87,11 @@ std::optional<Vec3> read_gravity(const JsonCursor& json) {
 }
 
 ScriptHeader read_header(const JsonCursor& json) {
-    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
-                     "gravity", "channels", "emg", "events", "view"});
     json.at("format").one_of({"risorius-script"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
+                     "gravity", "channels", "emg", "events", "view"});
     ScriptHeader header;
     header.rig = json.at("rig").string();
     if (header.rig.empty()) json.at("rig").fail("the path of a rig file");

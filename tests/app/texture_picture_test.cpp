@@ -5,12 +5,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 
-#include "core/error.h"
 #include "io/read_mesh.h"
 #include "media/image_file.h"
+#include "message_of.h"
+#include "paths.h"
 
 namespace risorius::app {
 namespace {
@@ -21,15 +21,6 @@ fs::path folder() {
     const fs::path folder = fs::path(testing::TempDir()) / "risorius_textures";
     fs::create_directories(folder);
     return folder;
-}
-
-std::string what(const std::function<void()>& run) {
-    try {
-        run();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 geom::PolygonMesh square_with(const std::string& library) {
@@ -60,13 +51,13 @@ TEST(Textures, AMeshWithoutItsLibraryHasNone) {
 
 TEST(Textures, APictureThatIsNotThereIsReportedWhereItIsNamed) {
     const geom::PolygonMesh mesh = square_with("newmtl painted\nmap_Kd lost.png\n");
-    EXPECT_EQ(what([&] { read_texture(mesh.textures.at(0)); }),
+    EXPECT_EQ(message_of([&] { read_texture(mesh.textures.at(0)); }),
               (folder() / "square.mtl").string() + ":2: expected the picture " +
                   (folder() / "lost.png").string() + ", found no such file");
 }
 
 TEST(Textures, APictureThatIsMovedOverTheSurfaceIsRefused) {
-    EXPECT_EQ(what([] { square_with("newmtl painted\nmap_Kd -o 0.5 0 a.png\n"); }),
+    EXPECT_EQ(message_of([] { square_with("newmtl painted\nmap_Kd -o 0.5 0 a.png\n"); }),
               (folder() / "square.mtl").string() +
                   ":2: expected a picture over the texture coordinates as they are, found \"-o\"");
 }
@@ -75,7 +66,7 @@ TEST(Textures, AFileThatIsNoPictureIsRefused) {
     std::ofstream(folder() / "words.png") << "no picture at all, only words";
     const geom::Texture texture{folder() / "words.png", "here", {}};
     EXPECT_EQ(
-        what([&] { read_texture(texture); }),
+        message_of([&] { read_texture(texture); }),
         (folder() / "words.png").string() +
             ": expected a picture (PNG, JPEG, TGA, BMP, TIFF, WebP), found another kind of file, "
             "or one cut short");

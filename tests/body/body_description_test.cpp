@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "body/soft_body.h"
+#include "message_of.h"
 
 namespace risorius::body {
 namespace {
@@ -22,15 +22,6 @@ Json cube() {
 
 BodyDescription read(const Json& json) {
     return read_body(JsonCursor::from_json(Json{{"body", json}}, "cube.json").at("body"));
-}
-
-std::string message_of(const std::function<void()>& step) {
-    try {
-        step();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 /// The message of reading a body with one value changed.

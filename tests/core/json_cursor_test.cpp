@@ -7,23 +7,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "message_of.h"
 
 namespace risorius {
 namespace {
 
 JsonCursor rig(const char* json) { return JsonCursor::from_json(Json::parse(json), "rig.json"); }
-
-std::string message_of(const std::function<void()>& step) {
-    try {
-        step();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 /// A file of its own in the temporary folder, removed again.
 class TemporaryFile {

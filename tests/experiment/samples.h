@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/json_cursor.h"
 #include "experiment/registry.h"
+#include "message_of.h"
 #include "paths.h"
 
 namespace risorius::experiment {
@@ -42,15 +42,6 @@ inline double measured(const FigureResult& figure, const std::string& name) {
             return table.rows[i][0];
     ADD_FAILURE() << name << " was not measured";
     return std::numeric_limits<double>::quiet_NaN();
-}
-
-inline std::string message_of(const std::function<void()>& step) {
-    try {
-        step();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 }  // namespace risorius::experiment

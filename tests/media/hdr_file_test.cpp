@@ -7,10 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 
-#include "core/error.h"
+#include "message_of.h"
 
 namespace risorius::media {
 namespace {
@@ -33,15 +32,6 @@ std::string rgbe(double r, double g, double b) {
     std::string out;
     for (const double v : {r, g, b}) out += static_cast<char>(static_cast<int>(v * scale));
     return out + static_cast<char>(exponent + 128);
-}
-
-std::string what(const std::function<void()>& run) {
-    try {
-        run();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 TEST(HdrFile, PlainPixelsComeBackWithinAPartIn256OverManyStops) {
@@ -82,10 +72,10 @@ TEST(HdrFile, PackedRowsAreTheSameAsPlainOnes) {
 
 TEST(HdrFile, AFileCutShortAndAnotherKindOfFileAreRefused) {
     const fs::path cut = written("cut.hdr", kHead + "-Y 2 +X 3\n" + rgbe(1, 1, 1));
-    EXPECT_EQ(what([&] { read_hdr(cut); }),
+    EXPECT_EQ(risorius::message_of([&] { read_hdr(cut); }),
               cut.string() + ": expected pixels of the whole picture, found the end of the file");
     const fs::path words = written("words.hdr", "not light\n");
-    EXPECT_EQ(what([&] { read_hdr(words); }),
+    EXPECT_EQ(risorius::message_of([&] { read_hdr(words); }),
               words.string() + ": expected a Radiance .hdr file, found another one");
 }
 

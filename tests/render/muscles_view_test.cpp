@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
+#include "message_of.h"
 #include "render/activation_colour.h"
 #include "render/offscreen_view.h"
 #include "render/round_head.h"
@@ -98,16 +98,6 @@ int differing_pixels(const Image& a, const Image& b) {
     return count;
 }
 
-template <class Call>
-std::string message_from(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(ActivationColour, LightnessGrowsEvenlyFromRestToFullActivation) {
     const auto lightness = [](double a) {
         return 116 * std::cbrt(activation_colour(a).dot(Vec3(0.2126, 0.7152, 0.0722))) - 16;
@@ -166,21 +156,21 @@ TEST_F(MusclesView, TheScaleOfActivationIsInTheCorner) {
 }
 
 TEST_F(MusclesView, WhatDoesNotFitIsNamed) {
-    EXPECT_EQ(message_from([] { show_named("bones", "--show"); }),
+    EXPECT_EQ(message_of([] { show_named("bones", "--show"); }),
               "--show: expected one of \"skin\", \"muscles\", \"wire\", \"strain\", \"error\", "
               "\"landmarks\", found \"bones\"");
     for (std::size_t i = 0; i < show_names().size(); ++i)
         EXPECT_EQ(show_named(show_names()[i], ""), static_cast<Show>(i));
     Pose pose = head->pose;
     pose.activations.clear();
-    EXPECT_EQ(message_from([&] { view->draw(pose); }),
+    EXPECT_EQ(message_of([&] { view->draw(pose); }),
               "pose/activations: expected 1 values, found 0");
     pose.muscle_positions.resize(0, 3);
-    EXPECT_EQ(message_from([&] { view->draw(pose); }),
+    EXPECT_EQ(message_of([&] { view->draw(pose); }),
               "pose/muscle_positions: expected 6 rows, found 0");
     HeadWithMuscle torn;
     torn.scene.muscles.parts[0].triangles(3, 1) = 6;
-    EXPECT_EQ(message_from([&] { OffscreenView(torn.scene, muscles_shown()).draw(torn.pose); }),
+    EXPECT_EQ(message_of([&] { OffscreenView(torn.scene, muscles_shown()).draw(torn.pose); }),
               "scene/muscles/parts/0/triangles: expected vertices 0..5, found 0..6");
 }
 

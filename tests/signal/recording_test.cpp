@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "core/error.h"
+#include "message_of.h"
 #include "own_folder_test.h"
 
 namespace risorius::signal {
@@ -20,16 +20,6 @@ Recording recorded(const std::string& text) {
     const fs::path file = "recording_test.csv";
     std::ofstream(file, std::ios::binary) << text;
     return Recording::read_file(file);
-}
-
-template <typename Read>
-std::string refusal_of(Read read) {
-    try {
-        read();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "none";
 }
 
 TEST_F(RecordingFile, TabsSemicolonsAndCommasSeparate) {
@@ -48,38 +38,38 @@ TEST_F(RecordingFile, TabsSemicolonsAndCommasSeparate) {
 TEST_F(RecordingFile, WhatIsNoNumberIsNamedByLineAndColumn) {
     for (const auto& [cell, found] : {std::pair{"nan", "\"nan\""}, std::pair{"", "nothing"},
                                       std::pair{"1.2.3", "\"1.2.3\""}, std::pair{"inf", "\"inf\""}})
-        EXPECT_EQ(refusal_of([text = std::string("a,b\n1,2\n3,") + cell + "\n"] {
+        EXPECT_EQ(message_of([text = std::string("a,b\n1,2\n3,") + cell + "\n"] {
                       recorded(text).samples(1);
                   }),
                   std::string("recording_test.csv:3:b: expected a number, found ") + found);
 }
 
 TEST_F(RecordingFile, TablesThatAreNoneAreRefused) {
-    EXPECT_EQ(refusal_of([] { recorded("a,b\n1,2\n1,2,3\n"); }),
+    EXPECT_EQ(message_of([] { recorded("a,b\n1,2\n1,2,3\n"); }),
               "recording_test.csv:3: expected 2 cells, found 3");
-    EXPECT_EQ(refusal_of([] { recorded("a,b\n1\n"); }),
+    EXPECT_EQ(message_of([] { recorded("a,b\n1\n"); }),
               "recording_test.csv:2: expected 2 cells, found 1");
-    EXPECT_EQ(refusal_of([] { recorded("a,b,a\n"); }),
+    EXPECT_EQ(message_of([] { recorded("a,b,a\n"); }),
               "recording_test.csv:1: expected every column once, found \"a\" again");
-    EXPECT_EQ(refusal_of([] { recorded("a,,b\n"); }),
+    EXPECT_EQ(message_of([] { recorded("a,,b\n"); }),
               "recording_test.csv:1: expected a name for every column, found an empty one");
-    EXPECT_EQ(refusal_of([] { recorded("\n# nothing\n"); }),
+    EXPECT_EQ(message_of([] { recorded("\n# nothing\n"); }),
               "recording_test.csv: expected a line with the names of the columns, found none");
-    EXPECT_EQ(refusal_of([] { Recording::read_file("no_such.csv"); }),
+    EXPECT_EQ(message_of([] { Recording::read_file("no_such.csv"); }),
               "no_such.csv: expected a readable file, found none");
 }
 
 TEST_F(RecordingFile, RateComesFromTimesAndGapsAreNamed) {
     EXPECT_NEAR(recorded("t,a\n0.5,1\n0.502,1\n0.504,1\n0.506,1\n").rate_hz(0), 500, 1e-9);
-    EXPECT_EQ(refusal_of([] { recorded("t\n0\n0.002\n0.004\n0.010\n0.012\n").rate_hz(0); }),
+    EXPECT_EQ(message_of([] { recorded("t\n0\n0.002\n0.004\n0.010\n0.012\n").rate_hz(0); }),
               "recording_test.csv:5:t: expected a time 0.002 s after the one before, found 0.006 s "
               "after it");
-    EXPECT_EQ(refusal_of([] { recorded("t\n0\n0.5\n0.25\n0.75\n1.25\n").rate_hz(0); }),
+    EXPECT_EQ(message_of([] { recorded("t\n0\n0.5\n0.25\n0.75\n1.25\n").rate_hz(0); }),
               "recording_test.csv:4:t: expected a time 0.5 s after the one before, found -0.25 s "
               "after it");
-    EXPECT_EQ(refusal_of([] { recorded("t\n1\n1\n1\n1\n").rate_hz(0); }),
+    EXPECT_EQ(message_of([] { recorded("t\n1\n1\n1\n1\n").rate_hz(0); }),
               "recording_test.csv:3:t: expected times that grow, found 0 s after it");
-    EXPECT_EQ(refusal_of([] { recorded("t\n1\n2\n").rate_hz(0); }),
+    EXPECT_EQ(message_of([] { recorded("t\n1\n2\n").rate_hz(0); }),
               "recording_test.csv: expected three samples or more, found 2");
 }
 

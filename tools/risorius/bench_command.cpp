@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench_machine.h"
+#include "app/beside.h"
 #include "app/staged_file.h"
 #include "commands.h"
 
@@ -108,6 +109,8 @@ void print(const Json& report) {
 }
 
 void run(const BenchArguments& arguments) {
+    if (!arguments.out.empty())
+        app::check_overwritten(arguments.out, {"risorius-bench"}, "no file, or an earlier report");
     Json report;
     app::BenchOptions options = arguments.options;
     options.faces = !arguments.only_solids;

@@ -27,7 +27,9 @@ void print_rig(const Json& info) {
             std::printf(" %s (%d)", group.c_str(), faces.get<int>());
         std::printf("\n");
     }
-    std::printf("\nMuscles (.l and .r where paired), excitation 0 to 1\n");
+    std::printf(
+        "\nMuscles (.l and .r where paired), excitation 0 to 1; greatest force x strength on this "
+        "head\n");
     for (const Json& muscle : info["muscles"]) {
         const char* sides = muscle["paired"].get<bool>() ? ".l .r" : "";
         std::printf("  %-40s %-5s  %-7s", text(muscle["id"]).c_str(), sides,

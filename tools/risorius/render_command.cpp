@@ -33,9 +33,10 @@ void run(RenderArguments& arguments) {
     std::printf("%s: %d frame%s of %d x %d", record.out.string().c_str(), record.frames,
                 record.frames == 1 ? "" : "s", record.width_px, record.height_px);
     if (!arguments.options.still_s) std::printf(" at %d fps", record.fps);
-    std::printf(", %.1f s (simulated in %.1f s, drawn in %.1f s, written in %.1f s)\n",
-                record.timing.total_s, record.timing.simulate_s, record.timing.draw_s,
-                record.timing.encode_s);
+    std::printf(
+        ", %.1f s (set up in %.1f s, simulated in %.1f s, drawn in %.1f s, written in %.1f s)\n",
+        record.timing.total_s, record.timing.build_s, record.timing.simulate_s,
+        record.timing.draw_s, record.timing.encode_s);
 }
 
 void add_marks(CLI::App& command, app::SyncMarks& marks) {
