@@ -9,12 +9,16 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool own) {
+/// A place that is shaded covers so much that the pores in it are a tenth as steep, if at all.
+constexpr double kPoresFrom_m = 0.00055;
+
+std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool pores,
+                            bool own) {
     switch (material) {
         case Material::kSkin:
             return skin == Materials::Skin::kVeil    ? veil_shader(folds)
-                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds)
-                                                     : skin_shader(folds);
+                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds, pores)
+                                                     : skin_shader(folds, pores);
         case Material::kEye:
             return eye_shader(own);
         case Material::kCornea:
@@ -110,8 +114,10 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
                                                    bool folds, Skin how, bool own,
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
-    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
-                                               fragment_shader(material, how, folds, own));
+    const bool draft = draft_ && material == Material::kSkin;
+    auto program = std::make_unique<GlProgram>(
+        name, surface_vertex_shader(folds, draft),
+        draft ? draft_skin_shader(how == Skin::kLayer) : fragment_shader(material, how, folds, pores_, own));
     program->use();
     if (muscles && material == Material::kSkin) {
         muscles->tell(*program);
@@ -143,9 +149,12 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
     return program;
 }
 
-Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
-                     const MuscleLayer* muscles)
-    : eyes_(scene.eyes), look_(scene.look) {
+Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
+                     double place_m, const MuscleLayer* muscles)
+    : eyes_(scene.eyes),
+      look_(scene.look),
+      draft_(draft && skin != Skin::kVeil),
+      pores_(place_m < kPoresFrom_m) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
@@ -154,7 +163,7 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
             programs_.emplace(std::pair(batch.material, own),
                               make_program(scene, batch.material, false, skin, own, muscles));
     }
-    if (scene.fold_phase.rows() > 0)
+    if (scene.fold_phase.rows() > 0 && !draft_)
         folded_skin_ = make_program(scene, Material::kSkin, true, skin, /*own=*/false, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
@@ -204,6 +213,10 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 
 void Materials::draw_skin(const Batch& batch, const SceneBuffers& buffers) const {
     programs_.at({Material::kSkin, false})->use();
+    if (!folded_skin_) {
+        buffers.draw(batch);
+        return;
+    }
     buffers.draw_smooth(batch);
     if (!buffers.has_wrinkled(batch)) return;
     folded_skin_->use();
