@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/known_names.h"
 #include "render/detail/camera.h"
+#include "render/detail/cell_clear.h"
 #include "render/detail/colour_scale.h"
 #include "render/detail/framebuffer.h"
 #include "render/detail/gl_context.h"
@@ -151,17 +152,18 @@ struct OffscreenView::Impl {
 
         buffers->bind();
         const int shaded = shaded_per_side();
-        if (shaded < options.supersampling)
+        if (shaded < options.supersampling) {
+            cell_clear = std::make_unique<CellClear>();
             skin_layer =
                 std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
                                             picture.tile_height_samples() / options.supersampling,
                                             options.supersampling, shaded);
+        }
         const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
                                      : skin_layer ? Materials::Skin::kLayer
                                                   : Materials::Skin::kPlain;
-        materials = std::make_unique<Materials>(
-            scene, *buffers, skin, options.draft,
-            camera.frame_height_m / (options.height_px * shaded), muscles.get());
+        materials =
+            std::make_unique<Materials>(scene, *buffers, skin, options.draft, muscles.get());
         lights = std::make_unique<Lights>(camera, centre, options.light, options.draft);
         target = std::make_unique<Framebuffer>(
             picture.tile_width_samples(), picture.tile_height_samples(),
@@ -223,6 +225,7 @@ struct OffscreenView::Impl {
         glDeleteBuffers(1, &frame_buffer);
         baked.reset();
         skin_layer.reset();
+        cell_clear.reset();
         target.reset();
         lights.reset();
         materials.reset();
@@ -260,9 +263,14 @@ struct OffscreenView::Impl {
             buffers->bind();
         }
         target->bind();
-        glClearColor(0, 0, 0, 0);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
+        if (looked_up) {
+            cell_clear->clear(cells, tile.width, tile.height);
+            buffers->bind();
+        } else {
+            glClearColor(0, 0, 0, 0);
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        }
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
@@ -314,6 +322,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
     std::unique_ptr<Lights> lights;
+    std::unique_ptr<CellClear> cell_clear;
     std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
     std::unique_ptr<Framebuffer> target;
     std::shared_ptr<Baked> baked;

@@ -27,7 +27,7 @@ void add_coding(CLI::App& command, app::AnimateOptions& options) {
         ->group(kCoding);
     command
         .add_option("--preset", video.preset,
-                    "Of H.264, ultrafast to placebo, medium when not given: slower is smaller")
+                    "Of H.264, ultrafast to placebo, faster when not given: slower is smaller")
         ->group(kCoding);
     command
         .add_option(

@@ -9,16 +9,12 @@
 namespace risorius::render {
 namespace {
 
-/// A place that is shaded covers so much that the pores in it are a tenth as steep, if at all.
-constexpr double kPoresFrom_m = 0.00055;
-
-std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool pores,
-                            bool own) {
+std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool own) {
     switch (material) {
         case Material::kSkin:
             return skin == Materials::Skin::kVeil    ? veil_shader(folds)
-                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds, pores)
-                                                     : skin_shader(folds, pores);
+                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds)
+                                                     : skin_shader(folds);
         case Material::kEye:
             return eye_shader(own);
         case Material::kCornea:
@@ -115,9 +111,9 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
     const bool draft = draft_ && material == Material::kSkin;
-    auto program = std::make_unique<GlProgram>(
-        name, surface_vertex_shader(folds, draft),
-        draft ? draft_skin_shader(how == Skin::kLayer) : fragment_shader(material, how, folds, pores_, own));
+    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds, draft),
+                                               draft ? draft_skin_shader(how == Skin::kLayer)
+                                                     : fragment_shader(material, how, folds, own));
     program->use();
     if (muscles && material == Material::kSkin) {
         muscles->tell(*program);
@@ -150,11 +146,8 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
 }
 
 Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-                     double place_m, const MuscleLayer* muscles)
-    : eyes_(scene.eyes),
-      look_(scene.look),
-      draft_(draft && skin != Skin::kVeil),
-      pores_(place_m < kPoresFrom_m) {
+                     const MuscleLayer* muscles)
+    : eyes_(scene.eyes), look_(scene.look), draft_(draft && skin != Skin::kVeil) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;

@@ -21,10 +21,9 @@ class Materials {
         kVeil,
         kLayer
     };  ///< by itself, over `muscles`, for others to look up
-    /// `draft`: skin that is not a veil is lit at its vertices. `place_m`: as much as the face moves in the picture from one place
-    /// that is shaded to the next.
+    /// `draft`: skin that is not a veil is lit at its vertices.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-              double place_m, const MuscleLayer* muscles);
+              const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
@@ -46,7 +45,7 @@ class Materials {
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};
     Look look_;
-    bool draft_, pores_;
+    bool draft_;
 };
 
 }  // namespace risorius::render

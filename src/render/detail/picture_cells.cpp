@@ -31,7 +31,8 @@ PictureCells::Range PictureCells::range(const ClipBox& box) const {
         return static_cast<int>(std::floor(std::clamp(at, -1.0F, static_cast<float>(cells))));
     };
     // A hundredth of a pixel covers rounding.
-    const float x = 0.02F / static_cast<float>(width_px_), y = 0.02F / static_cast<float>(height_px_);
+    const float x = 0.02F / static_cast<float>(width_px_),
+                y = 0.02F / static_cast<float>(height_px_);
     return {std::max(cell(box.left - x, width_px_, columns_), 0),
             std::min(cell(box.right + x, width_px_, columns_), columns_ - 1),
             std::max(cell(box.low - y, height_px_, rows_), 0),
@@ -53,25 +54,40 @@ bool PictureCells::needs_samples(const ClipBox& box) const {
     return false;
 }
 
+PixelBox PictureCells::touched() const {
+    PixelBox box{columns_, 0, rows_, 0};
+    for (int row = 0; row < rows_; ++row)
+        for (int column = 0; column < columns_; ++column)
+            if (cells_[index(column, row)] != 0) {
+                box.left = std::min(box.left, column);
+                box.right = std::max(box.right, column + 1);
+                box.low = std::min(box.low, row);
+                box.high = std::max(box.high, row + 1);
+            }
+    return {box.left * kSide_px, std::min(box.right * kSide_px, width_px_), box.low * kSide_px,
+            std::min(box.high * kSide_px, height_px_)};
+}
+
 void PictureCells::find_steps(const std::vector<std::uint8_t>& rgba, int shaded) {
-    const auto width = static_cast<std::size_t>(width_px_ * shaded),
-               height = static_cast<std::size_t>(height_px_ * shaded),
-               side = static_cast<std::size_t>(kSide_px * shaded);
+    const PixelBox box = touched();
+    if (box.left >= box.right) return;
+    const auto places = [&](int px) { return static_cast<std::size_t>(px * shaded); };
+    const std::size_t width = places(box.right - box.left), height = places(box.high - box.low),
+                      side = places(kSide_px);
     // Distances, with the outermost ones repeated around them
     const std::size_t stride = width + 2;
     away_.resize(stride * (height + 2));
     for (std::size_t y = 0; y < height + 2; ++y) {
-        const std::uint8_t* from =
-            rgba.data() + 4 * width * std::clamp<std::size_t>(y, 1, height) - 4 * width;
+        const std::size_t row = places(box.low) + std::clamp<std::size_t>(y, 1, height) - 1;
+        const std::uint8_t* from = rgba.data() + 4 * (row * places(width_px_) + places(box.left));
         std::uint8_t* to = away_.data() + y * stride;
         for (std::size_t x = 0; x < width; ++x) to[x + 1] = from[4 * x + 3];
         to[0] = to[1];
         to[width + 1] = to[width];
     }
-    for (int row = 0; row < rows_; ++row) {
+    for (std::size_t first = 0; first < height; first += side) {
         steps_.assign(width, 0);
-        const auto from = static_cast<std::size_t>(row) * side;
-        for (std::size_t y = from; y < std::min(from + side, height); ++y) {
+        for (std::size_t y = first; y < std::min(first + side, height); ++y) {
             const std::uint8_t *here = away_.data() + (y + 1) * stride + 1, *above = here + stride,
                                *below = here - stride;
             for (std::size_t x = 0; x < width; ++x)
@@ -79,8 +95,10 @@ void PictureCells::find_steps(const std::vector<std::uint8_t>& rgba, int shaded)
                     steps_[x] | step(here[x], here[x + 1]) | step(here[x], *(here + x - 1)) |
                     step(here[x], above[x]) | step(here[x], below[x]));
         }
+        const int row = (box.low * shaded + static_cast<int>(first)) / static_cast<int>(side);
         for (std::size_t x = 0; x < width; ++x) {
-            std::uint8_t& cell = cells_[index(static_cast<int>(x / side), row)];
+            const auto column = static_cast<int>((places(box.left) + x) / side);
+            std::uint8_t& cell = cells_[index(column, row)];
             if (steps_[x] != 0 && cell != 0) cell |= kSampled;
         }
     }

@@ -29,6 +29,11 @@ struct ClipBox {
     }
 };
 
+/// Pixels [left, right) x [low, high), from the lower left corner.
+struct PixelBox {
+    int left, right, low, high;
+};
+
 class PictureCells {
   public:
     static constexpr int kSide_px = 8;
@@ -41,6 +46,9 @@ class PictureCells {
     /// Something lies here that is drawn in samples.
     void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
     void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
+
+    /// Around all that was touched
+    PixelBox touched() const;
 
     /// Of what was touched, only what is skin all over, without a step in its distance, can do without samples. `rgba`: the skin
     /// layer, `shaded` places per pixel and side, rows from the bottom, with the distance in alpha (see shader_lookup.cpp).

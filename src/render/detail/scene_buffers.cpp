@@ -421,7 +421,7 @@ void SceneBuffers::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
         return true;
     });
     mark_others(cells);
-    cells.find_steps(skin.read(), skin.shaded());
+    cells.find_steps(skin.read(cells.touched()), skin.shaded());
     keep_if([&](const Batch& batch, const unsigned* face) {
         return batch.material != Material::kSkin || cells.needs_samples(box_of(face));
     });

@@ -102,7 +102,7 @@ class SceneBuffers {
     std::vector<float> positions_, normals_, moving_, fold_depth_;
     std::array<std::vector<Chosen>, 2> chosen_;
     std::vector<unsigned> choice_, wrinkled_choice_;
-    std::vector<float> clip_places_;      ///< x, y, z over w, and w
+    std::vector<float> clip_places_;  ///< x, y, z over w, and w
     std::vector<float> lit_places_, farthest_lit_;
     std::vector<std::uint8_t> wrinkled_;  ///< per vertex, now
     int index_count_ = 0;

@@ -66,15 +66,15 @@ const FarthestSkin& SkinLayer::farthest(const ClipBox& box) {
         const float at = (0.5F * std::clamp(clip, -1.0F, 1.0F) + 0.5F) * cells;
         return std::clamp(static_cast<int>(at) + by, 0, most);
     };
-    if (!box.behind && (box.left > box.right || box.left > 1 || box.right < -1 || box.low > 1 ||
-                        box.high < -1))
+    if (!box.behind &&
+        (box.left > box.right || box.left > 1 || box.right < -1 || box.low > 1 || box.high < -1))
         return farthest_;
     const int from_x = box.behind ? 0 : cell(box.left, farthest_.width, -1, farthest_.columns),
               to_x = box.behind ? farthest_.columns
                                 : cell(box.right, farthest_.width, 2, farthest_.columns),
               from_y = box.behind ? 0 : cell(box.low, farthest_.height, -1, farthest_.rows),
-              to_y = box.behind ? farthest_.rows
-                                : cell(box.high, farthest_.height, 2, farthest_.rows);
+              to_y =
+                  box.behind ? farthest_.rows : cell(box.high, farthest_.height, 2, farthest_.rows);
     const int x0 = from_x * kCell, y0 = from_y * kCell,
               drawn_width = std::min(to_x * kCell, drawn_width_) - x0,
               drawn_height = std::min(to_y * kCell, drawn_height_) - y0;
@@ -101,11 +101,19 @@ const FarthestSkin& SkinLayer::farthest(const ClipBox& box) {
     return farthest_;
 }
 
-const std::vector<std::uint8_t>& SkinLayer::read() {
+const std::vector<std::uint8_t>& SkinLayer::read(const PixelBox& box) {
     rgba_.resize(4 * static_cast<std::size_t>(drawn_width_) *
                  static_cast<std::size_t>(drawn_height_));
+    const int x = box.left * shaded_, y = box.low * shaded_,
+              width = (box.right - box.left) * shaded_, height = (box.high - box.low) * shaded_;
+    if (width <= 0 || height <= 0) return rgba_;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glReadPixels(0, 0, drawn_width_, drawn_height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+    glPixelStorei(GL_PACK_ROW_LENGTH, drawn_width_);
+    glReadPixels(
+        x, y, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+        rgba_.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(drawn_width_) +
+                            static_cast<std::size_t>(x)));
+    glPixelStorei(GL_PACK_ROW_LENGTH, 0);
     return rgba_;
 }
 

@@ -37,8 +37,9 @@ class SkinLayer {
     /// How far away the skin in the layer is at most, cell by cell, within the box; elsewhere it is taken to be missing. Waits for the drawing.
     const FarthestSkin& farthest(const ClipBox& box);
 
-    /// Its places as they were shaded, rows from the bottom: colour in bytes of sRGB, and the distance (shader_lookup.cpp).
-    const std::vector<std::uint8_t>& read();
+    /// Its places as they were shaded, rows from the bottom: colour in bytes of sRGB, and the distance (shader_lookup.cpp). Those
+    /// beside the rectangle, px of the picture, are not brought up to date.
+    const std::vector<std::uint8_t>& read(const PixelBox& box);
     const std::vector<std::uint8_t>& places() const { return rgba_; }  ///< read last
     int shaded() const { return shaded_; }
 

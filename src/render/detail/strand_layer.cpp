@@ -29,7 +29,8 @@ StrandLayer::StrandLayer(const Scene& scene, std::vector<Strand> strands, const 
       camera_(camera.eye_point()),
       sample_m_(sample_m),
       program_("strand", strand_vertex_shader(), strand_shader()),
-      triangles_(strand_ribbons(strands_.size()), {3, 3, 2}) {  // place, direction, opacity and shade
+      triangles_(strand_ribbons(strands_.size()),
+                 {3, 3, 2}) {  // place, direction, opacity and shade
     program_.use();
     const Eigen::Vector3f tone = linear_from_srgb(hair_tone_at(scene.look)).cast<float>();
     glUniform3fv(program_.location("hair_tone"), 1, tone.data());

@@ -6,8 +6,8 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
-#include "render/detail/streamed_triangles.h"
 #include "render/detail/strands.h"
+#include "render/detail/streamed_triangles.h"
 
 namespace risorius::render {
 
