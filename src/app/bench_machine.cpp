@@ -224,6 +224,10 @@ Json bench_rig(const fs::path& rig_file, bool only_steps, bool only_pictures, co
 Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
     const RigFiles files = read_rig_files(rig_file);
     sim::Face face(files.rig, files.mesh, sim::quality_named(options.quality), files.place());
+    const auto penetration = [](const sim::Penetration& of) -> Json {
+        return {
+            {"lips", 1e3 * of.lips_m}, {"bone", 1e3 * of.bone_m}, {"eyeball", 1e3 * of.eyeball_m}};
+    };
     const Stopwatch stopwatch;
     const sim::StressReport report = sim::stress(
         face, files.rig.channels(), {.steps = options.stress_steps, .seed = options.seed});
@@ -237,7 +241,8 @@ Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
             {"mean_inverted_tets", report.mean_inverted_tets},
             {"longest_inverted_steps", report.longest_inverted_steps},
             {"furthest_mm", 1e3 * report.furthest_m},
-            {"deepest_contact_mm", 1e3 * report.deepest_contact_m},
+            {"usual_penetration_mm", penetration(report.usual_penetration)},
+            {"deepest_penetration_mm", penetration(report.deepest_penetration)},
             {"inverted_at_rest", report.inverted_at_rest},
             {"left_at_rest_mm", 1e3 * report.left_at_rest_m},
             {"step_ms", 1e3 * stopwatch.seconds() / std::max(1, report.steps)}};

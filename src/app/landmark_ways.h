@@ -27,7 +27,7 @@ class LandmarkWays {
     /// What the tables of the rig say; Error when they do not know the name.
     track::Drive drive(const std::string& expression) const;
     /// Settles the face in the drive, from rest: n x 3, m, at atlas size, in the order of landmarks().
-    Points settle(const track::Drive& drive, int iterations = 400);
+    Points settle(const track::Drive& drive, int iterations = sim::kRestIterations);
     bool came_to_rest() const { return came_to_rest_; }
 
   private:

@@ -33,7 +33,6 @@ namespace {
 constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equilibrium
 constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
-constexpr int kSettleIterations = 400;
 constexpr int kContactRefresh = 20;  // iterations between searches while settling
 
 Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
@@ -557,7 +556,7 @@ void Face::start(const DriveAt& drive) {
         impl_->prescribe(x, activation, first);
         impl_->before = impl_->now;
     } else {
-        impl_->settle(activation, first, kSettleIterations);
+        impl_->settle(activation, first, kRestIterations);
     }
 }
 
@@ -578,7 +577,7 @@ FacePose Face::pose_at(double t_s, const DriveAt& drive) {
     if (impl_->how == Motion::kQuasiStatic) {
         const track::Drive now = drive(t_s);
         impl_->history.push_back(
-            impl_->settle(impl_->steady_activation(now), now, kSettleIterations));
+            impl_->settle(impl_->steady_activation(now), now, kRestIterations));
         return impl_->pose(1.0);
     }
     while (static_cast<double>(impl_->done) < exact_step(t_s, impl_->piece_s)) impl_->piece(drive);
@@ -622,6 +621,7 @@ FacePose Face::pose() const { return impl_->pose(1.0); }
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
+Penetration Face::penetration() const { return impl_->tissue.penetration(impl_->now.x); }
 int Face::node_count() const { return impl_->tissue.nodes(); }
 int Face::tet_count() const { return static_cast<int>(impl_->mesh.tets.rows()); }
 int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(impl_->now.x); }

@@ -26,6 +26,9 @@ namespace risorius::sim {
 /// Steps are fixed, independent of the frame rate of a video. The usual one; Quality may ask for another.
 inline constexpr double kStep_s = 1.0 / 60.0;
 
+/// Of an equilibrium, at most. Most take 100 to 200; lips that buckle as they roll in take up to 1,000.
+inline constexpr int kRestIterations = 1500;
+
 struct Quality {
     std::string name;
     int shell_vertices = 800;  ///< three nodes each
@@ -93,7 +96,7 @@ class Face {
 
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                       int iterations = 400);
+                       int iterations = kRestIterations);
 
     /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
     /// Nodes, n x 3, m: tissue, then volume muscles.
@@ -125,6 +128,9 @@ class Face {
 
     /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
+
+    /// After the last step or settle().
+    Penetration penetration() const;
 
     int node_count() const;
     int tet_count() const;

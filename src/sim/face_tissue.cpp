@@ -52,9 +52,9 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
     lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
-    find_cheeks(jaw);
     mass_.resize(rest_.rows());
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
+    find_cheeks(jaw);
     solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
     tets_->add_laplacian(laplacian, 1.0);
     damping_ = solve::Laplacian(laplacian.build({}));
@@ -159,10 +159,12 @@ void FaceTissue::find_cheeks(const Jaw& jaw) {
         const double rim =
             0.4 + 0.6 * smoothstep(head_.mm(2), head_.mm(10), distance_to_polyline(p, lips_));
         const double share = near * below * above * rim;
-        if (share > 0 && lid_share(p) == 0)
+        const int node = node_of(a.shell_vertex, kDeep);
+        const bool in_tissue =
+            mass_[node] > 0;  // what air pushed away there would hold nothing back
+        if (share > 0 && in_tissue && lid_share(p) == 0)
             cheeks_.push_back(
-                {node_of(a.shell_vertex, kDeep),
-                 share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+                {node, share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
     }
 }
 
@@ -323,6 +325,13 @@ void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
     figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
     figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
     figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
+}
+
+Penetration FaceTissue::penetration(const Points& x) const {
+    const std::vector<tissue::Contacts::Contact> pairs = search_.find(x, mandible_, gaze_);
+    return {ContactSearch::deepest(pairs, x, kLipBody, kLipBody),
+            ContactSearch::deepest(pairs, x, kSkullBody, kMandibleBody),
+            ContactSearch::deepest(pairs, x, kGlobeBody, kGlobeBody)};
 }
 
 StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {

@@ -59,6 +59,12 @@ struct StepFigures {
     bool converged = false;
 };
 
+/// How deep surfaces lie in each other beyond what they do at rest, m: lip in lip, tissue in bone and teeth, lids in the eyeball
+/// (its cornea included).
+struct Penetration {
+    double lips_m = 0, bone_m = 0, eyeball_m = 0;
+};
+
 /// What moves by itself and takes the tissue along.
 struct Prescribed {
     Rigid mandible = Rigid::Identity();
@@ -99,6 +105,8 @@ class FaceTissue {
     /// Finds the contact pairs at x; they hold until the next call. What steps learn about how hard they press is kept.
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
+    /// Of all that is near at x, whatever was found before.
+    Penetration penetration(const Points& x) const;
 
     /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
     /// tried first.

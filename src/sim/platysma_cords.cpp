@@ -158,27 +158,25 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
     std::vector<char> welded_on_skin = on_skin;
     for (std::size_t v = 0; v < head.welded.size(); ++v)
         if (on_skin[static_cast<std::size_t>(head.welded[v])]) welded_on_skin[v] = 1;
+    std::vector<Vec3> border;
+    for (const Station& station : cord.stations) border.push_back(station.rest);
     for (long v = 0; v < head.vertices.rows(); ++v) {
         if (!welded_on_skin[static_cast<std::size_t>(v)]) continue;
         const Vec3 p = head.vertices.row(v);
         const double reach = std::max(kReach * width, head.mm(1.5 * kLine_mm));
-        double nearest = reach, at = -1, across = 0;
-        for (std::size_t i = 0; i + 1 < cord.stations.size(); ++i) {
-            const Vec3 from = cord.stations[i].rest, way = cord.stations[i + 1].rest - from;
-            const double t = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
-            const Vec3 beside = p - from - t * way;
-            if (beside.norm() >= nearest) continue;
-            nearest = beside.norm();
-            at = static_cast<double>(i) + t;
-            across = std::copysign(nearest, beside.dot(way.cross(cord.stations[i].outward)));
-        }
-        if (at < 0) continue;
+        const PolylinePoint on = nearest_on_polyline(p, border);
+        const double nearest = on.distance_m;
+        if (nearest >= reach) continue;
+        const Vec3 way = border[on.piece + 1] - border[on.piece];
+        const Vec3 beside = p - border[on.piece] - on.share * way;
+        const double across =
+            std::copysign(nearest, beside.dot(way.cross(cord.stations[on.piece].outward)));
+        const double at = static_cast<double>(on.piece) + on.share;
         const double share = 1 / std::cosh(nearest / width) *
                              (1 - smoothstep(0.6 * kReach * width, kReach * width, nearest));
         const double line = head.mm(kLine_mm);
-        const double ridge =
-            kRidge * (1 - smoothstep(0.3 * line, 0.5 * line, nearest)) *
-            smoothstep(kLeastWidth_mm, 3 * kLeastWidth_mm, edge / head.mm(1) + kLeastWidth_mm);
+        const double ridge = kRidge * (1 - smoothstep(0.3 * line, 0.5 * line, nearest)) *
+                             smoothstep(0, 2 * head.mm(kLeastWidth_mm), edge);
         cord.lifted.push_back({static_cast<int>(v), at, share, across, ridge});
     }
     cords_.push_back(std::move(cord));

@@ -5,14 +5,21 @@
 
 namespace risorius::sim {
 
-double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line) {
+PolylinePoint nearest_on_polyline(const Vec3& p, const std::vector<Vec3>& line) {
+    PolylinePoint nearest;
     double best = 1e300;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const Vec3 along = line[i + 1] - line[i];
         const double t = std::clamp((p - line[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        best = std::min(best, (p - line[i] - t * along).squaredNorm());
+        const double squared = (p - line[i] - t * along).squaredNorm();
+        if (squared < best) best = squared, nearest.piece = i, nearest.share = t;
     }
-    return std::sqrt(best);
+    nearest.distance_m = std::sqrt(best);
+    return nearest;
+}
+
+double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line) {
+    return nearest_on_polyline(p, line).distance_m;
 }
 
 std::vector<Vec3> sample_curve(const std::vector<Vec3>& through, double spacing_m) {

@@ -7,6 +7,14 @@
 
 namespace risorius::sim {
 
+/// The point of a polyline that is nearest to p: on which of its pieces, where along that piece, and how far away.
+struct PolylinePoint {
+    double distance_m = 0;
+    std::size_t piece = 0;
+    double share = 0;  ///< of the piece, 0 at its first point, 1 at its second
+};
+PolylinePoint nearest_on_polyline(const Vec3& p, const std::vector<Vec3>& line);
+
 /// Distance of p to the polyline, m.
 double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line);
 

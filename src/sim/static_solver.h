@@ -19,7 +19,7 @@
 namespace risorius::sim {
 
 struct StaticOptions {
-    int iterations = 400;       ///< of L-BFGS, at most
+    int iterations = 1500;      ///< of L-BFGS, at most
     double tolerance_m = 1e-6;  ///< converged when |B g| is no longer on any node
     int round = 12;             ///< iterations between searches for contacts
     int memory = 8;

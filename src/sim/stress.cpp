@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace risorius::sim {
 
@@ -39,6 +40,14 @@ double chance(int seed, unsigned stream, long row, long column) {
         x ^= x >> 31;
     }
     return (static_cast<double>(x >> 11) + 0.5) * 0x1p-53;
+}
+
+// The least of the values that so large a share of them does not exceed; 0 of none.
+double share_below(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+    return values[std::max<std::size_t>(at, 1) - 1];
 }
 
 }  // namespace
@@ -86,8 +95,9 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
     });
     const Points rest = face.skin_nodes();
     int in_a_row = 0;
+    std::vector<double> lips_m, bone_m, eyeball_m;
     for (report.steps = 0; report.steps < options.steps; ++report.steps) {
-        const StepFigures figures = face.step(drive);
+        face.step(drive);
         const Points now = face.skin_nodes();
         if (!now.allFinite()) {
             ++report.broken_steps;
@@ -99,8 +109,15 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
         report.longest_inverted_steps = std::max(report.longest_inverted_steps, in_a_row);
         report.mean_inverted_tets += static_cast<double>(inverted) / options.steps;
         report.furthest_m = std::max(report.furthest_m, (now - rest).rowwise().norm().maxCoeff());
-        report.deepest_contact_m = std::max(report.deepest_contact_m, figures.contact_depth_m);
+        const Penetration penetration = face.penetration();
+        lips_m.push_back(penetration.lips_m);
+        bone_m.push_back(penetration.bone_m);
+        eyeball_m.push_back(penetration.eyeball_m);
     }
+    report.usual_penetration = {share_below(lips_m, 0.99), share_below(bone_m, 0.99),
+                                share_below(eyeball_m, 0.99)};
+    report.deepest_penetration = {share_below(lips_m, 1), share_below(bone_m, 1),
+                                  share_below(eyeball_m, 1)};
     for (int step = 0; step < options.settle_steps; ++step) face.step(drive);
     report.inverted_at_rest = face.inverted_tets();
     report.left_at_rest_m = (face.skin_nodes() - rest).rowwise().norm().maxCoeff();

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <random>
 #include <string>
 
@@ -262,15 +261,10 @@ double noise(const Vec3& p) {
 
 // Where along the line the point of it lies that is nearest to p, m.
 double place_on(const Vec3& p, const std::vector<Vec3>& line) {
-    double least = std::numeric_limits<double>::infinity(), place = 0, passed = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const Vec3 way = line[i + 1] - line[i];
-        const double t = std::clamp((p - line[i]).dot(way) / way.squaredNorm(), 0.0, 1.0);
-        const double away = (p - line[i] - t * way).norm();
-        if (away < least) least = away, place = passed + t * way.norm();
-        passed += way.norm();
-    }
-    return place;
+    const PolylinePoint nearest = nearest_on_polyline(p, line);
+    double place = 0;
+    for (std::size_t i = 0; i < nearest.piece; ++i) place += (line[i + 1] - line[i]).norm();
+    return place + nearest.share * (line[nearest.piece + 1] - line[nearest.piece]).norm();
 }
 
 // Signed distance from the crease, positive to the outside of the face.

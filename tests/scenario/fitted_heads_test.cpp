@@ -33,6 +33,7 @@ struct Fitted {
     std::unique_ptr<sim::Face> face;
     std::unique_ptr<app::LandmarkPoints> points;
     Points rest;
+    mutable bool came_to_rest = false;  // in settled()
 
     explicit Fitted(const HeadFiles& head) {
         app::FitOptions options;
@@ -60,7 +61,7 @@ struct Fitted {
         none.excitation.setZero();
         none.kinematic.fill(0);
         face->start([&](double) { return none; });
-        face->settle(drive.excitation, drive);
+        came_to_rest = face->settle(drive.excitation, drive).converged;
         return face->pose();
     }
 
@@ -188,13 +189,18 @@ TEST_P(FittedHead, OneSideMovesAlone) {
     }
 }
 
-TEST_P(FittedHead, EveryActionUnitKeepsTheFaceFinite) {
+TEST_P(FittedHead, EveryActionUnitComesToRestAndPassesThroughNothing) {
     // Settling takes its time: every unit on one of the heads
     int turn = std::string(GetParam().name) == kHeads[0].name ? 0 : 1;
     for (const track::ActionUnit& unit : fitted->files.rig.facs.units) {
         if (!unit.unsupported.empty() || turn++ % 2) continue;
         const sim::FacePose pose = fitted->settled(fitted->drive_of(unit.id));
         EXPECT_TRUE(pose.vertices.allFinite()) << unit.id;
+        EXPECT_TRUE(fitted->came_to_rest) << unit.id;
+        const sim::Penetration penetration = fitted->face->penetration();
+        EXPECT_LT(1e3 * penetration.lips_m, 0.3) << unit.id;
+        EXPECT_LT(1e3 * penetration.bone_m, 0.2) << unit.id;
+        EXPECT_LT(1e3 * penetration.eyeball_m, 0.2) << unit.id;
         // Nothing flies off: the jaw's 50 mm is the largest movement a face makes.
         if (!pose.head.isApprox(Rigid::Identity(), 0.0)) continue;
         EXPECT_LT((pose.vertices - fitted->rest).rowwise().norm().maxCoeff(), 0.06) << unit.id;

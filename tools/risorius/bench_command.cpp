@@ -47,6 +47,13 @@ void print_stress(const Json& one) {
     std::printf("  skin moved by %.1f mm at most; at rest again %d inverted, %.3f mm left\n",
                 one["furthest_mm"].get<double>(), one["inverted_at_rest"].get<int>(),
                 one["left_at_rest_mm"].get<double>());
+    const Json &usual = one["usual_penetration_mm"], &deepest = one["deepest_penetration_mm"];
+    std::printf(
+        "  penetration, 99 of 100 steps (all): lips %.2f (%.2f), bone %.2f (%.2f), eyeball "
+        "%.2f (%.2f) mm\n",
+        usual["lips"].get<double>(), deepest["lips"].get<double>(), usual["bone"].get<double>(),
+        deepest["bone"].get<double>(), usual["eyeball"].get<double>(),
+        deepest["eyeball"].get<double>());
 }
 
 void print_steps(const Json& cases) {
