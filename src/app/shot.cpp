@@ -35,7 +35,7 @@ media::VideoOptions video_options(const AnimateOptions& options, const Shot& sho
     video.alpha = shot.view.background.transparent;
     const bool is_h264 =
         options.out.extension() == ".mp4" || (options.out.extension() == ".mov" && !video.alpha);
-    if (options.draft && is_h264 && !video.preset) video.preset = "veryfast";
+    if (options.draft && is_h264 && !video.preset) video.preset = "superfast";
     if (options.audio_offset && !options.audio)
         throw Error("--audio-offset", "a recording to place, by --audio", "none");
     if (!options.audio) return video;
@@ -128,6 +128,7 @@ Shot plan_shot(const AnimateOptions& options) {
                       .distance_m = asked.distance_m,
                       .view_angle_deg = asked.view_angle_deg,
                       .aperture_mm = asked.aperture_mm};
+    shot.view.draft = options.draft;
     shot.view.supersampling = options.antialiasing.value_or(options.draft ? 1 : asked.antialiasing);
     if (shot.view.supersampling < 1 || shot.view.supersampling > 4)
         throw Error("--antialiasing", "samples per pixel and side in [1, 4]",

@@ -28,7 +28,7 @@ struct VideoOptions {
     int height_px = 0;
     int fps = 60;
     std::optional<int> crf = {};  ///< quality: H.264 0..51, 18; VP9 0..63, 24; less is better
-    std::optional<std::string> preset = {};  ///< of H.264, "medium": slower ones make smaller files
+    std::optional<std::string> preset = {};  ///< of H.264, "faster": slower ones make smaller files
     std::optional<std::string> pixels = {};  ///< "yuv420p", or "yuv444p": colour at full size
     std::optional<int> keyframe_interval = {};  ///< frames, a quarter of a second
     bool lossless = false;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/known_names.h"
 #include "render/detail/camera.h"
+#include "render/detail/cell_clear.h"
 #include "render/detail/colour_scale.h"
 #include "render/detail/framebuffer.h"
 #include "render/detail/gl_context.h"
@@ -145,22 +146,25 @@ struct OffscreenView::Impl {
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
         tears = std::make_unique<TearLayer>(scene);
         buffers->bind();
-        shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene,
+        shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene, *buffers,
                                               plan_skin(scene, centre), centre,
                                               buffers->paintable_triangles(baked->inside));
 
         buffers->bind();
         const int shaded = shaded_per_side();
-        if (shaded < options.supersampling)
+        if (shaded < options.supersampling) {
+            cell_clear = std::make_unique<CellClear>();
             skin_layer =
                 std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
                                             picture.tile_height_samples() / options.supersampling,
                                             options.supersampling, shaded);
+        }
         const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
                                      : skin_layer ? Materials::Skin::kLayer
                                                   : Materials::Skin::kPlain;
-        materials = std::make_unique<Materials>(scene, *buffers, skin, muscles.get());
-        lights = std::make_unique<Lights>(camera, centre, options.light);
+        materials =
+            std::make_unique<Materials>(scene, *buffers, skin, options.draft, muscles.get());
+        lights = std::make_unique<Lights>(camera, centre, options.light, options.draft);
         target = std::make_unique<Framebuffer>(
             picture.tile_width_samples(), picture.tile_height_samples(),
             options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);
@@ -193,8 +197,8 @@ struct OffscreenView::Impl {
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
         out->own = std::make_unique<OwnTextures>(scene, *buffers);
-        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *out->own,
-                                    centre, buffers->paintable_triangles(out->inside),
+        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *buffers,
+                                    *out->own, centre, buffers->paintable_triangles(out->inside),
                                     paint_side(options.height_px / camera.frame_height_m));
         out->pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre, *out);
@@ -221,6 +225,7 @@ struct OffscreenView::Impl {
         glDeleteBuffers(1, &frame_buffer);
         baked.reset();
         skin_layer.reset();
+        cell_clear.reset();
         target.reset();
         lights.reset();
         materials.reset();
@@ -239,13 +244,18 @@ struct OffscreenView::Impl {
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 
-        buffers->choose(clip, SceneBuffers::kSeen);
+        buffers->choose(clip);
         const bool looked_up = skin_layer && !pose.values;
         if (looked_up) {
             skin_layer->begin(tile.width, tile.height);
             for (const Batch& batch : buffers->batches())
                 if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
-            buffers->leave_out_hidden(skin_layer->farthest());
+            cells.begin(tile.width, tile.height);
+            buffers->leave_out_unseen(*skin_layer, cells, [&](PictureCells& marked) {
+                if (!shells->empty()) marked.mark_all();
+                hair->mark(clip, marked);
+                tears->mark(clip, marked);
+            });
         }
         picture.set_viewport(tile);
         if (muscles) {
@@ -253,9 +263,14 @@ struct OffscreenView::Impl {
             buffers->bind();
         }
         target->bind();
-        glClearColor(0, 0, 0, 0);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
+        if (looked_up) {
+            cell_clear->clear(cells, tile.width, tile.height);
+            buffers->bind();
+        } else {
+            glClearColor(0, 0, 0, 0);
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        }
         glEnable(GL_FRAMEBUFFER_SRGB);
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
@@ -281,7 +296,11 @@ struct OffscreenView::Impl {
         glDisable(GL_FRAMEBUFFER_SRGB);
         glFinish();  // which reading would wait for
         const double drawn_s = processor_s();
-        picture.read_back(tile, resolve, image);
+        if (looked_up)
+            picture.read_back(tile, resolve, cells, skin_layer->places(), skin_layer->shaded(),
+                              image);
+        else
+            picture.read_back(tile, resolve, image);
         read_back_s += processor_s() - drawn_s;
     }
 
@@ -293,6 +312,7 @@ struct OffscreenView::Impl {
     PosedMarks marks;
     TiledPicture picture;
     Resolve resolve;
+    PictureCells cells;
     Eigen::Index vertex_count;
     GlContext context;
     std::unique_ptr<SceneBuffers> buffers;
@@ -302,6 +322,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
     std::unique_ptr<Lights> lights;
+    std::unique_ptr<CellClear> cell_clear;
     std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
     std::unique_ptr<Framebuffer> target;
     std::shared_ptr<Baked> baked;
@@ -347,7 +368,8 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
-    view.lights->draw_shadow(*view.buffers);
+    const Eigen::Matrix4f seen = view.views.front().cast<float>();
+    view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr);
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
     glActiveTexture(GL_TEXTURE0 + kPoreUnit);

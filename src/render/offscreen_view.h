@@ -57,6 +57,8 @@ struct ViewOptions {
     Lens lens{};
     int supersampling =
         2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square
+    bool draft =
+        false;  ///< skin lit at its vertices, without pores and wrinkles finer than the mesh
     int threads =
         0;  ///< llvmpipe worker threads; 0 = draw on the calling thread. The driver reads it once: the
             ///< first view of a process decides for all. Pictures do not depend on it.

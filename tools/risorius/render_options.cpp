@@ -27,7 +27,7 @@ void add_coding(CLI::App& command, app::AnimateOptions& options) {
         ->group(kCoding);
     command
         .add_option("--preset", video.preset,
-                    "Of H.264, ultrafast to placebo, medium when not given: slower is smaller")
+                    "Of H.264, ultrafast to placebo, faster when not given: slower is smaller")
         ->group(kCoding);
     command
         .add_option(
@@ -78,8 +78,8 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
         ->type_name("INT");
     command.add_flag(
         "--draft", options.draft,
-        "Quickly, to look at: --quality preview, --antialiasing 1 and --preset veryfast "
-        "unless given");
+        "Quickly, to look at: skin lit at its vertices, and --quality preview, --antialiasing 1 "
+        "and --preset superfast unless given");
     command
         .add_option_function<std::string>(
             "--gl", [](const std::string& name) { render::choose_gl(name, "--gl"); },

@@ -133,7 +133,7 @@ void PictureCoder::describe_bt709() {
 void PictureCoder::open_h264(const VideoOptions& options) {
     codec_->max_b_frames = 0;
     codec_->flags |= AV_CODEC_FLAG_CLOSED_GOP;
-    set("preset", options.preset.value_or("medium"));
+    set("preset", options.preset.value_or("faster"));
     if (options.lossless)
         set("qp", "0");
     else

@@ -7,7 +7,7 @@
 namespace risorius::render {
 namespace {
 
-constexpr std::size_t kCluster = 64;  ///< triangles drawn together
+constexpr std::size_t kCluster = 320;  ///< triangles drawn together
 
 Vec3 corner(const Points& rest, const Face& face, std::size_t k) {
     return rest.row(face[k]).transpose();

@@ -83,4 +83,67 @@ void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, Image& im
     deep_->resolve(deep_samples_, supersampling_, tile, image);
 }
 
+void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, const PictureCells& cells,
+                             const std::vector<std::uint8_t>& layer, int shaded, Image& image) {
+    using Kind = PictureCells::Kind;
+    constexpr int kSide = PictureCells::kSide_px;
+    constexpr int kGap = 4;  // cells that are read along rather than left out
+    const auto n = static_cast<std::size_t>(supersampling_), s = static_cast<std::size_t>(shaded);
+    const std::size_t layer_row = static_cast<std::size_t>(tile.width) * s * 4;
+    const auto end_px = [&](int column) { return std::min((column + 1) * kSide, tile.width); };
+    const auto next = [&](int row, int column, Kind kind) {  // from here on
+        while (column < cells.columns() && cells.at(column, row) != kind) ++column;
+        return column;
+    };
+    for (int row = 0; row < cells.rows(); ++row) {
+        const int low = row * kSide, height = std::min(kSide, tile.height - low);
+        const auto each_row = [&](int from_column, int to_column, auto&& fill) {
+            const int x = from_column * kSide;
+            const auto count = static_cast<std::size_t>(end_px(to_column) - x);
+            for (int y = 0; y < height; ++y)
+                fill(static_cast<std::size_t>(x), static_cast<std::size_t>(y), count,
+                     image.pixel(tile.x + x, tile.y + tile.height - 1 - low - y));
+        };
+        for (int column = 0; column < cells.columns();) {
+            const Kind kind = cells.at(column, row);
+            int last = column;
+            while (last + 1 < cells.columns() && cells.at(last + 1, row) == kind) ++last;
+            if (kind == Kind::kEmpty) {
+                each_row(column, last,
+                         [&](std::size_t, std::size_t, std::size_t count, std::uint8_t* out) {
+                             resolve.empty_row(count, out);
+                         });
+            } else if (kind == Kind::kSkin) {
+                each_row(column, last,
+                         [&](std::size_t x, std::size_t y, std::size_t count, std::uint8_t* out) {
+                             const std::size_t place =
+                                 (static_cast<std::size_t>(low) + y) * s * layer_row + x * s * 4;
+                             resolve.opaque_row(layer.data() + place, s, layer_row, count, out);
+                         });
+            }
+            column = last + 1;
+        }
+        for (int column = next(row, 0, Kind::kSampled); column < cells.columns();) {
+            int last = column;
+            for (int other = column; other < cells.columns() && other - last <= kGap;
+                 other = next(row, other + 1, Kind::kSampled))
+                last = other;
+            const int x0 = column * kSide, width = end_px(last) - x0;
+            glReadPixels(x0 * supersampling_, low * supersampling_, width * supersampling_,
+                         height * supersampling_, GL_RGBA, GL_UNSIGNED_BYTE, samples_.data());
+            const std::size_t sample_row = static_cast<std::size_t>(width) * n * 4;
+            for (int c = column; c <= last; ++c)
+                if (cells.at(c, row) == Kind::kSampled)
+                    each_row(
+                        c, c,
+                        [&](std::size_t x, std::size_t y, std::size_t count, std::uint8_t* out) {
+                            const std::size_t place =
+                                y * n * sample_row + (x - static_cast<std::size_t>(x0)) * n * 4;
+                            resolve.row(samples_.data() + place, n, sample_row, count, out);
+                        });
+            column = next(row, last + 1, Kind::kSampled);
+        }
+    }
+}
+
 }  // namespace risorius::render

@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "render/detail/deep_resolve.h"
 #include "render/detail/gl_context.h"
+#include "render/detail/picture_cells.h"
 #include "render/detail/resolve.h"
 
 namespace risorius::render {
@@ -52,6 +53,9 @@ class TiledPicture {
     void set_viewport(const Tile& tile) const;
     /// What was drawn, into its place in the image.
     void read_back(const Tile& tile, const Resolve& resolve, Image& image);
+    /// The same where the cells need samples; elsewhere the skin layer, `shaded` places per pixel and side, is the picture.
+    void read_back(const Tile& tile, const Resolve& resolve, const PictureCells& cells,
+                   const std::vector<std::uint8_t>& layer, int shaded, Image& image);
 
   private:
     int width_, height_, supersampling_, tile_width_, tile_height_;

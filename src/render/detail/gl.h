@@ -33,6 +33,7 @@ namespace risorius::render {
     X(PFNGLDELETESHADERPROC, glDeleteShader) \
     X(PFNGLDELETETEXTURESPROC, glDeleteTextures) \
     X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays) \
+    X(PFNGLDEPTHFUNCPROC, glDepthFunc) \
     X(PFNGLDEPTHMASKPROC, glDepthMask) \
     X(PFNGLDISABLEPROC, glDisable) \
     X(PFNGLDRAWARRAYSPROC, glDrawArrays) \
@@ -59,6 +60,7 @@ namespace risorius::render {
     X(PFNGLGETSTRINGPROC, glGetString) \
     X(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation) \
     X(PFNGLLINKPROGRAMPROC, glLinkProgram) \
+    X(PFNGLPIXELSTOREIPROC, glPixelStorei) \
     X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset) \
     X(PFNGLREADBUFFERPROC, glReadBuffer) \
     X(PFNGLREADPIXELSPROC, glReadPixels) \

@@ -16,9 +16,11 @@ void put(float* to, const Vec3& v) {
 
 }  // namespace
 
-Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options)
+Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
+               bool draft)
     : program_("shadow", depth_vertex_shader(), ""),
-      clip_location_(program_.location("clip_from_world")) {
+      clip_location_(program_.location("clip_from_world")),
+      shadow_side_(draft ? kShadowSide / 2 : kShadowSide) {
     const LightPlan plan = plan_light(options, camera.azimuth_rad);
     const Vec3 exposure = exposure_for(plan, options.exposure_ev), key = plan.key.direction;
     shadow_ = plan.key.card.maxCoeff() > 0;
@@ -49,11 +51,11 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
     texture.block<3, 1>(0, 3).setConstant(0.5);
     const Eigen::Matrix4f shadow = (texture * clip).cast<float>();
     std::memcpy(frame_.shadow_from_world, shadow.data(), sizeof frame_.shadow_from_world);
-    frame_.mouth_axis[3] = static_cast<float>(2 * reach / kShadowSide);
+    frame_.mouth_axis[3] = static_cast<float>(2 * reach / shadow_side_);
 
     glGenTextures(1, &shadow_map_);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, kShadowSide, kShadowSide);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, shadow_side_, shadow_side_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -81,9 +83,9 @@ FrameUniforms Lights::uniforms(const MouthGap& gap) const {
     return frame;
 }
 
-void Lights::draw_shadow(SceneBuffers& buffers) const {
+void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, kShadowSide, kShadowSide);
+    glViewport(0, 0, shadow_side_, shadow_side_);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(2.0F, 4.0F);
@@ -92,7 +94,7 @@ void Lights::draw_shadow(SceneBuffers& buffers) const {
     glUniformMatrix4fv(clip_location_, 1, GL_FALSE, clip_from_world_.data());
     // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
     if (shadow_) {
-        buffers.choose(clip_from_world_, SceneBuffers::kShadow);
+        buffers.choose_casters(clip_from_world_, clip_from_world);
         for (const Batch& batch : buffers.batches()) buffers.draw(batch, SceneBuffers::kShadow);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);

@@ -25,7 +25,8 @@ Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
 class Lights {
   public:
-    Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options);
+    /// `draft`: a shadow of half as many places.
+    Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options, bool draft);
     ~Lights();
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;
@@ -33,14 +34,15 @@ class Lights {
     /// All but clip_from_world.
     FrameUniforms uniforms(const MouthGap& gap) const;
 
-    /// Draws the shadow map of the bound scene and binds what lights look up.
-    void draw_shadow(SceneBuffers& buffers) const;
+    /// Draws the shadow map of the bound scene, for what is seen in the clip space if one is given, and binds what lights look up.
+    void draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const;
 
   private:
     FrameUniforms frame_{};
     Eigen::Matrix4f clip_from_world_;
     GlProgram program_;
     GLint clip_location_ = -1;
+    int shadow_side_;
     bool shadow_ = true;  ///< nothing to throw one without a key lamp
     GLuint shadow_map_ = 0, framebuffer_ = 0, mirror_ = 0;
 };

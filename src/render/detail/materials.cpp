@@ -110,8 +110,10 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
                                                    bool folds, Skin how, bool own,
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
-    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds),
-                                               fragment_shader(material, how, folds, own));
+    const bool draft = draft_ && material == Material::kSkin;
+    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds, draft),
+                                               draft ? draft_skin_shader(how == Skin::kLayer)
+                                                     : fragment_shader(material, how, folds, own));
     program->use();
     if (muscles && material == Material::kSkin) {
         muscles->tell(*program);
@@ -143,9 +145,9 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
     return program;
 }
 
-Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
+Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
                      const MuscleLayer* muscles)
-    : eyes_(scene.eyes), look_(scene.look) {
+    : eyes_(scene.eyes), look_(scene.look), draft_(draft && skin != Skin::kVeil) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
@@ -154,7 +156,7 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
             programs_.emplace(std::pair(batch.material, own),
                               make_program(scene, batch.material, false, skin, own, muscles));
     }
-    if (scene.fold_phase.rows() > 0)
+    if (scene.fold_phase.rows() > 0 && !draft_)
         folded_skin_ = make_program(scene, Material::kSkin, true, skin, /*own=*/false, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
@@ -204,6 +206,10 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 
 void Materials::draw_skin(const Batch& batch, const SceneBuffers& buffers) const {
     programs_.at({Material::kSkin, false})->use();
+    if (!folded_skin_) {
+        buffers.draw(batch);
+        return;
+    }
     buffers.draw_smooth(batch);
     if (!buffers.has_wrinkled(batch)) return;
     folded_skin_->use();

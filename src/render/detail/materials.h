@@ -21,7 +21,8 @@ class Materials {
         kVeil,
         kLayer
     };  ///< by itself, over `muscles`, for others to look up
-    Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
+    /// `draft`: skin that is not a veil is lit at its vertices.
+    Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
               const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
@@ -44,6 +45,7 @@ class Materials {
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};
     Look look_;
+    bool draft_;
 };
 
 }  // namespace risorius::render

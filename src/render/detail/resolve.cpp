@@ -85,57 +85,81 @@ Image mean_of(const std::vector<Image>& pictures) {
     return mean;
 }
 
+void Resolve::row(const std::uint8_t* samples, std::size_t n, std::size_t sample_row,
+                  std::size_t pixels, std::uint8_t* out) const {
+    const auto count = static_cast<std::uint32_t>(n * n);
+    const std::array<std::uint32_t, 3> behind{linear_of_byte_[background_[0]],
+                                              linear_of_byte_[background_[1]],
+                                              linear_of_byte_[background_[2]]};
+    for (std::size_t x = 0; x < pixels; ++x, out += 4) {
+        // Most pixels have equal samples, which are their own mean.
+        if (const std::uint8_t* first = samples + x * n * 4;
+            is_even(first, n, sample_row) && (first[3] == 255 || is_empty(first))) {
+            if (first[3] == 255)
+                std::memcpy(out, first, 4);
+            else
+                empty_row(1, out);
+            continue;
+        }
+        std::uint32_t sum[3] = {0, 0, 0};
+        std::uint32_t alpha = 0;
+        for (std::size_t j = 0; j < n; ++j) {
+            const std::uint8_t* s = samples + j * sample_row + x * n * 4;
+            for (std::size_t i = 0; i < n; ++i, s += 4) {
+                alpha += s[3];
+                for (std::size_t k = 0; k < 3; ++k) sum[k] += linear_of_byte_[s[k]];
+            }
+        }
+        if (transparent_) {
+            if (alpha > 0)
+                for (std::size_t k = 0; k < 3; ++k)
+                    out[k] = byte_of_linear_[std::min(65535U, (sum[k] * 255 + alpha / 2) / alpha)];
+            out[3] = static_cast<std::uint8_t>((alpha + count / 2) / count);
+        } else {
+            const std::uint32_t open = 255 * count - alpha;
+            for (std::size_t k = 0; k < 3; ++k)
+                out[k] = byte_of_linear_[std::min(
+                    65535U, (sum[k] + open * behind[k] / 255 + count / 2) / count)];
+            out[3] = 255;
+        }
+    }
+}
+
+void Resolve::opaque_row(const std::uint8_t* samples, std::size_t n, std::size_t sample_row,
+                         std::size_t pixels, std::uint8_t* out) const {
+    const auto count = static_cast<std::uint32_t>(n * n);
+    for (std::size_t x = 0; x < pixels; ++x, out += 4) {
+        const std::uint8_t* first = samples + x * n * 4;
+        if (n == 1) {
+            std::memcpy(out, first, 3);
+        } else {
+            std::uint32_t sum[3] = {0, 0, 0};
+            for (std::size_t j = 0; j < n; ++j)
+                for (std::size_t i = 0; i < n; ++i)
+                    for (std::size_t k = 0; k < 3; ++k)
+                        sum[k] += linear_of_byte_[first[j * sample_row + 4 * i + k]];
+            for (std::size_t k = 0; k < 3; ++k)
+                out[k] = byte_of_linear_[(sum[k] + count / 2) / count];
+        }
+        out[3] = 255;
+    }
+}
+
+void Resolve::empty_row(std::size_t pixels, std::uint8_t* out) const {
+    const std::array<std::uint8_t, 4> opaque{background_[0], background_[1], background_[2], 255},
+        none{0, 0, 0, 0};
+    const std::array<std::uint8_t, 4>& one = transparent_ ? none : opaque;
+    for (std::size_t x = 0; x < pixels; ++x) std::memcpy(out + 4 * x, one.data(), 4);
+}
+
 void Resolve::operator()(const std::vector<std::uint8_t>& samples, int supersampling,
                          const Tile& tile, Image& image) const {
     const auto n = static_cast<std::size_t>(supersampling);
     const auto width = static_cast<std::size_t>(tile.width);
     const std::size_t sample_row = width * n * 4;
-    const auto count = static_cast<std::uint32_t>(n * n);
-    const std::array<std::uint32_t, 3> behind{linear_of_byte_[background_[0]],
-                                              linear_of_byte_[background_[1]],
-                                              linear_of_byte_[background_[2]]};
-    const std::array<std::uint8_t, 4> empty{background_[0], background_[1], background_[2], 255};
-    for (int y = 0; y < tile.height; ++y) {
-        const std::uint8_t* rows =
-            samples.data() + static_cast<std::size_t>(tile.height - 1 - y) * n * sample_row;
-        std::uint8_t* out = image.pixel(tile.x, tile.y + y);
-        for (std::size_t x = 0; x < width; ++x, out += 4) {
-            // Most pixels have equal samples, which are their own mean.
-            if (const std::uint8_t* first = rows + x * n * 4;
-                is_even(first, n, sample_row) && (first[3] == 255 || is_empty(first))) {
-                const bool seen = first[3] == 255;
-                if (seen)
-                    std::memcpy(out, first, 4);
-                else if (transparent_)
-                    std::memset(out, 0, 4);
-                else
-                    std::memcpy(out, empty.data(), 4);
-                continue;
-            }
-            std::uint32_t sum[3] = {0, 0, 0};
-            std::uint32_t alpha = 0;
-            for (std::size_t j = 0; j < n; ++j) {
-                const std::uint8_t* s = rows + j * sample_row + x * n * 4;
-                for (std::size_t i = 0; i < n; ++i, s += 4) {
-                    alpha += s[3];
-                    for (std::size_t k = 0; k < 3; ++k) sum[k] += linear_of_byte_[s[k]];
-                }
-            }
-            if (transparent_) {
-                if (alpha > 0)
-                    for (std::size_t k = 0; k < 3; ++k)
-                        out[k] =
-                            byte_of_linear_[std::min(65535U, (sum[k] * 255 + alpha / 2) / alpha)];
-                out[3] = static_cast<std::uint8_t>((alpha + count / 2) / count);
-            } else {
-                const std::uint32_t open = 255 * count - alpha;
-                for (std::size_t k = 0; k < 3; ++k)
-                    out[k] = byte_of_linear_[std::min(
-                        65535U, (sum[k] + open * behind[k] / 255 + count / 2) / count)];
-                out[3] = 255;
-            }
-        }
-    }
+    for (int y = 0; y < tile.height; ++y)
+        row(samples.data() + static_cast<std::size_t>(tile.height - 1 - y) * n * sample_row, n,
+            sample_row, width, image.pixel(tile.x, tile.y + y));
 }
 
 }  // namespace risorius::render

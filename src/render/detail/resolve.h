@@ -27,6 +27,15 @@ class Resolve {
     void operator()(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
                     Image& image) const;
 
+    /// One row of `count` pixels, `samples` the lowest one's first sample of rows that are `sample_row` bytes apart.
+    void row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
+             std::size_t count, std::uint8_t* out) const;
+    /// The same of samples that all cover the background, whatever their alpha says.
+    void opaque_row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
+                    std::size_t count, std::uint8_t* out) const;
+    /// Where there are none
+    void empty_row(std::size_t count, std::uint8_t* out) const;
+
   private:
     bool transparent_;
     std::array<std::uint8_t, 3> background_;

@@ -57,16 +57,26 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
                 add_batch(scene, material, eye, texture, camera, paint_centre);
     index_count_ = static_cast<int>(indices_.size());
 
+    // The driver runs a vertex again for each of a few hundred triangles that use it, unless their numbers are near each other.
     const auto vertices = static_cast<std::size_t>(scene.rest.rows());
+    constexpr unsigned kNone = ~0U;
+    unsigned used = 0;
+    number_.assign(vertices, kNone);
+    for (const unsigned v : indices_)
+        if (number_[v] == kNone) number_[v] = used++;
+    for (unsigned& number : number_)
+        if (number == kNone) number = used++;
+
     lashes_ = lash_places(scene);
-    std::vector<float> fixed;
+    std::vector<float> fixed(5 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
         const Vec3 p = scene.rest.row(static_cast<Eigen::Index>(v)).transpose();
         const Vec2 place = paint_place(p, paint_centre);
-        for (int k = 0; k < 3; ++k) fixed.push_back(static_cast<float>(p[k]));
         for (int k = 0; k < 2; ++k) paint_.push_back(static_cast<float>(place[k]));
-        fixed.push_back(lashes_[v].is_lash ? lashes_[v].along_m : static_cast<float>(place.x()));
-        fixed.push_back(lashes_[v].is_lash ? lashes_[v].share : static_cast<float>(place.y()));
+        float* to = fixed.data() + 5 * static_cast<std::size_t>(number_[v]);
+        for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(p[k]);
+        to[3] = lashes_[v].is_lash ? lashes_[v].along_m : static_cast<float>(place.x());
+        to[4] = lashes_[v].is_lash ? lashes_[v].share : static_cast<float>(place.y());
     }
 
     glGenVertexArrays(1, &array_);
@@ -76,9 +86,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
         glGenBuffers(1, buffer);
     glGenBuffers(2, chosen_elements_.data());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(indices_.size() * sizeof(unsigned)), indices_.data(),
-                 GL_STATIC_DRAW);
+    const std::vector<unsigned> all = elements(indices_);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(unsigned)),
+                 all.data(), GL_STATIC_DRAW);
     glBindBuffer(GL_ARRAY_BUFFER, fixed_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(fixed), fixed.data(), GL_STATIC_DRAW);
     attribute(kRest, 3, 5, 0);
@@ -88,8 +98,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     attribute(kOcclusion, 3, 3, 0);
     if (scene.fold_phase.rows() > 0) {
         std::vector<float> phase(3 * vertices, 0.0F);
-        for (std::size_t i = 0; i < phase.size(); ++i)
-            phase[i] = static_cast<float>(scene.fold_phase.data()[i]);
+        for (std::size_t v = 0; v < vertices; ++v)
+            for (std::size_t k = 0; k < 3; ++k)
+                phase[3 * number_[v] + k] = static_cast<float>(scene.fold_phase.data()[3 * v + k]);
         glGenBuffers(1, &fold_phase_buffer_);
         glBindBuffer(GL_ARRAY_BUFFER, fold_phase_buffer_);
         glBufferData(GL_ARRAY_BUFFER, bytes(phase), phase.data(), GL_STATIC_DRAW);
@@ -147,18 +158,19 @@ void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
     moving_.resize(6 * vertices);
     for (std::size_t v = 0; v < vertices; ++v)
         for (std::size_t k = 0; k < 3; ++k) {
-            moving_[6 * v + k] = positions_[3 * v + k];
-            moving_[6 * v + 3 + k] = normals_[3 * v + k];
+            moving_[6 * number_[v] + k] = positions_[3 * v + k];
+            moving_[6 * number_[v] + 3 + k] = normals_[3 * v + k];
         }
     if (fold_depth_buffer_ != 0) {
         fold_depth_.assign(3 * vertices, 0.0F);
+        wrinkled_.assign(vertices, 0);
         if (fold_depth.rows() > 0)
-            for (std::size_t i = 0; i < fold_depth_.size(); ++i)
-                fold_depth_[i] = static_cast<float>(fold_depth.data()[i]);
-        wrinkled_.resize(vertices);
-        for (std::size_t v = 0; v < vertices; ++v)
-            wrinkled_[v] =
-                fold_depth_[3 * v] > 0 || fold_depth_[3 * v + 1] > 0 || fold_depth_[3 * v + 2] > 0;
+            for (std::size_t v = 0; v < vertices; ++v)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto depth = static_cast<float>(fold_depth.data()[3 * v + k]);
+                    fold_depth_[3 * number_[v] + k] = depth;
+                    if (depth > 0) wrinkled_[v] = 1;
+                }
         glBindBuffer(GL_ARRAY_BUFFER, fold_depth_buffer_);
         glBufferData(GL_ARRAY_BUFFER, bytes(fold_depth_), fold_depth_.data(), GL_STREAM_DRAW);
     }
@@ -167,8 +179,12 @@ void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
 }
 
 void SceneBuffers::set_colours(const std::vector<float>& rgb) {
+    std::vector<float> numbered(rgb.size());
+    for (std::size_t v = 0; v < rgb.size() / 3; ++v)
+        std::copy_n(rgb.begin() + static_cast<std::ptrdiff_t>(3 * v), 3,
+                    numbered.begin() + 3 * static_cast<std::ptrdiff_t>(number_[v]));
     glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, bytes(rgb), rgb.data(), GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, bytes(numbered), numbered.data(), GL_STREAM_DRAW);
     attribute(kColour, 3, 3, 0);
 }
 
@@ -176,9 +192,10 @@ void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
                                  const std::vector<float>& inside_mouth) {
     occlusion_.resize(3 * sky_seen.size());
     for (std::size_t v = 0; v < sky_seen.size(); ++v) {
-        occlusion_[3 * v] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
-        occlusion_[3 * v + 1] = inside_mouth[v];
-        occlusion_[3 * v + 2] = curvature_[v];
+        float* to = occlusion_.data() + 3 * static_cast<std::size_t>(number_[v]);
+        to[0] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
+        to[1] = inside_mouth[v];
+        to[2] = curvature_[v];
     }
     glBindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(occlusion_), occlusion_.data(), GL_STREAM_DRAW);
@@ -188,7 +205,7 @@ int SceneBuffers::skin_index_count() const {
     return batches_.front().material == Material::kSkin ? batches_.front().index_count : 0;
 }
 
-void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpose) {
+void SceneBuffers::look_from(const Eigen::Matrix4f& clip_from_world) {
     const std::size_t vertices = positions_.size() / 3;
     clip_places_.resize(4 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -200,34 +217,35 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpos
         clip_places_[4 * v + 2] = clip.z() / clip.w();
         clip_places_[4 * v + 3] = clip.w();
     }
-    const auto is_seen = [&](const unsigned* face, bool cull_back) {
-        const float *a = clip_places_.data() + 4 * static_cast<std::size_t>(face[0]),
-                    *b = clip_places_.data() + 4 * static_cast<std::size_t>(face[1]),
-                    *c = clip_places_.data() + 4 * static_cast<std::size_t>(face[2]);
-        if (a[3] <= 0 || b[3] <= 0 || c[3] <= 0) return true;
-        for (std::size_t k = 0; k < 2; ++k)
-            if ((a[k] < -1 && b[k] < -1 && c[k] < -1) || (a[k] > 1 && b[k] > 1 && c[k] > 1))
-                return false;
-        // A thousandth of a pixel of any picture is left to the rasteriser to judge.
-        constexpr float kRounding = 1e-10F;
-        return !cull_back ||
-               (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > -kRounding;
-    };
+}
+
+bool SceneBuffers::is_seen(const unsigned* face, bool cull_back) const {
+    const float *a = clip_places_.data() + 4 * static_cast<std::size_t>(face[0]),
+                *b = clip_places_.data() + 4 * static_cast<std::size_t>(face[1]),
+                *c = clip_places_.data() + 4 * static_cast<std::size_t>(face[2]);
+    if (a[3] <= 0 || b[3] <= 0 || c[3] <= 0) return true;
+    for (std::size_t k = 0; k < 2; ++k)
+        if ((a[k] < -1 && b[k] < -1 && c[k] < -1) || (a[k] > 1 && b[k] > 1 && c[k] > 1))
+            return false;
+    // A thousandth of a pixel of any picture is left to the rasteriser to judge.
+    constexpr float kRounding = 1e-10F;
+    return !cull_back || (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > -kRounding;
+}
+
+void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world) {
+    look_from(clip_from_world);
     choice_.clear();
-    std::vector<Chosen>& chosen = chosen_[purpose];
+    std::vector<Chosen>& chosen = chosen_[kSeen];
     chosen.assign(batches_.size(), {});
     for (std::size_t i = 0; i < batches_.size(); ++i) {
         const Batch& batch = batches_[i];
         chosen[i].first = static_cast<int>(choice_.size());
-        if (purpose == kShadow && batch.material != Material::kSkin) continue;
-        const bool apart =
-            purpose == kSeen && batch.material == Material::kSkin && !wrinkled_.empty();
+        const bool apart = batch.material == Material::kSkin && !wrinkled_.empty();
         wrinkled_choice_.clear();
         for (int k = 0; k < batch.index_count; k += 3) {
             const unsigned* face = indices_.data() + batch.first_index + k;
             // What has a texture is looked up by the number of its triangle.
-            // Light that has come in at the mouth does not go out at the back of the head.
-            if (batch.texture < 0 && !is_seen(face, batch.cull_back && purpose == kSeen)) continue;
+            if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
             const bool wrinkled =
                 apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
             std::vector<unsigned>& to = wrinkled ? wrinkled_choice_ : choice_;
@@ -237,64 +255,192 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, Purpose purpos
         chosen[i].wrinkled = static_cast<int>(wrinkled_choice_.size());
         choice_.insert(choice_.end(), wrinkled_choice_.begin(), wrinkled_choice_.end());
     }
-    upload_choice(purpose);
+    upload_choice(kSeen);
 }
 
-void SceneBuffers::leave_out_hidden(const FarthestSkin& skin) {
-    const auto is_hidden = [&](const unsigned* face) {
-        float left = 1e9F, right = -1e9F, low = 1e9F, high = -1e9F, near = 1e9F;
-        for (int k = 0; k < 3; ++k) {
-            const float* p = clip_places_.data() + 4 * static_cast<std::size_t>(face[k]);
-            if (p[3] <= 0) return false;
-            const float x = (0.5F * p[0] + 0.5F) * skin.width,
-                        y = (0.5F * p[1] + 0.5F) * skin.height;
-            left = std::min(left, x);
-            right = std::max(right, x);
-            low = std::min(low, y);
-            high = std::max(high, y);
-            near = std::min(near, 0.5F * p[2] + 0.5F);
-        }
-        // A pixel more on each side: samples lie beside the middle of theirs.
-        constexpr float kPixel = 1.0F / FarthestSkin::kCell;
-        const int from_x = std::max(static_cast<int>(left - kPixel), 0),
-                  to_x = std::min(static_cast<int>(right + kPixel), skin.columns - 1),
-                  from_y = std::max(static_cast<int>(low - kPixel), 0),
-                  to_y = std::min(static_cast<int>(high + kPixel), skin.rows - 1);
-        for (int y = from_y; y <= to_y; ++y)
-            for (int x = from_x; x <= to_x; ++x)
-                if (near <= skin.depth[static_cast<std::size_t>(y * skin.columns + x)])
-                    return false;
-        return true;
+void SceneBuffers::choose_casters(const Eigen::Matrix4f& light_from_world,
+                                  const Eigen::Matrix4f* clip_from_world) {
+    // What is seen, in cells of the shadow map: how far from the lamp it is at most
+    constexpr int kCells = 64;
+    constexpr float kNowhere = -1e9F;
+    const std::size_t vertices = positions_.size() / 3;
+    lit_places_.resize(3 * vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const Eigen::Vector4f at =
+            light_from_world *
+            Eigen::Vector4f(positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2], 1.0F);
+        for (std::size_t k = 0; k < 2; ++k)
+            lit_places_[3 * v + k] =
+                std::clamp((0.5F * at[static_cast<Eigen::Index>(k)] + 0.5F) * kCells, -2.0F,
+                           static_cast<float>(kCells) + 1.0F);
+        lit_places_[3 * v + 2] = at.z();
+    }
+    struct Cells {
+        int from_x = kCells, to_x = 0, from_y = kCells, to_y = 0;
+        float nearest = 1e9F, farthest = kNowhere;
     };
+    const auto cells_of = [&](const unsigned* face, int wider) {
+        Cells cells;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float* p = lit_places_.data() + 3 * static_cast<std::size_t>(face[k]);
+            // Counted from -2, so that cutting off rounds down
+            const int x = static_cast<int>(p[0] + 2) - 2, y = static_cast<int>(p[1] + 2) - 2;
+            cells.from_x = std::min(cells.from_x, x - wider);
+            cells.to_x = std::max(cells.to_x, x + wider);
+            cells.from_y = std::min(cells.from_y, y - wider);
+            cells.to_y = std::max(cells.to_y, y + wider);
+            cells.nearest = std::min(cells.nearest, p[2]);
+            cells.farthest = std::max(cells.farthest, p[2]);
+        }
+        cells.from_x = std::max(cells.from_x, 0);
+        cells.from_y = std::max(cells.from_y, 0);
+        cells.to_x = std::min(cells.to_x, kCells - 1);
+        cells.to_y = std::min(cells.to_y, kCells - 1);
+        return cells;
+    };
+    if (clip_from_world) look_from(*clip_from_world);
+    farthest_lit_.assign(static_cast<std::size_t>(kCells) * kCells, kNowhere);
+    for (const Batch& batch : batches_)
+        for (int k = 0; k < batch.index_count; k += 3) {
+            const unsigned* face = indices_.data() + batch.first_index + k;
+            if (clip_from_world && !is_seen(face, batch.cull_back)) continue;
+            // A cell more on each side, a hundredth of a picture, for soft edges and for hairs
+            const Cells cells = cells_of(face, 1);
+            for (int y = cells.from_y; y <= cells.to_y; ++y)
+                for (int x = cells.from_x; x <= cells.to_x; ++x) {
+                    float& there = farthest_lit_[static_cast<std::size_t>(y * kCells + x)];
+                    there = std::max(there, cells.farthest);
+                }
+        }
+
+    choice_.clear();
+    std::vector<Chosen>& chosen = chosen_[kShadow];
+    chosen.assign(batches_.size(), {});
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+        const Batch& batch = batches_[i];
+        chosen[i].first = static_cast<int>(choice_.size());
+        if (batch.material != Material::kSkin) continue;
+        for (int k = 0; k < batch.index_count; k += 3) {
+            const unsigned* face = indices_.data() + batch.first_index + k;
+            const Cells cells = cells_of(face, 0);
+            bool throws_any = false;
+            for (int y = cells.from_y; y <= cells.to_y && !throws_any; ++y)
+                for (int x = cells.from_x; x <= cells.to_x && !throws_any; ++x)
+                    throws_any =
+                        cells.nearest <= farthest_lit_[static_cast<std::size_t>(y * kCells + x)];
+            if (throws_any) choice_.insert(choice_.end(), face, face + 3);
+        }
+        chosen[i].smooth = static_cast<int>(choice_.size()) - chosen[i].first;
+    }
+    upload_choice(kShadow);
+}
+
+ClipBox SceneBuffers::box_of(const unsigned* face) const {
+    ClipBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float* p = clip_places_.data() + 4 * static_cast<std::size_t>(face[k]);
+        box.add(p[0], p[1], p[3]);
+    }
+    return box;
+}
+
+float SceneBuffers::nearest_depth(const unsigned* face) const {
+    float nearest = 1e9F;
+    for (std::size_t k = 0; k < 3; ++k)
+        nearest = std::min(nearest, clip_places_[4 * static_cast<std::size_t>(face[k]) + 2]);
+    return 0.5F * nearest + 0.5F;
+}
+
+bool SceneBuffers::may_hide(const Batch& batch) const {
+    return batch.texture < 0 &&
+           (batch.material == Material::kEye || batch.material == Material::kTeeth ||
+            batch.material == Material::kGums || batch.material == Material::kTongue);
+}
+
+template <typename Keep>
+void SceneBuffers::keep_if(Keep keep) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < batches_.size(); ++i) {
         Chosen& chosen = chosen_[kSeen][i];
-        const Material material = batches_[i].material;
-        const bool may_hide = batches_[i].texture < 0 &&
-                              (material == Material::kEye || material == Material::kTeeth ||
-                               material == Material::kGums || material == Material::kTongue);
-        const auto from = static_cast<std::size_t>(chosen.first);
-        const std::size_t end = from + static_cast<std::size_t>(chosen.smooth + chosen.wrinkled);
+        auto from = static_cast<std::size_t>(chosen.first);
         chosen.first = static_cast<int>(kept);
-        for (std::size_t k = from; k < end; k += 3) {
-            if (may_hide && is_hidden(choice_.data() + k)) {
-                chosen.smooth -= 3;
-                continue;
+        for (int* count : {&chosen.smooth, &chosen.wrinkled}) {
+            const std::size_t end = from + static_cast<std::size_t>(*count), first = kept;
+            for (; from < end; from += 3) {
+                if (!keep(batches_[i], choice_.data() + from)) continue;
+                std::copy_n(choice_.begin() + static_cast<std::ptrdiff_t>(from), 3,
+                            choice_.begin() + static_cast<std::ptrdiff_t>(kept));
+                kept += 3;
             }
-            std::copy_n(choice_.begin() + static_cast<std::ptrdiff_t>(k), 3,
-                        choice_.begin() + static_cast<std::ptrdiff_t>(kept));
-            kept += 3;
+            *count = static_cast<int>(kept - first);
         }
     }
     choice_.resize(kept);
+}
+
+void SceneBuffers::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
+                                    const std::function<void(PictureCells&)>& mark_others) {
+    // What lies behind the skin
+    ClipBox inner;
+    for (std::size_t i = 0; i < batches_.size(); ++i) {
+        if (!may_hide(batches_[i])) continue;
+        const Chosen& chosen = chosen_[kSeen][i];
+        for (int k = 0; k < chosen.smooth + chosen.wrinkled; k += 3)
+            inner.add(box_of(choice_.data() + chosen.first + k));
+    }
+    const FarthestSkin& farthest = skin.farthest(inner);
+    const auto is_hidden = [&](const unsigned* face) {
+        const ClipBox box = box_of(face);
+        if (box.behind) return false;
+        const auto cell = [](float clip, float cells_, float by, int most) {
+            return std::clamp(static_cast<int>((0.5F * clip + 0.5F) * cells_ + by), 0, most - 1);
+        };
+        // A pixel more on each side: samples lie beside the middle of theirs.
+        constexpr float kPixel = 1.0F / FarthestSkin::kCell;
+        const int from_x = cell(box.left, farthest.width, -kPixel, farthest.columns),
+                  to_x = cell(box.right, farthest.width, kPixel, farthest.columns),
+                  from_y = cell(box.low, farthest.height, -kPixel, farthest.rows),
+                  to_y = cell(box.high, farthest.height, kPixel, farthest.rows);
+        const float near = nearest_depth(face);
+        for (int y = from_y; y <= to_y; ++y)
+            for (int x = from_x; x <= to_x; ++x)
+                if (near <= farthest.depth[static_cast<std::size_t>(y * farthest.columns + x)])
+                    return false;
+        return true;
+    };
+    keep_if([&](const Batch& batch, const unsigned* face) {
+        return !may_hide(batch) || !is_hidden(face);
+    });
+
+    // Skin where nothing else is
+    keep_if([&](const Batch& batch, const unsigned* face) {
+        if (batch.material == Material::kSkin)
+            cells.touch(box_of(face));
+        else
+            cells.mark(box_of(face));
+        return true;
+    });
+    mark_others(cells);
+    cells.find_steps(skin.read(cells.touched()), skin.shaded());
+    keep_if([&](const Batch& batch, const unsigned* face) {
+        return batch.material != Material::kSkin || cells.needs_samples(box_of(face));
+    });
     upload_choice(kSeen);
 }
 
 void SceneBuffers::upload_choice(Purpose purpose) {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_elements_[purpose]);
+    const std::vector<unsigned> numbers = elements(choice_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(choice_.size() * sizeof(unsigned)), choice_.data(),
+                 static_cast<GLsizeiptr>(numbers.size() * sizeof(unsigned)), numbers.data(),
                  GL_STREAM_DRAW);
+}
+
+std::vector<unsigned> SceneBuffers::elements(const std::vector<unsigned>& vertices) const {
+    std::vector<unsigned> numbers;
+    numbers.reserve(vertices.size());
+    for (const unsigned v : vertices) numbers.push_back(number_[v]);
+    return numbers;
 }
 
 void SceneBuffers::draw(const Batch& batch, Purpose purpose, int first, int count) const {

@@ -130,7 +130,21 @@ void pass_folds() {
     fold_depth = in_fold_depth;
 }
 )";
-constexpr const char* kNoFoldsVertex = "void pass_folds() {}";
+constexpr const char* kNoFoldsVertex = "void pass_folds() {}\n";
+
+// What the key lamp lights, as coarse as the vertices: for drafts.
+constexpr const char* kKeyVertex = R"(
+out vec3 key_light;    // of a white surface
+out float key_gloss;   // and what of a lamp of 1 it mirrors
+out vec3 lit_at;       // in the shadow map
+void pass_key(vec3 p, vec3 n, vec3 v, vec3 w, float kept) {
+    key_light = kept * key_card.rgb * scattered(dot(n, key_direction.xyz), w);
+    key_gloss = two_glints(n, v, key_direction.xyz, vec2(0.464, 0.260), vec2(0.76, 0.24), 0.028);
+    lit_at = (shadow_from_world * vec4(p + n * (2.5 * mouth_axis.w), 1.0)).xyz;
+}
+)";
+constexpr const char* kNoKeyVertex =
+    "void pass_key(vec3 p, vec3 n, vec3 v, vec3 w, float kept) {}\n";
 
 constexpr const char* kSurfaceVertex = R"(
 layout(location = 0) in vec3 in_position;
@@ -188,6 +202,7 @@ void main() {
     soft_gloss = sky_seen * sky_seen * (share * mirrored(reflect(-v, n), finish.w) +
                  finish.z * fill_card.rgb * glint(n, v, fill_direction.xyz, finish.x, finish.y));
     soft_gloss += finish.z * behind_seen * behind_seen * rim_card.rgb * glint(n, v, rim_direction.xyz, finish.x, finish.y);
+    pass_key(in_position, n, v, w, kept);
     gl_Position = clip_from_world * vec4(in_position, 1.0);
 }
 )";
@@ -207,9 +222,9 @@ std::string lights_chunk() {
 }
 std::string lighting_chunk() { return std::string(kFrame) + lights_chunk() + kShadow; }
 std::string noise_chunk() { return kNoise; }
-std::string surface_vertex_shader(bool folds) {
+std::string surface_vertex_shader(bool folds, bool key) {
     return std::string(kFrame) + lights_chunk() + (folds ? kFoldsVertex : kNoFoldsVertex) +
-           kSurfaceVertex;
+           (key ? kKeyVertex : kNoKeyVertex) + kSurfaceVertex;
 }
 std::string depth_vertex_shader() { return kDepthVertex; }
 

@@ -51,8 +51,20 @@ void main() {
 }
 )";
 
+// As glClear would do it
+constexpr const char* kClearVertex = R"(#version 450 core
+layout(location = 0) in vec2 in_place;
+void main() { gl_Position = vec4(in_place, 1.0, 1.0); }
+)";
+constexpr const char* kClear = R"(#version 450 core
+out vec4 colour;
+void main() { colour = vec4(0.0); }
+)";
+
 }  // namespace
 
+std::string clear_vertex_shader() { return kClearVertex; }
+std::string clear_shader() { return kClear; }
 std::string lookup_vertex_shader() { return frame_chunk() + kLookupVertex; }
 std::string lookup_shader() {
     std::string source = kLookup;

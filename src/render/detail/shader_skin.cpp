@@ -19,7 +19,6 @@ out vec4 colour;
 )";
 constexpr const char* kSkin = R"(
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
-layout(binding = 2) uniform sampler2D pore_map;    // slope
 uniform vec3 scatter;      // m, of red, green and blue
 uniform vec3 bleed;        // of the shadow's edge
 uniform float roughness;
@@ -31,13 +30,7 @@ void main() {
     vec3 albedo = painted.rgb * painted.rgb;
     float oil = painted.a;
 
-    // The paint lies almost along world x and y on the face, which is frame enough for pores.
-    // Lips have none, and towards the back the map is too stretched for them.
-    float aside = length(paint - 0.5);
-    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, aside) + 0.08 * smoothstep(0.38, 0.31, aside);
-    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
-    vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
-    vec3 m = n - slope.x * t - slope.y * cross(n, t);
+    vec3 m = bent_by_pores(n, oil);
     float open = fold(n, m);    // of the valleys of wrinkles to light
     m = normalize(m);
     albedo *= mix(kValley, vec3(1.0), open);
@@ -57,6 +50,18 @@ void main() {
 }
 )";
 
+// The paint lies almost along world x and y on the face, which is frame enough for pores.
+// Lips have none, and towards the back the map is too stretched for them.
+constexpr const char* kPores = R"(
+layout(binding = 2) uniform sampler2D pore_map;    // slope
+vec3 bent_by_pores(vec3 n, float oil) {
+    float aside = length(paint - 0.5);
+    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, aside) + 0.08 * smoothstep(0.38, 0.31, aside);
+    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
+    vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
+    return n - slope.x * t - slope.y * cross(n, t);
+}
+)";
 // Wrinkles: height A d P(f) over the skin, P = sqrt(sin^2(pi f) + r^2) and d of each line as in sim/wrinkles.cpp, so that
 // valleys are narrow and ridges round; with A < 0 ridges are narrow. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
 // (Mikkelsen 2010, Bump Mapping Unparametrized Surfaces); folds finer than two samples fade out.
@@ -97,6 +102,33 @@ constexpr const char* kCovered = "float told() { return 1.0; }\n";
 constexpr const char* kAway = R"(
 float told() {
     return max(fract(distance(camera.xyz, position) * kTurnsPerMetre) * (256.0 / 255.0), 1.0 / 255.0);
+}
+)";
+
+// What drafts see: all but paint and shadow is as coarse as the vertices. The taps of a 2 x 2 block of pixels stand in a square.
+constexpr const char* kDraft = R"(
+layout(binding = 0) uniform sampler2DShadow shadow_map;
+layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
+uniform vec3 bleed;        // of the shadow's edge
+in vec2 paint;
+in vec3 soft;
+in vec3 soft_gloss;
+in vec3 key_light;
+in float key_gloss;
+in vec3 lit_at;
+out vec4 colour;
+void main() {
+    vec4 painted = texture(paint_map, paint);
+    vec3 albedo = painted.rgb * painted.rgb;
+    float oil = painted.a;
+    ivec2 q = ivec2(gl_FragCoord.xy) & 1;
+    float reach = 0.0015 / (mouth_axis.w * float(textureSize(shadow_map, 0).x));
+    float s = textureLod(shadow_map, vec3(lit_at.xy + reach * (vec2(q) - 0.5), lit_at.z), 0.0);
+    s += (0.5 - float(q.x)) * dFdxFine(s);
+    s += (0.5 - float(q.y)) * dFdyFine(s);
+    vec3 diffuse = key_light * (s + s * (1.0 - s) * bleed) + soft;
+    vec3 gloss = key_card.rgb * (s * key_gloss) + soft_gloss;
+    colour = vec4(shown(albedo * diffuse + gloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }
 )";
 
@@ -151,7 +183,7 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, flo
 )";
 
 std::string skin_with(bool folds, const std::string& told) {
-    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + told + kSkin;
+    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + kPores + told + kSkin;
 }
 
 }  // namespace
@@ -161,6 +193,10 @@ std::string skin_shader(bool folds) {
 }
 std::string skin_layer_shader(bool folds) {
     return lighting_chunk() + kOpaque + skin_with(folds, turns_chunk() + kAway);
+}
+std::string draft_skin_shader(bool layer) {
+    return frame_chunk() + lights_chunk() + "in vec3 position;\n" +
+           (layer ? turns_chunk() + kAway : kCovered) + kDraft;
 }
 std::string veil_shader(bool folds) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +

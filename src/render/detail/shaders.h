@@ -50,10 +50,14 @@ enum VertexAttribute {
 /// Share of the skin's own light where one looks straight down on a muscle.
 constexpr double kSkinOverMuscles = 0.16;
 
-std::string surface_vertex_shader(bool folds = false);  ///< for every material
-std::string depth_vertex_shader();                      ///< shadow map and occlusion
+/// For every material; `key`: with the light of the key lamp, for draft_skin_shader.
+std::string surface_vertex_shader(bool folds = false, bool key = false);
+std::string depth_vertex_shader();  ///< shadow map and occlusion
 std::string skin_shader(bool folds);
 std::string skin_layer_shader(bool folds);  ///< of the skin shaded for others to look up
+std::string draft_skin_shader(bool layer);  ///< lit at its vertices, without pores and wrinkles
+std::string clear_vertex_shader();
+std::string clear_shader();
 std::string lookup_vertex_shader();
 std::string lookup_shader();          ///< and of those
 std::string veil_shader(bool folds);  ///< of the skin over the muscles, which shine through

@@ -84,8 +84,8 @@ class Lengths {
 
 }  // namespace
 
-ShellLayer::ShellLayer(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre,
-                       const std::vector<unsigned>& skin) {
+ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
+                       const Vec3& paint_centre, const std::vector<unsigned>& skin) {
     const double hair_m = 1e-3 * scene.look.hair_length_mm,
                  beard_m = 1e-3 * scene.look.beard_length_mm;
     if (std::max(hair_m, beard_m) <= 0 || has_own_skin(scene)) return;
@@ -109,6 +109,7 @@ ShellLayer::ShellLayer(const Scene& scene, const SkinPlan& plan, const Vec3& pai
             indices.insert(indices.end(), {skin[i], skin[i + 1], skin[i + 2]});
     }
     if (indices.empty()) return;
+    indices = buffers.elements(indices);
     index_count_ = static_cast<int>(indices.size());
     shells_ = std::clamp(static_cast<int>(std::max(hair_m, beard_m) / kShellGap_m), kFewestShells,
                          kMostShells);

@@ -16,14 +16,15 @@ namespace risorius::render {
 class ShellLayer {
   public:
     /// `skin` are the painted triangles. Nothing is drawn when the look has no length of hair. The context must be current.
-    ShellLayer(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre,
-               const std::vector<unsigned>& skin);
+    ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
+               const Vec3& paint_centre, const std::vector<unsigned>& skin);
     ~ShellLayer();
     ShellLayer(const ShellLayer&) = delete;
     ShellLayer& operator=(const ShellLayer&) = delete;
 
     /// With the scene's vertex array bound.
     void draw() const;
+    bool empty() const { return !program_; }
 
   private:
     std::unique_ptr<GlProgram> program_;  ///< none when there is nothing to draw

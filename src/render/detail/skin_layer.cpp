@@ -52,32 +52,69 @@ void SkinLayer::begin(int width_px, int height_px) {
     glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-const FarthestSkin& SkinLayer::farthest() {
+const FarthestSkin& SkinLayer::farthest(const ClipBox& box) {
     constexpr int kCell = FarthestSkin::kCell;
-    const auto width = static_cast<std::size_t>(drawn_width_);
-    depths_.resize(width * static_cast<std::size_t>(drawn_height_));
-    glReadPixels(0, 0, drawn_width_, drawn_height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
     farthest_.columns = (drawn_width_ + kCell - 1) / kCell;
     farthest_.rows = (drawn_height_ + kCell - 1) / kCell;
     farthest_.width = static_cast<float>(drawn_width_) / kCell;
     farthest_.height = static_cast<float>(drawn_height_) / kCell;
     farthest_.depth.assign(
         static_cast<std::size_t>(farthest_.columns) * static_cast<std::size_t>(farthest_.rows),
-        0.0F);
+        1.0F);
+    // Whole cells, and one more on each side for the pixels beside the box
+    const auto cell = [&](float clip, float cells, int by, int most) {
+        const float at = (0.5F * std::clamp(clip, -1.0F, 1.0F) + 0.5F) * cells;
+        return std::clamp(static_cast<int>(at) + by, 0, most);
+    };
+    if (!box.behind &&
+        (box.left > box.right || box.left > 1 || box.right < -1 || box.low > 1 || box.high < -1))
+        return farthest_;
+    const int from_x = box.behind ? 0 : cell(box.left, farthest_.width, -1, farthest_.columns),
+              to_x = box.behind ? farthest_.columns
+                                : cell(box.right, farthest_.width, 2, farthest_.columns),
+              from_y = box.behind ? 0 : cell(box.low, farthest_.height, -1, farthest_.rows),
+              to_y =
+                  box.behind ? farthest_.rows : cell(box.high, farthest_.height, 2, farthest_.rows);
+    const int x0 = from_x * kCell, y0 = from_y * kCell,
+              drawn_width = std::min(to_x * kCell, drawn_width_) - x0,
+              drawn_height = std::min(to_y * kCell, drawn_height_) - y0;
+    if (drawn_width <= 0 || drawn_height <= 0) return farthest_;
+    const auto width = static_cast<std::size_t>(drawn_width);
+    depths_.resize(width * static_cast<std::size_t>(drawn_height));
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glReadPixels(x0, y0, drawn_width, drawn_height, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
     std::vector<float> column(width);
-    for (int row = 0; row < farthest_.rows; ++row) {
+    for (int row = from_y; row < to_y; ++row) {
         std::fill(column.begin(), column.end(), 0.0F);
         for (int y = row * kCell; y < std::min((row + 1) * kCell, drawn_height_); ++y) {
-            const float* depths = depths_.data() + static_cast<std::size_t>(y) * width;
+            const float* depths = depths_.data() + static_cast<std::size_t>(y - y0) * width;
             for (std::size_t x = 0; x < width; ++x)
                 column[x] = depths[x] > column[x] ? depths[x] : column[x];
         }
         float* cells = farthest_.depth.data() +
-                       static_cast<std::size_t>(row) * static_cast<std::size_t>(farthest_.columns);
+                       static_cast<std::size_t>(row) * static_cast<std::size_t>(farthest_.columns) +
+                       from_x;
+        std::fill(cells, cells + (to_x - from_x), 0.0F);
         for (std::size_t x = 0; x < width; ++x)
             cells[x / kCell] = std::max(cells[x / kCell], column[x]);
     }
     return farthest_;
+}
+
+const std::vector<std::uint8_t>& SkinLayer::read(const PixelBox& box) {
+    rgba_.resize(4 * static_cast<std::size_t>(drawn_width_) *
+                 static_cast<std::size_t>(drawn_height_));
+    const int x = box.left * shaded_, y = box.low * shaded_,
+              width = (box.right - box.left) * shaded_, height = (box.high - box.low) * shaded_;
+    if (width <= 0 || height <= 0) return rgba_;
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glPixelStorei(GL_PACK_ROW_LENGTH, drawn_width_);
+    glReadPixels(
+        x, y, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+        rgba_.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(drawn_width_) +
+                            static_cast<std::size_t>(x)));
+    glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+    return rgba_;
 }
 
 void SkinLayer::use() const {

@@ -5,9 +5,11 @@
 // and Luebke 2011, Subpixel Reconstruction Antialiasing.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/detail/gl_context.h"
+#include "render/detail/picture_cells.h"
 
 namespace risorius::render {
 
@@ -32,11 +34,18 @@ class SkinLayer {
     /// Skin is to be drawn into the bound framebuffer as it was shaded, in the bytes of sRGB.
     void use() const;
 
-    /// How far away the skin in the layer is at most, cell by cell. Waits for the drawing.
-    const FarthestSkin& farthest();
+    /// How far away the skin in the layer is at most, cell by cell, within the box; elsewhere it is taken to be missing. Waits for the drawing.
+    const FarthestSkin& farthest(const ClipBox& box);
+
+    /// Its places as they were shaded, rows from the bottom: colour in bytes of sRGB, and the distance (shader_lookup.cpp). Those
+    /// beside the rectangle, px of the picture, are not brought up to date.
+    const std::vector<std::uint8_t>& read(const PixelBox& box);
+    const std::vector<std::uint8_t>& places() const { return rgba_; }  ///< read last
+    int shaded() const { return shaded_; }
 
   private:
     int shaded_;
+    std::vector<std::uint8_t> rgba_;
     FarthestSkin farthest_;
     std::vector<float> depths_;
     int drawn_width_ = 0, drawn_height_ = 0;

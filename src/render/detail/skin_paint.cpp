@@ -8,6 +8,7 @@
 #include "render/detail/gl_context.h"
 #include "render/detail/own_textures.h"
 #include "render/detail/paint_strokes.h"
+#include "render/detail/scene_buffers.h"
 #include "render/detail/shader_paint.h"
 #include "render/detail/skin_plan.h"
 
@@ -112,8 +113,8 @@ int paint_side(double pixels_per_metre) {
     return side;
 }
 
-GLuint paint_skin(const Scene& scene, const OwnTextures& own, const Vec3& centre,
-                  const std::vector<unsigned>& triangles, int side) {
+GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnTextures& own,
+                  const Vec3& centre, const std::vector<unsigned>& triangles, int side) {
     GLuint map = 0, depth = 0, framebuffer = 0, elements = 0;
     glGenTextures(1, &map);
     glBindTexture(GL_TEXTURE_2D, map);
@@ -154,10 +155,11 @@ GLuint paint_skin(const Scene& scene, const OwnTextures& own, const Vec3& centre
         glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &outer);
         glGenBuffers(1, &elements);
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements);
+        const std::vector<unsigned> numbers = buffers.elements(triangles);
         glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                     static_cast<GLsizeiptr>(triangles.size() * sizeof(unsigned)), triangles.data(),
+                     static_cast<GLsizeiptr>(numbers.size() * sizeof(unsigned)), numbers.data(),
                      GL_STATIC_DRAW);
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(triangles.size()), GL_UNSIGNED_INT,
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(numbers.size()), GL_UNSIGNED_INT,
                        nullptr);
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLuint>(outer));
         glDeleteBuffers(1, &elements);

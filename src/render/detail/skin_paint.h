@@ -12,6 +12,7 @@
 namespace risorius::render {
 
 class OwnTextures;
+class SceneBuffers;
 
 /// Place on the map, 0..1 each way.
 Vec2 paint_place(const Vec3& rest, const Vec3& centre);
@@ -23,10 +24,10 @@ Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max
 constexpr int kLeastPaintSide = 256, kMostPaintSide = 4096;
 int paint_side(double pixels_per_metre);
 
-/// Draws the map with the bound vertex array (attributes kRest and kPaintPlace) and these triangles.
+/// Draws the map with the vertex array of the buffers, which is bound, and these triangles of the scene.
 /// Returns a mip-mapped texture: square root of linear albedo, and oil in alpha. The context must be current.
-GLuint paint_skin(const Scene& scene, const OwnTextures& own, const Vec3& centre,
-                  const std::vector<unsigned>& triangles, int side);
+GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnTextures& own,
+                  const Vec3& centre, const std::vector<unsigned>& triangles, int side);
 
 /// A tile of pores: slopes of the surface around 0.5, repeating.
 GLuint make_pores(unsigned seed);

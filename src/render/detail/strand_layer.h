@@ -7,6 +7,7 @@
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/strands.h"
+#include "render/detail/streamed_triangles.h"
 
 namespace risorius::render {
 
@@ -15,13 +16,12 @@ class StrandLayer {
     /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler. The context must be current.
     StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
                 double sample_m);
-    ~StrandLayer();
-    StrandLayer(const StrandLayer&) = delete;
-    StrandLayer& operator=(const StrandLayer&) = delete;
-
     void upload(const Pose& pose, const PosedMarks& marks);
     /// Blended over what is there; binds a vertex array of its own.
     void draw() const;
+    void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
+        triangles_.mark(clip_from_world, cells);
+    }
 
   private:
     std::vector<Strand> strands_;
@@ -31,9 +31,7 @@ class StrandLayer {
     Vec3 camera_;
     double sample_m_;
     GlProgram program_;
-    std::vector<float> vertices_;
-    GLuint array_ = 0, buffer_ = 0, elements_ = 0;
-    int index_count_ = 0;
+    StreamedTriangles triangles_;
 };
 
 }  // namespace risorius::render

@@ -7,21 +7,16 @@
 namespace risorius::render {
 namespace {
 
-constexpr std::size_t kTearFloats = 7;  ///< of a vertex: place, normal, share of its light
-constexpr std::size_t kTearRows = 3;    ///< on the lid, in the corner between, on the eye
+constexpr std::size_t kTearRows = 3;  ///< on the lid, in the corner between, on the eye
 
 // Height of the meniscus: 0.2 to 0.3 mm in healthy eyes (Mainstone et al. 1996), drawn a little wider than it is.
 constexpr double kTearOntoLid_m = 0.00012, kTearOntoEye_m = 0.00038, kTearThickness_m = 0.00015;
 
-}  // namespace
-
-TearLayer::TearLayer(const Scene& scene)
-    : eyes_(scene.eyes), program_("tears", tear_vertex_shader(), tear_shader()) {
+std::vector<unsigned> tear_ribbons(const std::array<std::vector<SkinPlace>, 2>& lines) {
     std::vector<unsigned> indices;
     unsigned first = 0;
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-        lines_[eye] = plan_tear_line(scene, static_cast<int>(eye));
-        const auto columns = static_cast<unsigned>(lines_[eye].size());
+    for (const std::vector<SkinPlace>& line : lines) {
+        const auto columns = static_cast<unsigned>(line.size());
         for (unsigned i = 0; i + 1 < columns; ++i)
             for (unsigned r = 0; r + 1 < kTearRows; ++r) {
                 const unsigned a = first + kTearRows * i + r, b = a + kTearRows;
@@ -29,37 +24,19 @@ TearLayer::TearLayer(const Scene& scene)
             }
         first += kTearRows * columns;
     }
-    index_count_ = static_cast<int>(indices.size());
-    GLint outer = 0;
-    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &outer);
-    glGenVertexArrays(1, &array_);
-    glBindVertexArray(array_);
-    glGenBuffers(1, &buffer_);
-    glGenBuffers(1, &elements_);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
-                 GL_STATIC_DRAW);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
-        glEnableVertexAttribArray(index);
-        glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, kTearFloats * sizeof(float),
-                              reinterpret_cast<const void*>(offset * sizeof(float)));
-    };
-    attribute(0, 3, 0);
-    attribute(1, 3, 3);
-    attribute(2, 1, 6);
-    glBindVertexArray(static_cast<GLuint>(outer));
+    return indices;
 }
 
-TearLayer::~TearLayer() {
-    const GLuint buffers[] = {buffer_, elements_};
-    glDeleteBuffers(2, buffers);
-    glDeleteVertexArrays(1, &array_);
-}
+}  // namespace
+
+TearLayer::TearLayer(const Scene& scene)
+    : lines_{plan_tear_line(scene, 0), plan_tear_line(scene, 1)},
+      eyes_(scene.eyes),
+      program_("tears", tear_vertex_shader(), tear_shader()),
+      triangles_(tear_ribbons(lines_), {3, 3, 1}) {}  // place, normal, share of its light
 
 void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
-    vertices_.clear();
+    std::vector<float> vertices = triangles_.take();
     for (std::size_t eye = 0; eye < 2; ++eye) {
         const std::vector<SkinPlace>& line = lines_[eye];
         if (line.empty()) continue;
@@ -99,27 +76,19 @@ void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
             const double shares[kTearRows] = {0.0, share, 0.0};
             for (std::size_t r = 0; r < kTearRows; ++r) {
                 const Vec3 p = places[r] + kTearThickness_m * out;
-                for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>(p[k]));
-                for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>(normals[r][k]));
-                vertices_.push_back(static_cast<float>(shares[r]));
+                for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(p[k]));
+                for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(normals[r][k]));
+                vertices.push_back(static_cast<float>(shares[r]));
             }
         }
     }
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(float)),
-                 vertices_.data(), GL_STREAM_DRAW);
+    triangles_.upload(std::move(vertices));
 }
 
 void TearLayer::draw() const {
-    if (index_count_ == 0) return;
-    glBindVertexArray(array_);
     program_.use();
-    glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    glDepthMask(GL_FALSE);
-    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
+    triangles_.draw();
 }
 
 }  // namespace risorius::render

@@ -7,6 +7,7 @@
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/strands.h"
+#include "render/detail/streamed_triangles.h"
 
 namespace risorius::render {
 
@@ -14,21 +15,19 @@ class TearLayer {
   public:
     /// Without lids that can be found nothing is drawn. The context must be current.
     explicit TearLayer(const Scene& scene);
-    ~TearLayer();
-    TearLayer(const TearLayer&) = delete;
-    TearLayer& operator=(const TearLayer&) = delete;
 
     void upload(const Pose& pose, const PosedMarks& marks);
     /// Adds its light to what is there; binds a vertex array of its own.
     void draw() const;
+    void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
+        triangles_.mark(clip_from_world, cells);
+    }
 
   private:
     std::array<std::vector<SkinPlace>, 2> lines_;  ///< of the left and the right eye
     std::array<Eye, 2> eyes_;
     GlProgram program_;
-    std::vector<float> vertices_;
-    GLuint array_ = 0, buffer_ = 0, elements_ = 0;
-    int index_count_ = 0;
+    StreamedTriangles triangles_;
 };
 
 }  // namespace risorius::render

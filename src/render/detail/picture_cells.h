@@ -1,0 +1,85 @@
+// Which parts of a tile need samples of their own: where even skin is all there is to see, the places of the skin layer are
+// the picture already, and where nothing was drawn, so is the background.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace risorius::render {
+
+/// Where something lies in clip space over w, -1..1 from the lower left corner.
+struct ClipBox {
+    float left = 1e9F, right = -1e9F, low = 1e9F, high = -1e9F;
+    bool behind = false;  ///< part of it lies behind the camera, so that it may be anywhere
+
+    void add(float x, float y, float w) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+        low = std::min(low, y);
+        high = std::max(high, y);
+        behind |= w <= 0;
+    }
+    void add(const ClipBox& other) {
+        left = std::min(left, other.left);
+        right = std::max(right, other.right);
+        low = std::min(low, other.low);
+        high = std::max(high, other.high);
+        behind |= other.behind;
+    }
+};
+
+/// Pixels [left, right) x [low, high), from the lower left corner.
+struct PixelBox {
+    int left, right, low, high;
+};
+
+class PictureCells {
+  public:
+    static constexpr int kSide_px = 8;
+
+    /// All are empty.
+    void begin(int width_px, int height_px);
+
+    /// Skin lies here, and has been shaded.
+    void touch(const ClipBox& box) { add(box, kTouched); }
+    /// Something lies here that is drawn in samples.
+    void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
+    void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
+
+    /// Around all that was touched
+    PixelBox touched() const;
+
+    /// Of what was touched, only what is skin all over, without a step in its distance, can do without samples. `rgba`: the skin
+    /// layer, `shaded` places per pixel and side, rows from the bottom, with the distance in alpha (see shader_lookup.cpp).
+    void find_steps(const std::vector<std::uint8_t>& rgba, int shaded);
+
+    /// Whether the box reaches into a cell that needs samples.
+    bool needs_samples(const ClipBox& box) const;
+
+    enum class Kind { kEmpty, kSkin, kSampled };
+    Kind at(int column, int row) const {
+        const std::uint8_t cell = cells_[index(column, row)];
+        return cell == 0 ? Kind::kEmpty : (cell & kSampled) != 0 ? Kind::kSampled : Kind::kSkin;
+    }
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
+
+  private:
+    static constexpr std::uint8_t kTouched = 1, kSampled = 2;
+    struct Range {
+        int from_column, to_column, from_row, to_row;
+    };
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+    Range range(const ClipBox& box) const;
+    void add(const ClipBox& box, std::uint8_t what);
+
+    int width_px_ = 0, height_px_ = 0, columns_ = 0, rows_ = 0;
+    std::vector<std::uint8_t> cells_;  ///< rows from the bottom
+    std::vector<std::uint8_t> away_, steps_;
+};
+
+}  // namespace risorius::render
