@@ -58,8 +58,7 @@ SolvedPose ShapeSolver::pose(sim::Face& face, const track::Drive& drive, int ste
         out.inverted_tets = face.inverted_tets();
     };
     approach(steps);
-    if (steps < kSmallSteps && (!out.figures.converged || out.inverted_tets > 0))
-        approach(kSmallSteps);
+    if (steps < kSmallSteps && !out.figures.converged) approach(kSmallSteps);
     const sim::FacePose pose = face.pose();
     out.moved = pose.vertices - face.head().vertices;
     out.eye_rotation = pose.eye_rotation;

@@ -28,8 +28,8 @@ class ShapeSolver {
     ShapeSolver(const RigFiles& files, const sim::Quality& quality, int threads);
     ~ShapeSolver();
 
-    /// In the order of the drives, each approached from rest in so many equal steps; a pose that is not reached, or that turns
-    /// elements over, is tried again in small ones. Throws Interrupted.
+    /// In the order of the drives, each approached from rest in so many equal steps; one that does not come to rest is
+    /// tried again in small ones. Throws Interrupted.
     std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives, const Watch& watch,
                                   int steps = 1) const;
 
