@@ -1,6 +1,6 @@
 #include "app/shape_solver.h"
 
-#include <utility>
+#include <mutex>
 
 #include "experiment/experiment_kind.h"
 #include "experiment/spare_threads.h"
@@ -28,21 +28,12 @@ track::Drive scaled(track::Drive drive, double share) {
 
 ShapeSolver::ShapeSolver(const RigFiles& files, const sim::Quality& quality, int threads)
     : files_(files), quality_(quality), threads_(threads) {
-    idle_.push_back(std::make_unique<sim::Face>(files.rig, files.mesh, quality_, files.place()));
-    rest_volume_m3_ = idle_.front()->tissue_volume_m3();
+    first_ = another();
+    rest_volume_m3_ = first_->tissue_volume_m3();
 }
 ShapeSolver::~ShapeSolver() = default;
 
-std::unique_ptr<sim::Face> ShapeSolver::take() const {
-    {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        // The first one stays: others look at it meanwhile
-        if (idle_.size() > 1) {
-            std::unique_ptr<sim::Face> face = std::move(idle_.back());
-            idle_.pop_back();
-            return face;
-        }
-    }
+std::unique_ptr<sim::Face> ShapeSolver::another() const {
     return std::make_unique<sim::Face>(files_.rig, files_.mesh, quality_, files_.place());
 }
 
@@ -74,13 +65,10 @@ std::vector<SolvedPose> ShapeSolver::solve(const std::vector<track::Drive>& driv
     experiment::SpareThreads spare(experiment::ThreadLimit(threads_).count() - 1);
     experiment::parallel_for(static_cast<int>(drives.size()), {threads_, &spare}, [&](int i) {
         if (watch.stopped && watch.stopped()) throw Interrupted();
-        std::unique_ptr<sim::Face> face = take();
+        // A face of its own for each, that has been nowhere before: what it finds hangs on the drive alone
+        const std::unique_ptr<sim::Face> face = another();
         const auto at = static_cast<std::size_t>(i);
         out[at] = pose(*face, drives[at], steps);
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            idle_.push_back(std::move(face));
-        }
         const std::lock_guard<std::mutex> lock(telling);
         ++done;
         watch.tell(static_cast<double>(done) / static_cast<double>(drives.size()), "poses");

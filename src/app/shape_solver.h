@@ -4,7 +4,6 @@
 
 #include <array>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "app/rig_files.h"
@@ -34,21 +33,19 @@ class ShapeSolver {
                                   int steps = 1) const;
 
     /// A face that no pose is being sought with.
-    const sim::Face& face() const { return *idle_.front(); }
+    const sim::Face& face() const { return *first_; }
 
     /// One of the caller's own.
-    std::unique_ptr<sim::Face> another() const { return take(); }
+    std::unique_ptr<sim::Face> another() const;
 
   private:
-    std::unique_ptr<sim::Face> take() const;
     SolvedPose pose(sim::Face& face, const track::Drive& drive, int steps) const;
 
     const RigFiles& files_;
     sim::Quality quality_;
     int threads_;
     double rest_volume_m3_;
-    mutable std::mutex mutex_;
-    mutable std::vector<std::unique_ptr<sim::Face>> idle_;
+    std::unique_ptr<sim::Face> first_;
 };
 
 }  // namespace risorius::app
