@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "app/drive_bars.h"
 #include "app/html_writer.h"
 #include "app/version.h"
 #include "render/value_colour.h"
@@ -16,7 +17,7 @@ namespace risorius::app {
 namespace {
 
 // Rows of a table that change places when another order is chosen; bars of activations side by side.
-constexpr const char* kEvaluationStyle = R"(
+const std::string kEvaluationStyle = R"(
 .orders input { position: absolute; opacity: 0; }
 .orders label { display: inline-block; padding: .1rem .6rem; margin: .15rem .3rem .15rem 0; border: 1px solid var(--line); border-radius: 1rem; cursor: pointer; font-size: .87rem; }
 .orders input:checked + label { background: var(--link); border-color: var(--link); color: #fff; }
@@ -27,11 +28,6 @@ constexpr const char* kEvaluationStyle = R"(
 .rows .row span, .rows .row b { text-align: right; padding-right: .7rem; }
 .rows .row :first-child { text-align: left; }
 .faces { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: .5rem; margin: .5rem 0; }
-.bars { display: grid; grid-template-columns: repeat(auto-fill, minmax(330px, 1fr)); gap: .1rem 1.6rem; font-size: .84rem; margin-top: .4rem; }
-.bars .bar { display: grid; grid-template-columns: 13.5rem 1fr 2.6rem; align-items: center; gap: .5rem; line-height: 1.25; }
-.bars .bar i { display: block; height: .42rem; margin: 1px 0; border-radius: 1px; min-width: 1px; }
-.bars .bar span:last-child { text-align: right; font-variant-numeric: tabular-nums; }
-.by-table { background: #5a6675; } .by-fit { background: #d9822b; }
 .key i { display: inline-block; width: 1.4rem; height: .5rem; margin: 0 .35rem 0 .9rem; }
 .key i:first-child { margin-left: 0; }
 .scale { display: inline-block; width: 9rem; height: .7rem; margin: 0 .4rem; vertical-align: middle; border: 1px solid var(--line); }
@@ -253,63 +249,13 @@ void write_faces(HtmlWriter& html, const std::string& name,
     html.close();
 }
 
-struct Bar {
-    std::string name;
-    double table = 0, fitted = 0, most = 1;
-};
-
-std::vector<Bar> bars_of(const EvaluatedExpression& one, const track::ChannelTable& channels) {
-    std::vector<Bar> out;
-    const std::vector<std::string> names = channels.column_names();
-    const auto add = [&](const std::string& name, double table, double fitted, double most) {
-        if (table != 0 || fitted != 0) out.push_back({name, table, fitted, most});
-    };
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        const auto at = static_cast<long>(c);
-        add(names[c], one.table.drive.excitation[at],
-            one.fitted ? one.fitted->drive.excitation[at] : 0, 1);
-    }
-    for (std::size_t k = 0; k < one.table.drive.kinematic.size(); ++k) {
-        const track::KinematicChannel& channel = track::kinematic_channels()[k];
-        add(std::string(channel.name), one.table.drive.kinematic[k],
-            one.fitted ? one.fitted->drive.kinematic[k] : 0,
-            std::max(std::abs(channel.min), std::abs(channel.max)));
-    }
-    // A muscle that does on the right what it does on the left needs one bar only
-    std::vector<Bar> joined;
-    for (const Bar& bar : out) {
-        const bool pair = bar.name.ends_with(".r") && !joined.empty() &&
-                          joined.back().name == bar.name.substr(0, bar.name.size() - 1) + "l" &&
-                          joined.back().table == bar.table && joined.back().fitted == bar.fitted;
-        if (pair)
-            joined.back().name = bar.name.substr(0, bar.name.size() - 2);
-        else
-            joined.push_back(bar);
-    }
-    return joined;
-}
-
-std::string short_value(double value, double most) { return fixed(value, most > 10 ? 0 : 2); }
-
 void write_bars(HtmlWriter& html, const EvaluatedExpression& one,
                 const track::ChannelTable& channels) {
     html.open("p", {{"class", "soft key"}}).element("i", "", {{"class", "by-table"}});
     html.text("by the rig's table");
     if (one.fitted) html.element("i", "", {{"class", "by-fit"}}).text("fitted");
     html.text(". Both sides alike unless .l or .r says which.").close();
-    html.open("div", {{"class", "bars"}});
-    for (const Bar& bar : bars_of(one, channels)) {
-        const auto width = [&](double value) {
-            return "width: " + fixed(100 * std::min(1.0, std::abs(value) / bar.most), 1) + "%";
-        };
-        html.open("div", {{"class", "bar"}}).element("span", bar.name).open("span");
-        html.element("i", "", {{"class", "by-table"}, {"style", width(bar.table)}});
-        if (one.fitted) html.element("i", "", {{"class", "by-fit"}, {"style", width(bar.fitted)}});
-        html.close().open("span").text(short_value(bar.table, bar.most));
-        if (one.fitted) html.single("br").text(short_value(bar.fitted, bar.most));
-        html.close().close();
-    }
-    html.close();
+    write_drive_bars(html, one.table.drive, one.fitted ? &one.fitted->drive : nullptr, channels);
 }
 
 void write_expression(HtmlWriter& html, const Evaluation& evaluation, std::size_t index,
@@ -356,7 +302,7 @@ void write_expression(HtmlWriter& html, const Evaluation& evaluation, std::size_
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationPictures* pictures) {
     const std::string title = evaluation.name + ": simulated against measured expressions";
     HtmlWriter html;
-    html.element("style", kEvaluationStyle).element("h1", title);
+    html.element("style", kEvaluationStyle + drive_bars_style()).element("h1", title);
     html.element("p",
                  "Rig " + evaluation.rig + " (" + std::to_string(evaluation.nodes) +
                      " nodes), measured shapes " + evaluation.shapes + ", " +

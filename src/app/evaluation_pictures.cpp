@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/contact_sheet.h"
+#include "app/folder_name.h"
 #include "app/scene_from_rig.h"
 #include "media/image_file.h"
 #include "render/offscreen_view.h"
@@ -18,26 +19,6 @@ namespace {
 
 constexpr double kShown = 0.42;  ///< size of a picture on a sheet, against the single one
 constexpr const char* kFolder = "pictures";
-
-// Names come from files, and are to be names of folders anywhere.
-std::string folder_name(const std::string& name, std::set<std::string>& taken) {
-    std::string out;
-    for (const char c : name) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                           (c >= '0' && c <= '9') || c == '_' || c == '-';
-        out += plain ? c : '_';
-    }
-    // Some file systems do not tell capitals from small letters
-    const auto lower = [](std::string text) {
-        for (char& c : text)
-            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-        return text;
-    };
-    std::string unique = out;
-    for (int n = 2; !taken.insert(lower(unique)).second; ++n)
-        unique = out + "-" + std::to_string(n);
-    return unique;
-}
 
 // How the eye has turned, told by its vertices.
 Mat3 eye_rotation(const rig::Head& head, int side, const Points& vertices) {

@@ -102,7 +102,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
 
 ArkitShape read_arkit_shape(const JsonCursor& json, const std::string& name, const FacsTable& facs,
                             const ChannelTable& channels) {
-    json.allow_keys({"units", "muscles", "jaw"});
+    json.allow_keys({"units", "muscles", "jaw", "tongue"});
     ArkitShape shape;
     shape.name = name;
     if (const auto units = json.find("units"))
@@ -113,6 +113,12 @@ ArkitShape read_arkit_shape(const JsonCursor& json, const std::string& name, con
         }
     if (const auto v = json.find("muscles")) shape.muscles = read_shares(*v, channels);
     if (const auto v = json.find("jaw")) shape.jaw = read_jaw(*v, facs.ranges);
+    if (const auto v = json.find("tongue")) {
+        v->allow_keys({"out_mm", "up"});
+        if (const auto out = v->find("out_mm"))
+            shape.tongue_out_mm = out->number({0, facs.ranges.tongue_out_mm});
+        if (const auto up = v->find("up")) shape.tongue_up = read_within(*up, Kinematic::kTongueUp);
+    }
     return shape;
 }
 
@@ -189,7 +195,7 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
 }
 
 FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
-    json.allow_keys({"source", "ranges", "action_units", "arkit"});
+    json.allow_keys({"source", "ranges", "action_units", "arkit", "visemes"});
     FacsTable facs;
     if (const auto ranges = json.find("ranges")) {
         ranges->allow_keys({"jaw_forward_mm", "jaw_side_mm", "tongue_out_mm"});
@@ -206,6 +212,9 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
     if (const auto arkit = json.find("arkit"))
         for (const std::string& name : arkit->keys())
             facs.arkit.push_back(read_arkit_shape(arkit->at(name), name, facs, channels));
+    if (const auto visemes = json.find("visemes"))
+        for (const std::string& name : visemes->keys())
+            facs.visemes.push_back(read_arkit_shape(visemes->at(name), name, facs, channels));
     return facs;
 }
 
@@ -285,6 +294,10 @@ Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTa
             if (!share.side || *share.side == side)
                 expansion.excitation[channels.column(share.muscle, side)] = share.weight;
     apply_jaw(shape.jaw, facs.ranges, expansion.kinematic);
+    if (shape.tongue_out_mm)
+        value(expansion.kinematic, Kinematic::kTongueOut) =
+            *shape.tongue_out_mm / facs.ranges.tongue_out_mm;
+    if (shape.tongue_up) value(expansion.kinematic, Kinematic::kTongueUp) = *shape.tongue_up;
     // Units that overlap add up to more than a muscle can do.
     expansion.excitation = expansion.excitation.cwiseMax(channels.column_min()).cwiseMin(1.0);
     return expansion;

@@ -47,12 +47,14 @@ struct UnitUse {
     double value = 1;  ///< intensity, [0, 1]
 };
 
-/// One of the 52 blend shapes of ARKit face tracking. Muscles and jaw given here replace what the units give.
+/// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace
+/// what the units give.
 struct ArkitShape {
     std::string name;
     std::vector<UnitUse> units;
     std::vector<MuscleShare> muscles;
     JawShare jaw;
+    std::optional<double> tongue_out_mm, tongue_up;  ///< up: ratio, [-1, 1]
 };
 
 /// What turns the millimetres of the tables into the ratios of the kinematic channels.
@@ -66,7 +68,8 @@ struct FacsTable {
     FacsRanges ranges;
     std::vector<ActionUnit> units;
     std::vector<ArkitShape> arkit;
-    const ActionUnit* find(const std::string& id) const;          ///< null when unknown
+    std::vector<ArkitShape> visemes;                      ///< none in rigs older than they are
+    const ActionUnit* find(const std::string& id) const;  ///< null when unknown
     const ArkitShape* find_arkit(const std::string& name) const;  ///< null when unknown
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "paths.h"
+#include "track/arkit_names.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {
@@ -43,6 +44,9 @@ TEST(Facs, StandardTablesHaveEveryMuscleUnitShapeAndExpression) {
     for (const ActionUnit& u : tables().facs.units) numbers.insert(std::stoi(u.id.substr(2)));
     EXPECT_EQ(numbers.size(), 58u);  // the codes of the manual; 28 and 30 have variants
     EXPECT_EQ(tables().facs.arkit.size(), 52u);
+    for (std::size_t i = 0; i < arkit_names().size(); ++i)
+        EXPECT_EQ(tables().facs.arkit[i].name, arkit_names()[i]);
+    EXPECT_EQ(tables().facs.visemes.size(), 15u);
     for (const char* name : {"neutral", "happiness", "sadness", "anger", "fear", "disgust",
                              "surprise", "contempt", "pain", "embarrassment"})
         EXPECT_NE(tables().expressions.find(name), nullptr) << name;

@@ -1,0 +1,103 @@
+#include "app/shape_animation.h"
+
+#include <cctype>
+#include <cstdio>
+
+#include "core/error.h"
+#include "muscle/activation.h"
+#include "track/arkit_names.h"
+#include "track/script.h"
+#include "track/timeline.h"
+
+namespace risorius::app {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+constexpr const char* kTurns[] = {"HeadYaw",     "HeadPitch",     "HeadRoll",
+                                  "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
+                                  "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
+
+// "00:00:01:29.000": hours, minutes, seconds, frame and part of it
+std::string timecode(long frame, int fps) {
+    const long seconds = frame / fps;
+    char text[96];
+    std::snprintf(text, sizeof text, "%02ld:%02ld:%02ld:%02ld.000", seconds / 3600,
+                  seconds / 60 % 60, seconds % 60, frame % fps);
+    return text;
+}
+
+}  // namespace
+
+ShapeAnimation bake_script(const std::filesystem::path& script_file, const RigFiles& files,
+                           const std::vector<ShapeGoal>& goals, const ShapeWeights& weights) {
+    const track::ChannelTable channels = files.rig.channels();
+    const track::ScriptDescription script =
+        track::read_script(script_file, channels, files.rig.facs, files.rig.expressions);
+    const track::Timeline timeline(script, channels);
+    muscle::ActivationDynamics dynamics(
+        files.rig.muscles.activation_s(), files.rig.muscles.deactivation_s(),
+        {files.rig.activation.law == "smooth" ? muscle::ActivationLaw::Form::kSmooth
+                                              : muscle::ActivationLaw::Form::kThelen2003,
+         files.rig.activation.steepness});
+    ShapeAnimation out;
+    out.name = script_file.stem().string();
+    out.fps = script.header.fps;
+    for (const ShapeGoal& goal : goals) out.shapes.push_back(goal.name);
+    const int frames = script.header.frame_count();
+    out.weights.resize(frames, static_cast<long>(goals.size()));
+    Eigen::VectorXd excitation;
+    dynamics.set_activation(timeline.at(0).excitation);
+    for (int f = 0; f < frames; ++f) {
+        const double t = static_cast<double>(f) / out.fps;
+        track::Drive drive = timeline.at(t);
+        if (f > 0)
+            dynamics.advance(
+                [&](double time) -> const Eigen::VectorXd& {
+                    excitation = timeline.at(time).excitation;
+                    return excitation;
+                },
+                drive.activation, static_cast<double>(f - 1) / out.fps, t);
+        drive.excitation = dynamics.activation();
+        out.weights.row(f) = weights.of(drive).transpose();
+        out.drives.push_back(std::move(drive));
+    }
+    return out;
+}
+
+std::string live_link_table(const ShapeAnimation& animation) {
+    if (animation.shapes != track::arkit_names())
+        throw Error(animation.name, "the 52 shapes of ARKit for a table of Live Link Face",
+                    std::to_string(animation.shapes.size()) + " others");
+    std::string out = "Timecode,BlendshapeCount";
+    for (std::string name : animation.shapes) {
+        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+        out += "," + name;
+    }
+    for (const char* turn : kTurns) out += std::string(",") + turn;
+    out += "\n";
+    const auto add = [&](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, ",%.6f", value == 0 ? 0.0 : value);
+        out += text;
+    };
+    for (long f = 0; f < animation.weights.rows(); ++f) {
+        out += timecode(f, animation.fps) + "," +
+               std::to_string(animation.shapes.size() + std::size(kTurns));
+        for (long s = 0; s < animation.weights.cols(); ++s) add(animation.weights(f, s));
+        const track::Drive& drive = animation.drives[static_cast<std::size_t>(f)];
+        using track::Kinematic;
+        for (const Kinematic k : {Kinematic::kHeadYaw, Kinematic::kHeadPitch, Kinematic::kHeadRoll})
+            add(kRadian * drive.at(k));
+        add(kRadian * drive.at(Kinematic::kGazeYawLeft));
+        add(kRadian * drive.at(Kinematic::kGazePitchLeft));
+        add(0);
+        add(kRadian * drive.at(Kinematic::kGazeYawRight));
+        add(kRadian * drive.at(Kinematic::kGazePitchRight));
+        add(0);
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace risorius::app

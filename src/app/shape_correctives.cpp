@@ -1,0 +1,257 @@
+#include "app/shape_correctives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/expression_score.h"
+#include "app/stopwatch.h"
+
+namespace risorius::app {
+
+namespace {
+
+constexpr double kSharedStrip_mm = 15;  // of the middle of the face, as of halves
+constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves by more is shared
+
+/// What is tried together: a shape, or both its halves.
+struct Unit {
+    std::string name;
+    std::vector<int> parts;  ///< shapes; left and right when there are two
+    track::Drive drive;
+    Points field;  ///< V x 3, m
+};
+
+track::Drive sum_of(const track::Drive& one, const track::Drive& other, double weight,
+                    const track::ChannelTable& channels) {
+    track::Drive out = one;
+    out.excitation =
+        (one.excitation + weight * other.excitation).cwiseMin(1.0).cwiseMax(channels.column_min());
+    for (std::size_t k = 0; k < out.kinematic.size(); ++k) {
+        const track::KinematicChannel& channel = track::kinematic_channels()[k];
+        out.kinematic[k] =
+            std::clamp(one.kinematic[k] + weight * other.kinematic[k], channel.min, channel.max);
+    }
+    return out;
+}
+
+track::Drive no_drive(const track::ChannelTable& channels) {
+    track::Drive drive;
+    drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    return drive;
+}
+
+std::vector<Unit> units_of(const MadeShapes& shapes, const track::ChannelTable& channels,
+                           long vertices) {
+    std::vector<Unit> out;
+    for (std::size_t i = 0; i < shapes.list.size(); ++i) {
+        const ShapeGoal& goal = shapes.list[i].goal;
+        // Its like is solved with what it lies on already; a right half comes with the left one
+        if (goal.on_top_of >= 0 || (goal.sides == Sides::kHalves && !goal.left)) continue;
+        Unit unit{
+            goal.whole, {static_cast<int>(i)}, goal.drive, shapes.list[i].shape.dense(vertices)};
+        if (goal.sides == Sides::kHalves) {
+            const auto other = static_cast<std::size_t>(goal.partner);
+            unit.parts.push_back(goal.partner);
+            unit.drive = sum_of(goal.drive, shapes.list[other].goal.drive, 1, channels);
+            shapes.list[other].shape.add_to(unit.field, 1);
+        }
+        if (!unit.field.isZero(0.0)) out.push_back(std::move(unit));
+    }
+    return out;
+}
+
+struct Candidate {
+    std::size_t a, b;  ///< units; the same one: half of it
+    double shared = 0;
+};
+
+std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeShapes& shapes,
+                                     const Eigen::VectorXd& area, int pairs) {
+    std::vector<Eigen::VectorXd> moved;
+    for (const Unit& unit : units) moved.push_back(unit.field.rowwise().norm());
+    std::vector<Candidate> out;
+    for (std::size_t a = 0; a < units.size(); ++a)
+        for (std::size_t b = a + 1; b < units.size(); ++b) {
+            const ShapeGoal& goal = shapes.list[static_cast<std::size_t>(units[a].parts[0])].goal;
+            if (goal.sides == Sides::kOpposed && goal.partner == units[b].parts[0]) continue;
+            double shared = 0;
+            for (long v = 0; v < area.size(); ++v)
+                if (moved[a][v] > kShares_m && moved[b][v] > kShares_m)
+                    shared += area[v] * std::min(moved[a][v], moved[b][v]);
+            if (shared > 0) out.push_back({a, b, shared});
+        }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const Candidate& x, const Candidate& y) { return x.shared > y.shared; });
+    if (static_cast<int>(out.size()) > pairs) out.resize(static_cast<std::size_t>(pairs));
+    for (std::size_t a = 0; a < units.size(); ++a) out.push_back({a, a, 0});
+    return out;
+}
+
+/// A corrective with what it is good for.
+struct Found {
+    shapes::Corrective corrective;
+    double use = 0;  ///< squares it removes, m^4
+    long bytes = 0;
+    std::size_t tried;
+};
+
+// Positions, normals and an index each.
+long bytes_of(const shapes::SparseShape& shape) {
+    return static_cast<long>(shape.vertex.size()) * 28;
+}
+
+}  // namespace
+
+Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
+                             const ShapeSolver& solver, const CorrectiveOptions& options,
+                             const Watch& watch) {
+    const rig::Head& head = solver.face().head();
+    const track::ChannelTable channels = files.rig.channels();
+    const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
+    const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
+    const std::vector<Candidate> candidates = candidates_of(units, shapes, area, options.pairs);
+
+    std::vector<track::Drive> drives;
+    const track::Drive rest = no_drive(channels);
+    for (const Candidate& one : candidates)
+        drives.push_back(one.a == one.b
+                             ? sum_of(rest, units[one.a].drive, 0.5, channels)
+                             : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+
+    Correctives out;
+    for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
+    std::vector<Found> found;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
+        const bool half = candidates[c].a == candidates[c].b;
+        const Points sum = half ? Points(0.5 * a.field) : Points(a.field + b.field);
+        TriedCorrective& tried = out.tried.emplace_back();
+        tried.name = half ? a.name + "~half" : a.name + "*" + b.name;
+        Points missing = poses[c].moved - sum;
+        const shapes::FieldError error = shapes::error_between(poses[c].moved, sum, area);
+        tried.greatest_m = error.greatest_m;
+        tried.rms_m = error.rms_m;
+        if (!poses[c].figures.converged || error.greatest_m < options.tolerance_m) continue;
+        shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
+        const auto add = [&](const Points& field, std::vector<int> drivers) {
+            Found one;
+            one.corrective.shape = shapes::sparse(field);
+            if (one.corrective.shape.empty()) return;
+            std::sort(drivers.begin(), drivers.end());
+            for (const int driver : drivers)
+                one.corrective.name += (one.corrective.name.empty() ? "" : "*") +
+                                       shapes.list[static_cast<std::size_t>(driver)].goal.name;
+            if (half) one.corrective.name += "~half";
+            one.corrective.drivers = std::move(drivers);
+            one.use = (area.asDiagonal() * field).cwiseProduct(field).sum();
+            one.bytes = bytes_of(one.corrective.shape);
+            one.tried = c;
+            found.push_back(std::move(one));
+        };
+        if (a.parts.size() == 1 && b.parts.size() == 1) {
+            add(missing,
+                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]});
+            continue;
+        }
+        const auto [left, right] =
+            shapes::left_and_right(head.vertices, missing, head.mm(kSharedStrip_mm));
+        const auto driver = [](const Unit& unit, std::size_t side) {
+            return unit.parts.size() == 1 ? unit.parts[0] : unit.parts[side];
+        };
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+            const Points& field = side == 0 ? left : right;
+            add(field, half ? std::vector<int>{driver(a, side)}
+                            : std::vector<int>{driver(a, side), driver(b, side)});
+        }
+    }
+    // The most useful ones by size until the budget is spent
+    std::stable_sort(found.begin(), found.end(), [](const Found& x, const Found& y) {
+        return x.use * static_cast<double>(y.bytes) > y.use * static_cast<double>(x.bytes);
+    });
+    for (Found& one : found) {
+        if (out.bytes + one.bytes > options.budget_bytes) continue;
+        out.bytes += one.bytes;
+        out.tried[one.tried].kept = true;
+        out.rig.correctives.push_back(std::move(one.corrective));
+    }
+    return out;
+}
+
+std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    constexpr int kAtATime = 4;
+    std::vector<Eigen::VectorXd> out;
+    for (int f = 0; f < frames; ++f) {
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes.list.size()));
+        for (int n = 0; n < kAtATime; ++n) {
+            const auto i =
+                static_cast<std::size_t>(uniform() * static_cast<double>(shapes.list.size()));
+            const ShapeGoal& goal = shapes.list[i].goal;
+            const double weight = shapes.list[i].solved_at * uniform();
+            const bool both = uniform() < 0.7;  // faces are more often alike on both sides than not
+            if (goal.sides == Sides::kOpposed && weights[goal.partner] != 0) continue;
+            weights[static_cast<long>(i)] = weight;
+            if (goal.sides == Sides::kHalves && both) weights[goal.partner] = weight;
+            // What shuts lips over an open jaw goes as far as the jaw
+            if (goal.on_top_of >= 0)
+                weights[goal.on_top_of] = std::max(weights[goal.on_top_of], weight);
+        }
+        out.push_back(std::move(weights));
+    }
+    return out;
+}
+
+track::Drive drive_of_weights(const MadeShapes& shapes, const Eigen::VectorXd& weights,
+                              const track::ChannelTable& channels) {
+    track::Drive out = no_drive(channels);
+    for (std::size_t s = 0; s < shapes.list.size(); ++s)
+        if (const double w = weights[static_cast<long>(s)]; w != 0) {
+            const int base = shapes.list[s].goal.on_top_of;
+            out.excitation += w * shapes.list[s].goal.drive.excitation;
+            // It was solved over the jaw of what it lies on, without the muscles of that
+            if (base >= 0)
+                out.excitation -=
+                    w * shapes.list[static_cast<std::size_t>(base)].goal.drive.excitation;
+            for (std::size_t k = 0; k < out.kinematic.size(); ++k)
+                out.kinematic[k] += w * shapes.list[s].goal.drive.kinematic[k];
+        }
+    return sum_of(no_drive(channels), out, 1, channels);
+}
+
+TrackError track_error(const std::string& name, const shapes::LinearRig& rig,
+                       const ShapeSolver& solver, const std::vector<track::Drive>& drives,
+                       const std::vector<Eigen::VectorXd>& weights, const Watch& watch) {
+    const rig::Head& head = solver.face().head();
+    const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+    shapes::LinearRig plain{rig.shapes, {}};
+    TrackError out;
+    out.name = name;
+    out.frames = static_cast<int>(drives.size());
+    const CoreStopwatch playing;
+    for (const Eigen::VectorXd& frame : weights) {
+        Points vertices = head.vertices;
+        rig.add_to(vertices, frame);
+    }
+    out.play_s = playing.seconds() / static_cast<double>(std::max<std::size_t>(1, weights.size()));
+    const auto add = [&](const shapes::LinearRig& linear, std::size_t f, double& squares,
+                         double& greatest) {
+        Points moved = Points::Zero(head.vertices.rows(), 3);
+        linear.add_to(moved, weights[f]);
+        const shapes::FieldError error = shapes::error_between(moved, poses[f].moved, area);
+        squares += error.rms_m * error.rms_m / static_cast<double>(drives.size());
+        greatest = std::max(greatest, error.greatest_m);
+    };
+    for (std::size_t f = 0; f < drives.size(); ++f) {
+        add(rig, f, out.rms_m, out.greatest_m);
+        add(plain, f, out.plain_rms_m, out.plain_greatest_m);
+    }
+    out.rms_m = std::sqrt(out.rms_m);
+    out.plain_rms_m = std::sqrt(out.plain_rms_m);
+    return out;
+}
+
+}  // namespace risorius::app

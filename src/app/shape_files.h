@@ -1,0 +1,41 @@
+// Blend shapes as files: glTF, OBJ, and the plain table that `evaluate` reads too.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/make_shapes.h"
+#include "app/rig_files.h"
+#include "app/shape_animation.h"
+#include "io/morph_model.h"
+#include "rig/head.h"
+#include "shapes/linear_rig.h"
+
+namespace risorius::app {
+
+/// Parts by role, in the colours of the rig's look; shapes as morph targets. Its extras name the rig and the set.
+/// Correctives come behind the shapes; their drivers stand under "correctives" of the extras. `animation` may be null.
+io::MorphModel morph_model(const RigFiles& files, const rig::Head& head, const MadeShapes& shapes,
+                           const std::string& set, const shapes::LinearRig& linear,
+                           const ShapeAnimation* animation);
+
+/// folder/cache.json and cache.f32: every vertex in every frame of the animation, mesh units, by the linear rig.
+std::vector<std::string> write_vertex_cache(const RigFiles& files, const rig::Head& head,
+                                            const shapes::LinearRig& linear,
+                                            const ShapeAnimation& animation,
+                                            const std::filesystem::path& folder);
+
+/// folder/shapes.json and shapes.f32, "Measured shapes" in README.md, with the activations that made each shape: mesh units,
+/// vertices in the mesh file's order. Returns the names of the files.
+std::vector<std::string> write_shape_table(const RigFiles& files, const rig::Head& head,
+                                           const MadeShapes& shapes,
+                                           const std::filesystem::path& folder);
+
+/// folder/obj/NAME.obj: the mesh as imported with the shape at weight 1; vertices that do not move have the very numbers
+/// of the import. Returns the names of the files.
+std::vector<std::string> write_shape_objs(const RigFiles& files, const rig::Head& head,
+                                          const MadeShapes& shapes,
+                                          const std::filesystem::path& folder);
+
+}  // namespace risorius::app

@@ -1,0 +1,79 @@
+#include "app/shape_weights.h"
+
+#include <numeric>
+
+#include "app/expression_score.h"
+
+namespace risorius::app {
+
+namespace {
+
+constexpr double kWeightPrice = 1e-3;  // of the largest shape's own square
+constexpr double kWeightRidge = 1e-6;
+constexpr double kOtherThanSkin =
+    0.2;  // weight of a vertex of eyes, teeth and tongue against the skin's mean
+
+}  // namespace
+
+ShapeWeights::ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
+                           const std::vector<ShapeGoal>& goals) {
+    track::Drive rest;
+    rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    face.start([&](double) { return rest; });
+    face.settle(rest.excitation, rest);
+    std::vector<int> columns(static_cast<std::size_t>(channels.column_count()));
+    std::iota(columns.begin(), columns.end(), 0);
+    std::vector<track::Kinematic> moving;
+    for (int k = 0; k < track::kKinematicCount; ++k) {
+        const auto channel = static_cast<track::Kinematic>(k);
+        if (channel >= track::Kinematic::kHeadYaw && channel <= track::Kinematic::kHeadSide)
+            continue;
+        kinematic_.push_back(static_cast<std::size_t>(k));
+        moving.push_back(channel);
+    }
+    const std::vector<Points> ways = face.sensitivities(columns, moving);
+    Eigen::VectorXd weight = vertex_areas(face.simulated_skin(), face.head().vertices);
+    const double mean = weight.sum() / static_cast<double>((weight.array() > 0).count());
+    for (long v = 0; v < weight.size(); ++v) {
+        const rig::Carrier carrier = face.head().carrier[static_cast<std::size_t>(v)];
+        if (carrier != rig::Carrier::kSkin && carrier != rig::Carrier::kNone)
+            weight[v] += kOtherThanSkin * mean;
+    }
+    const long count = static_cast<long>(ways.size());
+    Eigen::MatrixXd G(count, count);
+    const Eigen::VectorXd root = weight.cwiseSqrt();
+    Eigen::MatrixXd E(3 * weight.size(), count);
+    for (long c = 0; c < count; ++c) {
+        const Points weighted = root.asDiagonal() * ways[static_cast<std::size_t>(c)];
+        E.col(c) = Eigen::Map<const Eigen::VectorXd>(weighted.data(), weighted.size());
+    }
+    G.noalias() = E.transpose() * E;
+    Eigen::MatrixXd S(count, static_cast<long>(goals.size()));
+    for (std::size_t s = 0; s < goals.size(); ++s)
+        S.col(static_cast<long>(s)) = vector_of(goals[s].drive);
+    by_drive_ = S.transpose() * G;
+    problem_.A = by_drive_ * S;
+    const double scale = problem_.A.diagonal().maxCoeff();
+    problem_.A.diagonal().array() += kWeightRidge * scale;
+    problem_.price = kWeightPrice * problem_.A.diagonal();
+    problem_.least = Eigen::VectorXd::Zero(S.cols());
+    problem_.most = Eigen::VectorXd::Ones(S.cols());
+}
+
+Eigen::VectorXd ShapeWeights::vector_of(const track::Drive& drive) const {
+    Eigen::VectorXd out(drive.excitation.size() + static_cast<long>(kinematic_.size()));
+    out.head(drive.excitation.size()) = drive.excitation;
+    for (std::size_t k = 0; k < kinematic_.size(); ++k)
+        out[drive.excitation.size() + static_cast<long>(k)] = drive.kinematic[kinematic_[k]];
+    return out;
+}
+
+Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
+    solve::BoxQuadratic problem = problem_;
+    problem.b = -by_drive_ * vector_of(drive);
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.least.size());
+    solve::minimise(problem, out, 1e-7);
+    return out;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,32 @@
+// Which weights of a set of shapes come nearest to a drive: what turns a script for muscles into one for blend shapes.
+//
+//   S   drive of every shape, one column each        E   displacement of the face per drive, linear at rest
+//   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1
+#pragma once
+
+#include <vector>
+
+#include "app/shape_goals.h"
+#include "sim/face.h"
+#include "solve/box_quadratic.h"
+
+namespace risorius::app {
+
+class ShapeWeights {
+  public:
+    /// Leaves `face` at rest. The goals' drives must be of its rig.
+    ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
+                 const std::vector<ShapeGoal>& goals);
+
+    /// One per goal. The head's own motion is no part of it.
+    Eigen::VectorXd of(const track::Drive& drive) const;
+
+  private:
+    Eigen::VectorXd vector_of(const track::Drive& drive) const;
+
+    std::vector<std::size_t> kinematic_;  ///< channels that count
+    Eigen::MatrixXd by_drive_;            ///< S' G, G = E' E
+    solve::BoxQuadratic problem_;
+};
+
+}  // namespace risorius::app

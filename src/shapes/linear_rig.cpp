@@ -1,0 +1,60 @@
+#include "shapes/linear_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace risorius::shapes {
+
+double Corrective::weight(const Eigen::VectorXd& shape_weights) const {
+    const auto driver = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
+    if (drivers.size() == 1) {
+        const double w = driver(drivers[0]);
+        return 4 * w * (1 - w);
+    }
+    double product = 1;
+    for (const int i : drivers) product *= driver(i);
+    return product;
+}
+
+void LinearRig::add_to(Points& vertices, const Eigen::VectorXd& weights) const {
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+        if (const double w = weights[static_cast<long>(s)]; w != 0) shapes[s].add_to(vertices, w);
+    for (const Corrective& corrective : correctives)
+        if (const double w = corrective.weight(weights); w != 0)
+            corrective.shape.add_to(vertices, w);
+}
+
+Eigen::VectorXd LinearRig::all_weights(const Eigen::VectorXd& weights) const {
+    Eigen::VectorXd out(weights.size() + static_cast<long>(correctives.size()));
+    out.head(weights.size()) = weights;
+    for (std::size_t c = 0; c < correctives.size(); ++c)
+        out[weights.size() + static_cast<long>(c)] = correctives[c].weight(weights);
+    return out;
+}
+
+FieldError error_between(const Points& one, const Points& other, const Eigen::VectorXd& area) {
+    FieldError out;
+    double sum = 0, whole = 0;
+    for (long v = 0; v < one.rows(); ++v) {
+        if (!(area[v] > 0)) continue;
+        const double distance = (one.row(v) - other.row(v)).norm();
+        sum += area[v] * distance * distance;
+        whole += area[v];
+        out.greatest_m = std::max(out.greatest_m, distance);
+    }
+    if (whole > 0) out.rms_m = std::sqrt(sum / whole);
+    return out;
+}
+
+std::pair<Points, Points> left_and_right(const Points& rest, const Points& field,
+                                         double half_width_m) {
+    Points left = field, right = field;
+    for (long v = 0; v < rest.rows(); ++v) {
+        left.row(v) *= left_share(rest(v, 0), half_width_m);
+        right.row(v) -= left.row(v);
+    }
+    return {left, right};
+}
+
+}  // namespace risorius::shapes

@@ -1,0 +1,46 @@
+// A linear rig: blend shapes added up by weight, and correctives for what the sum gets wrong.
+//
+//   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
+//   k_c = w_a w_b ...      several drivers: 1 where all are whole, 0 where any is not there
+//   k_c = 4 w (1 - w)      one driver: an in-between, 1 half way, for what goes round a corner on its way
+//
+// Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "shapes/sparse_shape.h"
+
+namespace risorius::shapes {
+
+struct Corrective {
+    std::string name;          ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~half"
+    std::vector<int> drivers;  ///< shapes
+    SparseShape shape;
+
+    double weight(const Eigen::VectorXd& shape_weights) const;
+};
+
+struct LinearRig {
+    std::vector<SparseShape> shapes;
+    std::vector<Corrective> correctives;
+
+    /// Adds what the weights, one per shape, do to `vertices`.
+    void add_to(Points& vertices, const Eigen::VectorXd& weights) const;
+    /// Those of the shapes, then those of the correctives that follow from them.
+    Eigen::VectorXd all_weights(const Eigen::VectorXd& weights) const;
+};
+
+/// Distances between two lists of vertices, m: RMS weighted by `area`, and the largest where it is positive.
+struct FieldError {
+    double rms_m = 0, greatest_m = 0;
+};
+FieldError error_between(const Points& one, const Points& other, const Eigen::VectorXd& area);
+
+/// Splits a field into what lies left and what lies right, smoothly; they add up to it.
+std::pair<Points, Points> left_and_right(const Points& rest, const Points& field,
+                                         double half_width_m);
+
+}  // namespace risorius::shapes

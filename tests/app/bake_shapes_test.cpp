@@ -1,0 +1,195 @@
+// Blend shapes of the adult: halves make wholes, what does not move stays put to the bit, and files hold what was made.
+#include "app/bake_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/evaluate.h"
+#include "core/error.h"
+#include "io/morph_model.h"
+#include "io/read_mesh.h"
+#include "paths.h"
+#include "temporary_folder.h"
+#include "track/arkit_names.h"
+
+namespace risorius::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kAdult = fs::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json";
+
+ShapeSet set_of(const std::string& name, const std::vector<std::string>& only = {}) {
+    return shape_set(rig::read_rig(kAdult), name, only, "rig.json");
+}
+
+const ShapeGoal& goal(const ShapeSet& set, const std::string& name) {
+    return set.goals[static_cast<std::size_t>(set.index(name).value())];
+}
+
+TEST(ShapeGoals, EveryNameOfArkitIsThereInItsOrder) {
+    const ShapeSet set = set_of("arkit52");
+    ASSERT_EQ(set.goals.size(), 52u);
+    for (std::size_t i = 0; i < 52; ++i) EXPECT_EQ(set.goals[i].name, track::arkit_names()[i]);
+    EXPECT_EQ(goal(set, "mouthSmileLeft").sides, Sides::kHalves);
+    EXPECT_EQ(goal(set, "mouthSmileLeft").partner, *set.index("mouthSmileRight"));
+    EXPECT_TRUE(goal(set, "mouthSmileLeft").left);
+    EXPECT_EQ(goal(set, "mouthSmileLeft").whole, "mouthSmile");
+    // A jaw cannot be left and right at once
+    EXPECT_EQ(goal(set, "jawLeft").sides, Sides::kOpposed);
+    EXPECT_EQ(goal(set, "mouthLeft").sides, Sides::kOpposed);
+    EXPECT_EQ(goal(set, "jawOpen").sides, Sides::kNone);
+    EXPECT_EQ(goal(set, "mouthClose").on_top_of, *set.index("jawOpen"));
+}
+
+TEST(ShapeGoals, OtherSetsHaveWhatMovesTheFace) {
+    const ShapeSet facs = set_of("facs");
+    EXPECT_EQ(goal(facs, "AU12.l").sides, Sides::kHalves);
+    EXPECT_EQ(goal(facs, "AU30.l").sides, Sides::kOpposed);
+    EXPECT_TRUE(facs.index("AU26"));
+    EXPECT_FALSE(facs.index("AU51.l") || facs.index("AU51"));  // turns the head
+    EXPECT_GT(facs.left_out.size(), 5u);
+    const ShapeSet muscles = set_of("muscles");
+    EXPECT_EQ(goal(muscles, "zygomaticus_major.r").partner, *muscles.index("zygomaticus_major.l"));
+    EXPECT_TRUE(muscles.index("levator_palpebrae_superioris_relaxed.l"));
+    EXPECT_FALSE(muscles.index("digastric_anterior.l"));
+    EXPECT_EQ(set_of("visemes").goals.size(), 15u);
+    // A half comes with the other one, a corrective with what it corrects
+    EXPECT_EQ(set_of("arkit52", {"mouthSmileLeft"}).goals.size(), 2u);
+    EXPECT_EQ(set_of("arkit52", {"mouthClose"}).goals.size(), 2u);
+    EXPECT_THROW(set_of("arkit"), Error);
+    try {
+        set_of("arkit52", {"mouthSmlie"});
+        ADD_FAILURE() << "took an unknown name";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean \"mouthSmile\"?"), std::string::npos)
+            << error.what();
+    }
+}
+
+class BakedShapes : public testing::Test {
+  protected:
+    static ShapesOptions options(const std::vector<std::string>& only, int threads) {
+        return {.rig = kAdult,
+                .out = folder().path() / "shapes",
+                .only = only,
+                .pictures = false,
+                .correctives = threads > 1,
+                .corrective = {.pairs = 1},
+                .test_frames = threads > 1 ? 2 : 0,
+                .threads = threads};
+    }
+    static const TemporaryFolder& folder() {
+        static const TemporaryFolder one;
+        return one;
+    }
+    static const ShapesReport& report() {
+        static const ShapesReport one = bake_shapes(options({"mouthSmile", "eyeBlink"}, 2));
+        return one;
+    }
+    static const MadeShape& shape(const std::string& name) {
+        for (const MadeShape& made : report().shapes.list)
+            if (made.goal.name == name) return made;
+        throw std::out_of_range(name);
+    }
+};
+
+TEST_F(BakedShapes, KeepTheirCertificate) {
+    ASSERT_EQ(report().shapes.list.size(), 4u);
+    EXPECT_TRUE(report().shapes.mirrored);
+    for (const MadeShape& made : report().shapes.list) {
+        std::string said;
+        for (const std::string& one : made.certificate.complaints()) said += one + "; ";
+        EXPECT_EQ(said, "") << made.goal.name;
+        EXPECT_GT(made.certificate.peak_m, 2e-3) << made.goal.name;
+        EXPECT_GT(made.certificate.stretch.greatest, 1.0) << made.goal.name;
+    }
+    EXPECT_TRUE(shape("eyeBlinkLeft").certificate.lid_gap_m);
+    EXPECT_FALSE(shape("mouthSmileLeft").certificate.lid_gap_m);
+    EXPECT_LT(report().shapes.halves_error_m, 0.2e-3);
+}
+
+TEST_F(BakedShapes, MoveTheirOwnSideAndNothingFarAway) {
+    const geom::PolygonMesh& mesh = io::read_mesh(rig::read_rig(kAdult).mesh_file);
+    const shapes::SparseShape& smile = shape("mouthSmileLeft").shape;
+    EXPECT_LT(smile.vertex.size(), static_cast<std::size_t>(mesh.vertex_count()) / 2);
+    const Points field = smile.dense(mesh.vertex_count());
+    double left = 0, right = 0;
+    for (long v = 0; v < field.rows(); ++v) {
+        (mesh.positions(v, 0) > 0 ? left : right) += field.row(v).squaredNorm();
+        if (mesh.positions(v, 0) < -35) {
+            EXPECT_LT(field.row(v).norm(), 1e-3) << v;
+        }
+    }
+    EXPECT_GT(left, 10 * right);
+    // The OBJ has the import's own numbers where nothing moves, and its faces
+    const geom::PolygonMesh moved =
+        io::read_mesh(folder().path() / "shapes/obj/mouthSmileLeft.obj");
+    ASSERT_EQ(moved.vertex_count(), mesh.vertex_count());
+    EXPECT_EQ(moved.corner_vertex, mesh.corner_vertex);
+    for (long v = 0; v < field.rows(); ++v) {
+        if (field.row(v).isZero(0.0)) {
+            EXPECT_EQ(moved.positions.row(v), mesh.positions.row(v)) << v;
+        } else {
+            EXPECT_LT(
+                (moved.positions.row(v) - mesh.positions.row(v)).norm() - 1e3 * field.row(v).norm(),
+                1e-6);
+        }
+    }
+}
+
+TEST_F(BakedShapes, AreTheSameForAnyNumberOfThreads) {
+    const TemporaryFolder other;
+    ShapesOptions alone = options({"mouthSmile"}, 1);
+    alone.out = other.path() / "alone";
+    alone.formats = {"glb"};
+    const ShapesReport again = bake_shapes(alone);
+    ASSERT_EQ(again.shapes.list.size(), 2u);
+    for (const MadeShape& made : again.shapes.list) {
+        EXPECT_EQ(made.shape.vertex, shape(made.goal.name).shape.vertex);
+        EXPECT_EQ(made.shape.delta, shape(made.goal.name).shape.delta);
+    }
+    EXPECT_TRUE(fs::exists(alone.out / "shapes.glb"));
+    EXPECT_FALSE(fs::exists(alone.out / "obj"));
+    EXPECT_FALSE(fs::exists(alone.out / "shapes.f32"));
+}
+
+TEST_F(BakedShapes, AreWhatTheFilesHold) {
+    const io::MorphModel model = io::read_glb(folder().path() / "shapes/shapes.glb");
+    ASSERT_EQ(model.targets.size(),
+              report().shapes.list.size() + report().correctives.rig.correctives.size());
+    for (std::size_t i = 0; i < report().shapes.list.size(); ++i) {
+        const MadeShape& made = report().shapes.list[i];
+        EXPECT_EQ(model.targets[i].name, made.goal.name);
+        ASSERT_EQ(model.targets[i].vertex, made.shape.vertex);
+        EXPECT_LT((model.targets[i].delta - made.shape.delta).cwiseAbs().maxCoeff(), 1e-8);
+    }
+    // The table is one that `evaluate` reads, and by it the rig makes these very shapes
+    const Evaluation evaluation = evaluate(
+        {.rig = kAdult, .shapes = folder().path() / "shapes/shapes.json", .only = {"mouthSmile"}});
+    ASSERT_EQ(evaluation.expressions.size(), 1u);
+    EXPECT_GT(evaluation.expressions[0].table.score.cosine, 0.999);
+    EXPECT_LT(evaluation.expressions[0].table.score.rms_m, 0.05e-3);
+    const JsonCursor json = JsonCursor::read_file(folder().path() / "shapes/results.json");
+    EXPECT_EQ(json.at("beyond_limits").integer(0, 100), report().complaints());
+    EXPECT_TRUE(fs::exists(folder().path() / "shapes/index.html"));
+}
+
+TEST(BakedShapesOfNothing, LeaveNothingBehind) {
+    const TemporaryFolder folder;
+    EXPECT_THROW(bake_shapes({.rig = folder.path() / "none.json", .out = folder.path() / "out"}),
+                 Error);
+    EXPECT_THROW(bake_shapes({.rig = kAdult, .out = folder.path() / "out", .set = "arkit"}), Error);
+    EXPECT_THROW(bake_shapes({.rig = kAdult, .out = folder.path() / "out", .formats = {"fbx"}}),
+                 Error);
+    EXPECT_THROW(bake_shapes({.rig = kAdult, .out = folder.path() / "out"},
+                             {.stopped = [] { return true; }}),
+                 Interrupted);
+    EXPECT_TRUE(folder.listing().empty());
+}
+
+}  // namespace
+}  // namespace risorius::app

@@ -1,0 +1,148 @@
+// Blend shapes survive a glTF file: names, numbers, vertices in their order, weights over time.
+#include "io/morph_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "temporary_folder.h"
+
+namespace risorius::io {
+namespace {
+
+/// Two quads side by side, of two materials that share an edge; the second is mapped with a seam.
+MorphModel two_quads() {
+    MorphModel model;
+    model.name = "quads";
+    model.vertices.resize(7, 3);
+    model.vertices << 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 9, 9,
+        9;  // the last is unused
+    MorphPart skin;
+    skin.name = "skin";
+    skin.triangles.resize(2, 3);
+    skin.triangles << 0, 1, 4, 0, 4, 3;
+    skin.colour = Vec3(0.8, 0.6, 0.5);
+    MorphPart eye;
+    eye.name = "eye";
+    eye.triangles.resize(2, 3);
+    eye.triangles << 1, 2, 5, 1, 5, 4;
+    eye.texcoords.resize(6, 2);
+    eye.texcoords << 0, 0, 1, 0, 1, 1, 0.25, 0, 1, 1, 0, 1;  // vertex 1 twice
+    eye.tint = Points::Ones(7, 3);
+    model.parts = {skin, eye};
+    Points lift(2, 3);
+    lift << 0, 0, 0.25, 0, 0, 0.5;
+    Points push(1, 3);
+    push << 0.125, 0, 0;
+    model.targets = {{"lift", {4, 5}, lift}, {"nothing", {}, Points(0, 3)}, {"push", {1}, push}};
+    MorphAnimation animation;
+    animation.name = "hello";
+    animation.fps = 50;
+    animation.weights.resize(2, 3);
+    animation.weights << 0, 0.5, 1, 1, 0.25, 0;
+    model.animations = {animation};
+    model.extras = {{"risorius", {{"set", "arkit52"}, {"weights", {0.5, 1}}}}};
+    return model;
+}
+
+/// The two chunks of a .glb.
+std::pair<Json, std::string> chunks(const std::string& bytes) {
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, 4);
+        return value;
+    };
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(number(4), 2u);
+    EXPECT_EQ(number(8), bytes.size());
+    const std::uint32_t length = number(12);
+    return {Json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
+}
+
+TEST(MorphModel, ReadsBackWhatWasWritten) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    const MorphModel model = two_quads();
+    const std::string bytes = glb_bytes(model);
+    EXPECT_EQ(bytes, glb_bytes(model));
+    std::ofstream(file, std::ios::binary) << bytes;
+    const MorphModel back = read_glb(file);
+    ASSERT_EQ(back.vertices.rows(), 6);  // the unused one is not there
+    EXPECT_EQ(back.vertices, model.vertices.topRows(6));
+    ASSERT_EQ(back.targets.size(), 3u);
+    for (std::size_t t = 0; t < 3; ++t) {
+        EXPECT_EQ(back.targets[t].name, model.targets[t].name);
+        EXPECT_EQ(back.targets[t].vertex, model.targets[t].vertex);
+        EXPECT_EQ(back.targets[t].delta, model.targets[t].delta);
+    }
+    EXPECT_EQ(back.extras, model.extras);
+    ASSERT_EQ(back.parts.size(), 2u);
+    EXPECT_EQ(back.parts[0].name, "skin");
+    EXPECT_EQ(back.parts[0].triangles, model.parts[0].triangles);
+    EXPECT_EQ(back.parts[1].triangles, model.parts[1].triangles);
+    ASSERT_EQ(back.animations.size(), 1u);
+    EXPECT_NEAR(back.animations[0].fps, 50, 1e-5);
+    EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
+}
+
+TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
+    const auto [json, binary] = chunks(glb_bytes(two_quads()));
+    EXPECT_EQ(json["asset"]["version"], "2.0");
+    const Json& mesh = json["meshes"][0];
+    EXPECT_EQ(mesh["extras"]["targetNames"], Json({"lift", "nothing", "push"}));
+    EXPECT_EQ(mesh["weights"].size(), 3u);
+    EXPECT_EQ(json["buffers"][0]["byteLength"], binary.size());
+    for (const Json& view : json["bufferViews"])
+        EXPECT_LE(view.value("byteOffset", 0u) + view["byteLength"].get<std::size_t>(),
+                  binary.size());
+    const auto count = [&](const Json& index) {
+        return json["accessors"][index.get<std::size_t>()]["count"].get<int>();
+    };
+    const std::array<int, 2> vertices{4, 5};  // the seam's vertex is there twice
+    for (std::size_t p = 0; p < 2; ++p) {
+        const Json& primitive = mesh["primitives"][p];
+        for (const auto& [name, index] : primitive["attributes"].items())
+            EXPECT_EQ(count(index), vertices[p]) << name;
+        EXPECT_EQ(primitive["targets"].size(), 3u);
+        for (const Json& target : primitive["targets"])
+            for (const auto& [name, index] : target.items()) {
+                EXPECT_EQ(count(index), vertices[p]) << name;
+                const Json& accessor = json["accessors"][index.get<std::size_t>()];
+                EXPECT_EQ(accessor["min"].size(), 3u);
+                EXPECT_FALSE(accessor.contains("bufferView"));  // zero but where it says
+            }
+    }
+    // Only "lift" moves the first quad's corner 4, and nothing else of it
+    const Json& moved =
+        json["accessors"][mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(moved["sparse"]["count"], 1);
+    EXPECT_EQ(moved["max"][2], 0.25);
+    // Linear light: less than half of an sRGB of 0.8
+    EXPECT_NEAR(json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(),
+                0.6038, 1e-3);
+}
+
+TEST(MorphModel, OtherFilesAreRefusedWithWhatIsWrong) {
+    const TemporaryFolder folder;
+    const auto message = [&](const std::string& bytes) {
+        const std::filesystem::path file = folder.path() / "other.glb";
+        std::ofstream(file, std::ios::binary) << bytes;
+        try {
+            read_glb(file);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing was thrown");
+    };
+    EXPECT_NE(message("solid head").find("expected a binary glTF file"), std::string::npos);
+    const std::string whole = glb_bytes(two_quads());
+    EXPECT_NE(message(whole.substr(0, whole.size() - 40)).find("other.glb: expected"),
+              std::string::npos);
+    EXPECT_THROW(read_glb(folder.path() / "none.glb"), Error);
+}
+
+}  // namespace
+}  // namespace risorius::io

@@ -1,0 +1,160 @@
+// risorius shapes RIG -o DIR [--set arkit52|facs|muscles|visemes]
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/bake_shapes.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct ShapesArguments {
+    Common common;
+    app::ShapesOptions options;
+    bool no_pictures = false;
+};
+
+std::string shown_mm(const std::optional<double>& metres) {
+    char text[32];
+    if (!metres) return "-";
+    std::snprintf(text, sizeof text, "%.2f", 1e3 * *metres);
+    return text;
+}
+
+void print(const app::ShapesReport& report, const app::ShapesOptions& options) {
+    std::printf("%s, %s: %zu shapes of %d vertices, solved in %.0f s (%d nodes, %s)\n",
+                report.rig.c_str(), report.set.c_str(), report.shapes.list.size(), report.vertices,
+                report.solving_s, report.nodes, report.quality.c_str());
+    std::printf("  %-40s %7s %8s %6s %6s %6s %6s %7s\n", "", "peak", "volume", "lip", "eye", "lids",
+                "sides", "stretch");
+    for (const app::MadeShape& made : report.shapes.list) {
+        const app::ShapeCertificate& of = made.certificate;
+        std::printf("  %-40s %7s %+6.2f %% %6s %6s %6s %6s %7.2f", made.goal.name.c_str(),
+                    shown_mm(of.peak_m).c_str(), 100 * of.volume_change,
+                    shown_mm(of.lip_depth_m).c_str(), shown_mm(of.eye_depth_m).c_str(),
+                    shown_mm(of.lid_gap_m).c_str(), shown_mm(of.asymmetry_m).c_str(),
+                    of.stretch.greatest);
+        for (const std::string& one : of.complaints()) std::printf("  %s", one.c_str());
+        std::printf("\n");
+    }
+    for (const auto& [name, why] : report.left_out)
+        std::printf("  %-40s left out: %s\n", name.c_str(), why.c_str());
+    const int beyond = report.complaints();
+    std::printf("%s; halves add up to their whole within %.2f mm\n",
+                beyond == 0
+                    ? "all within the limits of the certificate"
+                    : (std::to_string(beyond) + " beyond a limit of the certificate").c_str(),
+                1e3 * report.shapes.halves_error_m);
+    for (const app::TrackError& track : report.tracks)
+        std::printf(
+            "%s, %d frames: linear rig off the simulation by %.2f mm RMS, %.2f at most; "
+            "without correctives %.2f, %.2f; %.2f ms a frame\n",
+            track.name.c_str(), track.frames, 1e3 * track.rms_m, 1e3 * track.greatest_m,
+            1e3 * track.plain_rms_m, 1e3 * track.plain_greatest_m, 1e3 * track.play_s);
+    if (!report.correctives.tried.empty())
+        std::printf("%zu correctives kept, of %zu pairs and halves simulated\n",
+                    report.correctives.rig.correctives.size(), report.correctives.tried.size());
+    for (const auto& [file, bytes] : report.sizes)
+        if (!file.starts_with("obj/"))
+            std::printf("%s: %.1f MB\n", (options.out / file).generic_string().c_str(),
+                        1e-6 * static_cast<double>(bytes));
+    std::printf("report: %s\n", (options.out / "index.html").generic_string().c_str());
+}
+
+void run(ShapesArguments& arguments) {
+    if (arguments.options.threads < 0 || arguments.options.threads > 256)
+        throw Error("--threads", "an integer in [0, 256]",
+                    std::to_string(arguments.options.threads));
+    arguments.options.pictures = !arguments.no_pictures;
+    app::ShapesReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::bake_shapes(arguments.options, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", report.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(report, arguments.options);
+}
+
+}  // namespace
+
+void add_shapes(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("shapes", "Blend shapes from physics, with a certificate");
+    auto arguments = std::make_shared<ShapesArguments>();
+    app::ShapesOptions& options = arguments->options;
+    command->add_option("RIG", options.rig, "The rig whose face is to have blend shapes")
+        ->required();
+    command
+        ->add_option("-o,--out", options.out,
+                     "Folder: shapes.glb, obj/, shapes.json with shapes.f32, the certificate as "
+                     "index.html and results.json")
+        ->required();
+    command
+        ->add_option(
+            "--set", options.set,
+            "\"arkit52\": the names of ARKit face tracking; \"facs\": every action unit, "
+            "left and right; \"muscles\": every muscle; \"visemes\": mouth shapes of speech")
+        ->capture_default_str();
+    command
+        ->add_option("--only", options.only,
+                     "Names of shapes of the set, separated by commas; all when not given")
+        ->delimiter(',');
+    command
+        ->add_option(
+            "--formats", options.formats,
+            "Of \"glb\", \"obj\", \"table\" and, with --script, \"csv\" and \"cache\", separated "
+            "by commas; all but \"cache\" when not given")
+        ->delimiter(',');
+    command
+        ->add_option("--quality", options.quality,
+                     "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")
+        ->capture_default_str();
+    command->add_option(
+        "--script", options.script,
+        "A script whose frames become weights: an animation in shapes.glb, "
+        "live_link.csv (of arkit52) and, with --formats cache, every vertex in every frame");
+    command->add_flag("!--no-correctives", options.correctives,
+                      "Shapes alone, without looking for what their sums get wrong");
+    command
+        ->add_option("--pairs", options.corrective.pairs,
+                     "Pairs of shapes simulated together at most, those that share most skin first")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
+    command->add_option_function<double>(
+        "--corrective-tolerance-mm",
+        [&options](double mm) { options.corrective.tolerance_m = 1e-3 * mm; },
+        "Sums that err by less get no corrective (0.7)");
+    command->add_option_function<double>(
+        "--corrective-megabytes",
+        [&options](double mb) { options.corrective.budget_bytes = static_cast<long>(1e6 * mb); },
+        "Room for correctives in shapes.glb, the most useful ones first (2)");
+    command
+        ->add_option(
+            "--test-frames", options.test_frames,
+            "Frames of random weights, and of the script, on which the linear rig is compared "
+            "with the simulation; 0: none")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+    command->add_flag("--no-pictures", arguments->no_pictures, "A certificate of numbers alone");
+    command->add_option(
+        "--threads", options.threads,
+        "Poses solved at a time; 0: as many as the machine has cores. The files are the "
+        "same for any number");
+    add_common(*command, arguments->common);
+    command->footer(
+        "Every shape is the face at rest under the muscles that the rig's tables give it, on the "
+        "mesh as "
+        "imported: its vertices,\nin its order. Left and right halves add up to the whole; "
+        "mouthClose lies on top of jawOpen.\n\n"
+        "Examples:\n"
+        "  risorius shapes rigs/adult/rig.json -o out/arkit\n"
+        "  risorius shapes anna/rig.json --set facs --formats glb -o anna/facs\n"
+        "  risorius shapes anna/rig.json --only mouthSmile,jawOpen -o anna/look");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
