@@ -11,10 +11,9 @@ namespace risorius::sim {
 
 namespace {
 
-// What surfaces may stay in each other after a step, how often planes are found anew to get there, and how deep a lip is no
-// longer in the other but behind it.
-constexpr double kLipSlack_m = 0.1e-3, kBoneSlack_m = 0.03e-3, kLipBehind_m = 1e-3;
-constexpr int kApartRounds = 12;
+// What surfaces may stay in each other after a step, how deep a lip is no longer in the other but behind it.
+constexpr double kLipSlack_m = 0.05e-3, kBoneSlack_m = 0.02e-3, kLipBehind_m = 1e-3;
+constexpr int kApartSweeps = 8;
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
@@ -344,16 +343,15 @@ void FaceTissue::push_apart(Points& x) const {
     const Points before = x;
     Points moves(x.rows(), 3);
     std::vector<int> count(static_cast<std::size_t>(x.rows()));
-    std::vector<tissue::Contacts::Contact> pairs = contacts_.list();
-    for (int round = 0; round < kApartRounds; ++round) {
+    const auto move = [&](int node, const Vec3& by) {
+        moves.row(node) += by.transpose();
+        ++count[static_cast<std::size_t>(node)];
+    };
+    for (int sweep = 0; sweep < kApartSweeps; ++sweep) {
         moves.setZero();
         std::fill(count.begin(), count.end(), 0);
-        const auto move = [&](int node, const Vec3& by) {
-            moves.row(node) += by.transpose();
-            ++count[static_cast<std::size_t>(node)];
-        };
         bool any = false;
-        for (const tissue::Contacts::Contact& pair : pairs) {
+        for (const tissue::Contacts::Contact& pair : contacts_.list()) {
             const bool lips = pair.body == kLipBody;
             const double depth = tissue::Contacts::depth(pair, x);
             const double beyond = depth - (lips ? kLipSlack_m : kBoneSlack_m);
@@ -372,7 +370,6 @@ void FaceTissue::push_apart(Points& x) const {
             const int times = count[static_cast<std::size_t>(i)];
             if (times > 0 && !fixed_[static_cast<std::size_t>(i)]) x.row(i) += moves.row(i) / times;
         }
-        if (round + 1 < kApartRounds) pairs = search_.find(x, mandible_, gaze_);
     }
     // The middle of a column goes with the mean of its ends
     for (int v = 0; v < static_cast<int>(shell_.vertex.size()); ++v) {
