@@ -186,7 +186,7 @@ TEST(BakedShapesOfNothing, LeaveNothingBehind) {
     EXPECT_THROW(bake_shapes({.rig = kAdult, .out = folder.path() / "out", .formats = {"fbx"}}),
                  Error);
     EXPECT_THROW(bake_shapes({.rig = kAdult, .out = folder.path() / "out"},
-                             {.stopped = [] { return true; }}),
+                             {.progress = {}, .stopped = [] { return true; }}),
                  Interrupted);
     EXPECT_TRUE(folder.listing().empty());
 }

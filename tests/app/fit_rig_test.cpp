@@ -22,7 +22,9 @@ std::string refusal_of_fit(const FitOptions& options) {
 
 TEST(FitRig, TheRigTakesThePlaceOfAnEarlierRigOnly) {
     const TemporaryFolder folder;
-    const FitOptions asked{.mesh = folder / "head.obj", .landmarks = folder / "landmarks.json"};
+    FitOptions asked;
+    asked.mesh = folder / "head.obj";
+    asked.landmarks = folder / "landmarks.json";
     std::ofstream(asked.mesh) << "v 0 0 0\n";
     std::ofstream(asked.landmarks) << R"({"format": "risorius-landmarks", "version": 1})";
     for (const auto& mine : {asked.mesh, asked.landmarks}) {
@@ -49,7 +51,8 @@ TEST(FitRig, TheRigTakesThePlaceOfAnEarlierRigOnly) {
 TEST(FitRig, AUnitIsAPositiveNumber) {
     const TemporaryFolder folder;
     for (const auto& [unit, found] : {std::pair{0.0, "0"}, {-0.01, "-0.01"}}) {
-        FitOptions options{.out = folder / "rig.json"};
+        FitOptions options;
+        options.out = folder / "rig.json";
         options.metres_per_unit = unit;
         EXPECT_EQ(refusal_of_fit(options),
                   std::string("--metres-per-unit: expected a number in (0, inf), found ") + found);
