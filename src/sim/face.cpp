@@ -378,7 +378,6 @@ struct Face::Impl {
              .tolerance_rms_m = quality.tolerance_rms_m},
             x, likely);
         last_move = x - carried;
-        tissue.push_apart(x);
         tissue.fibres().end_step();
         motion.end(x);
         statics->moved();

@@ -11,10 +11,6 @@ namespace risorius::sim {
 
 namespace {
 
-// What surfaces may stay in each other after a step, how deep a lip is no longer in the other but behind it.
-constexpr double kLipSlack_m = 0.05e-3, kBoneSlack_m = 0.02e-3, kLipBehind_m = 1e-3;
-constexpr int kApartSweeps = 8;
-
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
 // Share of its contact stiffness that the metric gives every node that may ever touch. Few touch at a time, and those along
@@ -319,7 +315,6 @@ void FaceTissue::refine(double h, const Points& start, const Points& aim,
                         Points& x) {
     if (mouth_iterations_ == 0 || h >= kSettling_s) return;
     if (!mouth_ || mouth_->step_s() != h) mouth_.emplace(make_mouth(h));
-    find_contacts(x);  // lips have slid and turned since
     solve::QuasiNewtonOptions own = options;
     own.iterations = mouth_iterations_;
     own.least_iterations = 0;
@@ -337,47 +332,6 @@ Penetration FaceTissue::penetration(const Points& x) const {
     return {ContactSearch::deepest(pairs, x, kLipBody, kLipBody),
             ContactSearch::deepest(pairs, x, kSkullBody, kMandibleBody),
             ContactSearch::deepest(pairs, x, kGlobeBody, kGlobeBody)};
-}
-
-void FaceTissue::push_apart(Points& x) const {
-    const Points before = x;
-    Points moves(x.rows(), 3);
-    std::vector<int> count(static_cast<std::size_t>(x.rows()));
-    const auto move = [&](int node, const Vec3& by) {
-        moves.row(node) += by.transpose();
-        ++count[static_cast<std::size_t>(node)];
-    };
-    for (int sweep = 0; sweep < kApartSweeps; ++sweep) {
-        moves.setZero();
-        std::fill(count.begin(), count.end(), 0);
-        bool any = false;
-        for (const tissue::Contacts::Contact& pair : contacts_.list()) {
-            const bool lips = pair.body == kLipBody;
-            const double depth = tissue::Contacts::depth(pair, x);
-            const double beyond = depth - (lips ? kLipSlack_m : kBoneSlack_m);
-            if (beyond <= 0 || (lips && depth > kLipBehind_m)) continue;
-            any = true;
-            // Lips give way to each other by half
-            const double own = lips ? 0.5 : 1.0;
-            move(pair.node, own * beyond * pair.normal);
-            double squares = 0;
-            for (int i = 0; i < pair.count; ++i) squares += pair.weights[i] * pair.weights[i];
-            for (int i = 0; i < pair.count; ++i)
-                move(pair.others[i], -(1 - own) * beyond * pair.weights[i] / squares * pair.normal);
-        }
-        if (!any) break;
-        for (int i = 0; i < nodes(); ++i) {
-            const int times = count[static_cast<std::size_t>(i)];
-            if (times > 0 && !fixed_[static_cast<std::size_t>(i)]) x.row(i) += moves.row(i) / times;
-        }
-    }
-    // The middle of a column goes with the mean of its ends
-    for (int v = 0; v < static_cast<int>(shell_.vertex.size()); ++v) {
-        const int deep = node_of(v, kDeep), middle = node_of(v, kMiddle), skin = node_of(v, kSkin);
-        if (!shell_.fixed[v])
-            x.row(middle) +=
-                0.5 * (x.row(deep) - before.row(deep) + x.row(skin) - before.row(skin));
-    }
 }
 
 StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {

@@ -107,9 +107,6 @@ class FaceTissue {
     void forget_contacts() { contacts_.forget(); }
     /// Of all that is near at x, whatever was found before.
     Penetration penetration(const Points& x) const;
-    /// After a step, whose few iterations leave surfaces in each other: moves nodes that are in deeper than a little out of it,
-    /// along the planes found last. Forces have no part in it, and steps learn how hard to press as without it.
-    void push_apart(Points& x) const;
 
     /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
     /// tried first.

@@ -42,7 +42,8 @@ class StaticSolver {
     /// The next settle() does not begin with the last factor: what it finds depends on its arguments alone.
     void forget() {
         known_ = false;
-        touched_.clear();  // the order in which a matrix is eliminated tells what was in contact before
+        touched_
+            .clear();  // the order in which a matrix is eliminated tells what was in contact before
     }
 
     long factors() const { return factors_; }  ///< made so far

@@ -49,8 +49,12 @@ TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
     // Less than the upper one, which it may not pass through
     EXPECT_GT(turn_of_red_deg(rest, lower.vertices, "stoi", "li"), 1.5);
     EXPECT_LT(at(moved_mm(adult(), lower), "stoi").z(), -1.5);
-    const FacePose upper = settled(adult(), with_unit("AU28_upper"));
-    EXPECT_LT(turn_of_red_deg(rest, upper.vertices, "stos", "ls"), -15);
+    // It buckles on its way, and comes to rest late
+    StepFigures figures;
+    const FacePose upper = settled(adult(), with_unit("AU28_upper"), &figures);
+    EXPECT_TRUE(figures.converged);
+    EXPECT_LE(figures.lip_depth_m, 0.3e-3);
+    EXPECT_LT(turn_of_red_deg(rest, upper.vertices, "stos", "ls"), -6);
     EXPECT_LT(at(moved_mm(adult(), upper), "stos").z(), -1.5);
 }
 
