@@ -33,18 +33,6 @@ std::vector<int> inner_landmarks(const rig::RigDescription& rig, const LandmarkP
     return out;
 }
 
-Json drive_json(const track::Drive& drive, const track::ChannelTable& channels) {
-    Json out = Json::object();
-    const std::vector<std::string> names = channels.column_names();
-    for (std::size_t c = 0; c < names.size(); ++c)
-        if (drive.excitation[static_cast<long>(c)] != 0)
-            out[names[c]] = drive.excitation[static_cast<long>(c)];
-    for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
-        if (drive.kinematic[k] != 0)
-            out[std::string(track::kinematic_channels()[k].name)] = drive.kinematic[k];
-    return out;
-}
-
 Json attempt_json(const Attempt& attempt, const track::ChannelTable& channels) {
     Json out = attempt.score.json();
     out["inverted_tets"] = attempt.inverted_tets;

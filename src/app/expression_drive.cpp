@@ -1,6 +1,7 @@
 #include "app/expression_drive.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -80,6 +81,18 @@ track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTabl
         drive.kinematic[at] = std::clamp(sum.kinematic[at], channel.min, channel.max);
     }
     return drive;
+}
+
+Json drive_json(const track::Drive& drive, const track::ChannelTable& channels) {
+    Json out = Json::object();
+    const std::vector<std::string> names = channels.column_names();
+    for (std::size_t c = 0; c < names.size(); ++c)
+        if (drive.excitation[static_cast<long>(c)] != 0)
+            out[names[c]] = drive.excitation[static_cast<long>(c)];
+    for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
+        if (drive.kinematic[k] != 0)
+            out[std::string(track::kinematic_channels()[k].name)] = drive.kinematic[k];
+    return out;
 }
 
 }  // namespace risorius::app

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/json_cursor.h"
 #include "rig/rig_description.h"
 #include "track/channels.h"
 #include "track/facs.h"
@@ -25,5 +26,8 @@ std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
 
 /// Within the range of every muscle and channel.
 track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels);
+
+/// What of it is not zero, by the names of columns and channels.
+Json drive_json(const track::Drive& drive, const track::ChannelTable& channels);
 
 }  // namespace risorius::app

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/expression_drive.h"
 #include "app/folder_name.h"
 #include "app/staged_file.h"
 #include "core/error.h"
@@ -66,18 +67,6 @@ bool describe_part(const std::string& role, const RigFiles& files, const rig::He
         return false;
     }
     return true;
-}
-
-Json drive_of(const track::Drive& drive, const track::ChannelTable& channels) {
-    Json out = Json::object();
-    const std::vector<std::string> names = channels.column_names();
-    for (std::size_t c = 0; c < names.size(); ++c)
-        if (drive.excitation[static_cast<long>(c)] != 0)
-            out[names[c]] = drive.excitation[static_cast<long>(c)];
-    for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
-        if (drive.kinematic[k] != 0)
-            out[std::string(track::kinematic_channels()[k].name)] = drive.kinematic[k];
-    return out;
 }
 
 // Of a shape's vertex, mesh units.
@@ -164,7 +153,7 @@ std::vector<std::string> write_shape_table(const RigFiles& files, const rig::Hea
     std::ofstream numbers(folder / "shapes.f32", std::ios::binary);
     for (const MadeShape& made : shapes.list) {
         json["names"].push_back(made.goal.name);
-        json["excitations"][made.goal.name] = drive_of(made.goal.drive, channels);
+        json["excitations"][made.goal.name] = drive_json(made.goal.drive, channels);
         if (made.goal.on_top_of >= 0)
             json["on_top_of"][made.goal.name] =
                 shapes.list[static_cast<std::size_t>(made.goal.on_top_of)].goal.name;
