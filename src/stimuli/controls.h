@@ -22,8 +22,7 @@ enum class ControlKind {
     kNeutral,     ///< the face at rest for as long
     kKnockOut,    ///< without one muscle
     kPalsy,       ///< with one half of the face weak
-    kLateSide,    ///< one half of the face later than the other
-    kMirrored     ///< everything moves up where it moved down: no face can do that
+    kLateSide     ///< one half of the face later than the other
 };
 
 /// In the order of the enumeration, from kReversed on, as design files write them.

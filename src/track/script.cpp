@@ -338,6 +338,8 @@ ScriptHeader read_script_header(const std::filesystem::path& file) {
     return read_header(JsonCursor::read_file(file));
 }
 
+ScriptHeader read_script_header(const JsonCursor& script) { return read_header(script); }
+
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions) {
     return read_script(JsonCursor::read_file(file), channels, facs, expressions);
@@ -368,7 +370,7 @@ void read_weakness(const JsonCursor& json, const std::string& name, const Channe
         std::vector<std::string> known{"left", "right"};
         for (const MuscleChannel& muscle : channels.muscles) known.push_back(muscle.id);
         json.fail("a muscle of the rig, with or without .l or .r, \"left\" or \"right\"" +
-                      did_you_mean(sided.id, known),
+                      risorius::did_you_mean(sided.id, known),
                   quoted(name));
     }
     for (const Side side : {Side::kLeft, Side::kRight})

@@ -116,6 +116,7 @@ struct ScriptDescription {
 
 /// Reads the header and leaves channels and events for later. Throws Error.
 ScriptHeader read_script_header(const std::filesystem::path& file);
+ScriptHeader read_script_header(const JsonCursor& script);
 
 /// Everything, checked against the rig. Throws Error naming file, place, expected and found.
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
