@@ -46,6 +46,7 @@ Resolve::Resolve(const Background& background)
     for (std::size_t k = 0; k < 3; ++k)
         background_[k] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(background.rgb[k], 0.0, 1.0)));
+    if (!transparent_) nothing_ = {background_[0], background_[1], background_[2], 255};
 }
 
 Image mean_of(const std::vector<Image>& pictures) {
@@ -94,11 +95,8 @@ void Resolve::row(const std::uint8_t* samples, std::size_t n, std::size_t sample
     for (std::size_t x = 0; x < pixels; ++x, out += 4) {
         // Most pixels have equal samples, which are their own mean.
         if (const std::uint8_t* first = samples + x * n * 4;
-            is_even(first, n, sample_row) && (first[3] == 255 || is_empty(first))) {
-            if (first[3] == 255)
-                std::memcpy(out, first, 4);
-            else
-                empty_row(1, out);
+            (n == 1 || is_even(first, n, sample_row)) && (first[3] == 255 || is_empty(first))) {
+            std::memcpy(out, first[3] == 255 ? first : nothing_.data(), 4);
             continue;
         }
         std::uint32_t sum[3] = {0, 0, 0};
@@ -146,9 +144,7 @@ void Resolve::opaque_row(const std::uint8_t* samples, std::size_t n, std::size_t
 }
 
 void Resolve::empty_row(std::size_t pixels, std::uint8_t* out) const {
-    const std::array<std::uint8_t, 4> opaque{background_[0], background_[1], background_[2], 255},
-        none{0, 0, 0, 0};
-    const std::array<std::uint8_t, 4>& one = transparent_ ? none : opaque;
+    const std::array<std::uint8_t, 4> one = nothing_;
     for (std::size_t x = 0; x < pixels; ++x) std::memcpy(out + 4 * x, one.data(), 4);
 }
 

@@ -39,6 +39,7 @@ class Resolve {
   private:
     bool transparent_;
     std::array<std::uint8_t, 3> background_;
+    std::array<std::uint8_t, 4> nothing_{};          ///< a pixel without samples
     std::array<std::uint16_t, 256> linear_of_byte_;  ///< sRGB byte -> linear, 65535 = 1
     std::vector<std::uint8_t> byte_of_linear_;       ///< and back, nearest
 };
