@@ -14,13 +14,11 @@ struct HeadArguments {
     Common common;
     app::IdentityChoice choice;
     app::SculptOptions options;
-    bool no_calibrate = false;
 };
 
 void run(HeadArguments& arguments) {
     arguments.options.identity = app::chosen_identity(arguments.choice);
     if (!arguments.choice.identity.empty()) arguments.options.place = arguments.choice.identity;
-    arguments.options.calibrate = !arguments.no_calibrate;
     app::SculptReport report;
     {
         ProgressBar bar(arguments.common);
@@ -79,8 +77,10 @@ void add_head(CLI::App& app) {
     command->add_option("--hair", choice.hair, "Colour of brows and hair, by name");
     command->add_flag("--mesh-only", arguments->options.mesh_only,
                       "Mesh and landmarks alone, without rig and pictures");
-    command->add_flag("--no-calibrate", arguments->no_calibrate,
-                      "Keep the standard strengths of the muscles (fastest)");
+    command->add_flag(
+        "--calibrate", arguments->options.calibrate,
+        "Make each muscle as strong as it has to be on this head, which takes minutes; "
+        "else they are as strong as the adult's");
     add_common(*command, arguments->common);
     command->footer(footer);
     command->callback([arguments] { run(*arguments); });
