@@ -27,7 +27,7 @@ constexpr const char* kRigFile = "rig.json";
 constexpr const char* kViews = "views.png";
 constexpr const char* kResults = "results.json";
 
-sculpt::DesignTables design() {
+sculpt::DesignTables design_tables() {
     return sculpt::read_design_tables(sculpt::models_folder() / "adult/design");
 }
 
@@ -71,7 +71,7 @@ Image views_of(const fs::path& rig_file) {
 }  // namespace
 
 sculpt::Identity chosen_identity(const IdentityChoice& choice) {
-    const sculpt::DesignTables tables = design();
+    const sculpt::DesignTables tables = design_tables();
     if (choice.seed && !choice.identity.empty())
         throw Error("--seed", "a seed or --identity", "both");
     sculpt::Identity identity;
@@ -114,7 +114,7 @@ sculpt::Identity chosen_identity(const IdentityChoice& choice) {
 SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
     // Shape it, and prove that there are people like this
     watch.tell(0, "sculpting");
-    const sculpt::DesignTables tables = design();
+    const sculpt::DesignTables tables = design_tables();
     SculptReport report;
     report.out = options.out;
     report.identity = options.identity;
