@@ -115,7 +115,8 @@ class Face {
     /// without the folds of the skin.
     Points pull_back(const Points& vertex_gradient) const;
 
-    FacePose pose() const;  ///< after the last step
+    /// After the last step. Surfaces that its few iterations left in each other are out of each other, see separation.h.
+    FacePose pose() const;
     double time_s() const;
     double step_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
@@ -129,7 +130,7 @@ class Face {
     /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
 
-    /// After the last step or settle().
+    /// Of what pose() shows after the last step or settle().
     Penetration penetration() const;
 
     int node_count() const;
