@@ -90,7 +90,7 @@ sculpt::Identity chosen_identity(const IdentityChoice& choice) {
     identity.skin = choice.skin.value_or(identity.skin);
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
-    sculpt::check_identity(identity, tables, "head");
+    sculpt::check_identity(identity, tables, "--");
     if (choice.seed) sculpt::deform_within_spread(sculpt::make_head(tables), tables, identity);
     for (const std::string& text : choice.shape) {
         const std::size_t equals = text.find('=');
@@ -107,7 +107,7 @@ sculpt::Identity chosen_identity(const IdentityChoice& choice) {
             throw Error("--shape", "PARAMETER=NUMBER", quoted(text));
         identity.shape[text.substr(0, equals)] = value;
     }
-    sculpt::check_identity(identity, tables, "head");
+    sculpt::check_identity(identity, tables, "--");
     return identity;
 }
 

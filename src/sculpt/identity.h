@@ -33,7 +33,8 @@ std::vector<std::string> shape_parameters(const DesignTables& tables);
 /// Names that a tone may have; `part` is skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);
 
-/// Throws Error on unknown parameters or tones and on values beyond the ranges above; `place` opens the message.
+/// Throws Error on unknown parameters or tones and on values beyond the ranges above; `place` stands before
+/// the name of what is wrong: "--", "ada.json:/".
 void check_identity(const Identity& identity, const DesignTables& tables, const std::string& place);
 
 /// Throws Error as above, naming the place in the file.
