@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solve/detail/cholmod_view.h"
+#include "solve/detail/nested_dissection.h"
 #include "solve/lanes.h"
 
 namespace risorius::solve {
@@ -93,7 +94,7 @@ void SparseCholesky::Impl::factorise(const Eigen::SparseMatrix<double>& A) {
     cholmod_sparse view = detail::view_of(lower);
 
     Cholmod cholmod;
-    cholmod.factor = cholmod_analyze(&view, &cholmod.common);
+    cholmod.factor = detail::analyse(view, cholmod.common);
     if (cholmod.factor == nullptr) throw std::invalid_argument("SparseCholesky: no ordering found");
     cholmod_factorize(&view, cholmod.factor, &cholmod.common);
     const cholmod_factor& L = *cholmod.factor;

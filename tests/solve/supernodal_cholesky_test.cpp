@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <random>
+#include <thread>
 
 namespace risorius::solve {
 namespace {
@@ -56,6 +58,26 @@ TEST(SupernodalCholesky, SolvesWhatItFactored) {
         EXPECT_LT((back - b).norm(), 1e-12 * b.norm()) << nx;
     }
     EXPECT_EQ(factor.orderings(), 3);
+}
+
+TEST(SupernodalCholesky, GivesTheSameBitsBesideOthers) {
+    const Eigen::SparseMatrix<double> A = box(12, 11, 10, 0.1);
+    const auto solution = [&] {
+        SupernodalCholesky factor;
+        EXPECT_TRUE(factor.factorise(A, 3));
+        Eigen::VectorXd x = some_right(static_cast<int>(A.rows()));
+        factor.solve(x.data(), x.data());
+        return x;
+    };
+    const Eigen::VectorXd alone = solution();
+    std::array<Eigen::VectorXd, 4> beside;
+    std::vector<std::thread> threads;
+    for (Eigen::VectorXd& one : beside)
+        threads.emplace_back([&] {
+            for (int again = 0; again < 3; ++again) one = solution();
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const Eigen::VectorXd& one : beside) EXPECT_EQ((one - alone).lpNorm<Eigen::Infinity>(), 0);
 }
 
 TEST(SupernodalCholesky, OrdersAnewOnlyWhenThePatternIsNew) {

@@ -2,6 +2,7 @@
 
 #include <suitesparse/cholmod.h>
 
+#include <mutex>
 #include <stdexcept>
 
 #include "solve/detail/cholmod_view.h"
@@ -45,6 +46,12 @@ Eigen::SparseMatrix<double> node_pattern(const Eigen::SparseMatrix<double>& A, i
 
 }  // namespace
 
+cholmod_factor* analyse(cholmod_sparse& A, cholmod_common& common) {
+    static std::mutex one_at_a_time;
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    return cholmod_analyze(&A, &common);
+}
+
 std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A, int block) {
     Workspace work;
     work.common.supernodal = CHOLMOD_SIMPLICIAL;
@@ -52,7 +59,7 @@ std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A, int blo
     work.common.method[0].ordering = CHOLMOD_NESDIS;
     const Eigen::SparseMatrix<double> nodes = node_pattern(A, block);
     cholmod_sparse graph = view_of(nodes);
-    work.factor = cholmod_analyze(&graph, &work.common);
+    work.factor = analyse(graph, work.common);
     const auto* perm = static_cast<const int*>(work.found().Perm);
     std::vector<int> order(static_cast<std::size_t>(A.rows()));
     for (std::size_t i = 0; i < order.size(); ++i)

@@ -1,10 +1,16 @@
 // Ordering and symbolic analysis of a sparse symmetric matrix over nodes, by CHOLMOD.
 #pragma once
 
+#include <suitesparse/cholmod.h>
+
 #include <Eigen/SparseCore>
 #include <vector>
 
 namespace risorius::solve::detail {
+
+/// cholmod_analyze(), one thread at a time. METIS, which orders by nested dissection, seeds and draws from the process' one
+/// rand(): two orderings at once would give others than each alone, and sums in another order other bits.
+cholmod_factor* analyse(cholmod_sparse& A, cholmod_common& common);
 
 /// Rows of A in an order that keeps its factor sparse. `block` rows in a row belong to one node and stay together; in
 /// post-order. Throws std::invalid_argument when there is none.
