@@ -116,6 +116,8 @@ class Face {
     Points pull_back(const Points& vertex_gradient) const;
 
     FacePose pose() const;  ///< after the last step
+    /// Of vertices that something else has moved, in the frame of the head: eyes, jaw and the head's own turn as the drive asks for.
+    FacePose posed(Points vertices, const track::Drive& drive) const;
     double time_s() const;
     double step_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step
