@@ -106,18 +106,24 @@ sim::FacePose turned(sim::FacePose pose, double angle_rad) {
 
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
                FilmExtras& extras, const Watch& watch) {
+    Studio studio;
+    return film(options, shot, use, extras, watch, studio);
+}
+
+RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
+               FilmExtras& extras, const Watch& watch, Studio& studio) {
     const Stopwatch total;
 
     // Read what was asked for
     const sim::Quality quality = sim::quality_named(quality_of(options));
-    const RigFiles files = read_rig_files(shot.script.rig_file);
+    const RigFiles& files = studio.rig(shot.script.rig_file);
     const track::ChannelTable channels = files.rig.channels();
     const track::ScriptDescription script =
         track::read_script(options.script, channels, files.rig.facs, files.rig.expressions);
 
     // Build what runs
     watch.tell(0, "building the face");
-    sim::Face face(files.rig, files.mesh, quality, files.place());
+    sim::Face& face = studio.face(quality);
     face.drive_jaw_by(script.header.jaw);
     face.set_gravity(script.header.gravity_m_s2);
     face.move(script.header.motion == track::Motion::kDynamic ? sim::Motion::kDynamic
@@ -127,17 +133,11 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     ScriptDrives script_drives(script, files.rig);
     if (options.shapes)
         shapes.emplace(read_shapes_of_file(*options.shapes, files, face.head()), face, channels);
-    render::Scene scene = scene_from_rig(face.head(), files.rig, files.mesh);
-    add_wrinkles(face.wrinkle_lines(), scene);
     const bool inside = shot.view.show == render::Show::kMuscles;
-    if (inside) scene.muscles = muscles_for_view(face.muscle_surfaces());
-    // The first view here, as others need it; each of those on the thread that draws with it
     const int workers =
         options.threads > 1 ? std::min({options.threads, kMostViews, shot.frames}) : 0;
-    std::vector<std::unique_ptr<render::OffscreenView>> views(
-        static_cast<std::size_t>(std::max(workers, 1)));
-    views[0] = std::make_unique<render::OffscreenView>(scene, shot.view);
-    const render::OffscreenView& view = *views[0];
+    const render::Scene& scene = studio.scene(shot.view, std::max(workers, 1));
+    const render::OffscreenView& view = studio.view();
     const LandmarkPoints landmarks(face.head(), files.rig);
     const Sight sight(shot.view.show, scene, face.head(), files.mesh, view, shot.view.width_px,
                       shot.view.height_px, landmarks, options.scale);
@@ -220,9 +220,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     };
     const auto draw = [&](int worker, int /*frame*/, std::vector<render::Pose> poses) {
         const Stopwatch drawing;
-        std::unique_ptr<render::OffscreenView>& own = views[static_cast<std::size_t>(worker)];
-        if (!own) own = std::make_unique<render::OffscreenView>(scene, view);
-        Image image = own->draw(poses);
+        Image image = studio.view(worker).draw(poses);
         return Drawn{std::move(poses[poses.size() / 2].positions), std::move(image),
                      drawing.seconds()};
     };

@@ -9,6 +9,7 @@
 #include "app/animate.h"
 #include "app/pass_writer.h"
 #include "app/shot.h"
+#include "app/studio.h"
 #include "core/image.h"
 
 namespace risorius::app {
@@ -23,7 +24,9 @@ struct FilmExtras {
     std::string table;                    ///< frame_table.h
 };
 
-/// Throws Error for input, Interrupted when asked to stop.
+/// Throws Error for input, Interrupted when asked to stop. In a studio that has been used before, the same film is made sooner.
+RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
+               FilmExtras& extras, const Watch& watch, Studio& studio);
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
                FilmExtras& extras, const Watch& watch);
 

@@ -15,6 +15,7 @@ namespace risorius::render {
 struct Surroundings {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< 3 per cell, linear
+    bool operator==(const Surroundings&) const = default;
 };
 
 struct LightOptions {
@@ -22,6 +23,7 @@ struct LightOptions {
     std::optional<Surroundings> surroundings;  ///< in place of the preset; stands still
     double turn_deg = 0;     ///< of the whole light about the vertical, to the subject's left
     double exposure_ev = 0;  ///< on top of what the grey card asks for, stops, -10..10
+    bool operator==(const LightOptions&) const = default;
 };
 
 /// Linear light above this share of white is rolled off, so that highlights keep their shape.

@@ -19,6 +19,7 @@ namespace risorius::render {
 struct Background {
     bool transparent = false;
     std::array<double, 3> rgb{0.5, 0.5, 0.5};  ///< sRGB 0..1
+    bool operator==(const Background&) const = default;
 };
 
 /// What of the face a picture shows.
@@ -43,6 +44,7 @@ struct Lens {
     std::optional<double> view_angle_deg;  ///< that the height of the picture subtends, 0.5..90
     double aperture_mm =
         0;  ///< diameter of the opening, 0..100; 0: sharp at every distance. In focus: the front of the eyes
+    bool operator==(const Lens&) const = default;
 };
 
 struct ViewOptions {
@@ -62,6 +64,7 @@ struct ViewOptions {
     int threads =
         0;  ///< llvmpipe worker threads; 0 = draw on the calling thread. The driver reads it once: the
             ///< first view of a process decides for all. Pictures do not depend on it.
+    bool operator==(const ViewOptions&) const = default;
 };
 
 const std::vector<std::string>& camera_names();

@@ -96,8 +96,12 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
 }
 
 std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible,
-                                                           const std::array<Mat3, 2>& gaze) const {
+                                                           const std::array<Mat3, 2>& gaze,
+                                                           const std::vector<char>& of) const {
     std::vector<tissue::Contacts::Contact> out;
+    const auto wanted = [&](int node) {
+        return of.empty() || of[static_cast<std::size_t>(node)] != 0;
+    };
     const Rigid to_mandible = mandible.inverse();
 
     // Bone and teeth: the plane blended from the bone points around, fading out beyond the bone's edge, where its plane
@@ -150,6 +154,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         out.push_back(contact);
     };
     for (std::size_t n = 0; n < deep_.size(); ++n) {
+        if (!wanted(deep_[n].node)) continue;
         const int slot = 2 * static_cast<int>(n);
         against_bone(deep_[n], deep_[n].skull, skull_, nullptr, slot);
         against_bone(deep_[n], deep_[n].mandible, mandible_, &mandible, slot + 1);
@@ -169,6 +174,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         if (other.size() <= kLipNeighbours) return;
         for (std::size_t n = 0; n < lip.size(); ++n) {
             const LipNode& node = lip[n];
+            if (!wanted(node.node)) continue;
             const Vec3 p = x.row(node.node).transpose();
             // The nearest few, weighted so that the weight of one that is about to be replaced is zero
             std::array<std::pair<double, int>, kLipNeighbours + 1> nearest_few;
@@ -239,6 +245,7 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
     // Lids: a plane across the way out of the eye, where its surface lies below the node
     for (std::size_t n = 0; n < lid_.size(); ++n) {
         const LidNode& node = lid_[n];
+        if (!wanted(node.node)) continue;
         const rig::EyeGeometry& eye = eyes_[node.side];
         const Vec3 p = x.row(node.node).transpose();
         const double gap = eye.distance(p, gaze[node.side] * eye.forward);

@@ -29,9 +29,10 @@ class ContactSearch {
                   const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
 
     /// Pairs for node positions x with the mandible moved.
-    /// `gaze`: turn of each eye, whose cornea bulges.
+    /// `gaze`: turn of each eye, whose cornea bulges. `of`: rows of x whose pairs are wanted; empty: all.
     std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible,
-                                                const std::array<Mat3, 2>& gaze) const;
+                                                const std::array<Mat3, 2>& gaze,
+                                                const std::vector<char>& of = {}) const;
 
     /// Nodes that may ever touch something and the greatest stiffness they may see, for the constant metric.
     const std::vector<int>& nodes() const { return nodes_; }

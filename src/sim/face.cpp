@@ -107,7 +107,8 @@ struct Face::Impl {
     TissueMotion motion;
     std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
     Motion how = Motion::kDynamic;
-    long done = 0;  // pieces
+    long done = 0;         // pieces
+    bool in_step = false;  // since it last was at rest
     std::vector<StepFigures> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
@@ -308,6 +309,7 @@ struct Face::Impl {
         last_move.resize(0, 3);
         motion.start(now.x, head_motion(head, drive));
         before = now;
+        in_step = false;
         return figures;
     }
 
@@ -381,6 +383,7 @@ struct Face::Impl {
         tissue.fibres().end_step();
         motion.end(x);
         statics->moved();
+        in_step = true;
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -412,23 +415,36 @@ struct Face::Impl {
 
     Points muscle_vertices(double share) {
         make_surfaces();
-        const track::Drive drive = drive_between(share);
-        const JawVector q = jaw_between(share);
+        const State state = between(share);
+        const JawVector& q = state.jaw.q;
         Points vertices = surfaces.rest;
-        const Points x = (1 - share) * before.x + share * now.x;
+        const Points x = shown(state);
         straps->place(
-            x, {mandible(q, drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+            x, {mandible(q, state.drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
             vertices);
         tissue.solids().place_surfaces(x, vertices);
-        follow->turn_with_head(head_motion(head, drive), surfaces.rest, vertices);
+        follow->turn_with_head(head_motion(head, state.drive), surfaces.rest, vertices);
         return vertices;
     }
 
+    State between(double share) const {
+        return {(1 - share) * before.x + share * now.x,
+                (1 - share) * before.activation + share * now.activation,
+                drive_between(share),
+                {.q = jaw_between(share)}};
+    }
+
+    // Nodes as they are shown: steps leave surfaces in each other, equilibria hardly.
+    Points shown(const State& state) const {
+        return in_step
+                   ? tissue.apart(state.x, mandible(state.jaw.q, state.drive), gaze(state.drive))
+                   : state.x;
+    }
+
     FacePose pose(double share) const {
-        return pose_of({(1 - share) * before.x + share * now.x,
-                        (1 - share) * before.activation + share * now.activation,
-                        drive_between(share),
-                        {.q = jaw_between(share)}});
+        State state = between(share);
+        state.x = shown(state);
+        return pose_of(state);
     }
 
     Points skin_displacement(const Points& x) const {
@@ -556,6 +572,7 @@ void Face::start(const DriveAt& drive) {
         Points x = impl_->now.x;  // a face used before may have left its jaw elsewhere
         impl_->prescribe(x, activation, first);
         impl_->before = impl_->now;
+        impl_->in_step = false;
     } else {
         impl_->settle(activation, first, kRestIterations);
     }
@@ -636,7 +653,9 @@ FacePose Face::posed(Points vertices, const track::Drive& drive) const {
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
-Penetration Face::penetration() const { return impl_->tissue.penetration(impl_->now.x); }
+Penetration Face::penetration() const {
+    return impl_->tissue.penetration(impl_->shown(impl_->now));
+}
 int Face::node_count() const { return impl_->tissue.nodes(); }
 int Face::tet_count() const { return static_cast<int>(impl_->mesh.tets.rows()); }
 int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(impl_->now.x); }

@@ -115,7 +115,8 @@ class Face {
     /// without the folds of the skin.
     Points pull_back(const Points& vertex_gradient) const;
 
-    FacePose pose() const;  ///< after the last step
+    /// After the last step. Surfaces that its few iterations left in each other are out of each other, see separation.h.
+    FacePose pose() const;
     /// Of vertices that something else has moved, in the frame of the head: eyes, jaw and the head's own turn as the drive asks for.
     FacePose posed(Points vertices, const track::Drive& drive) const;
     double time_s() const;
@@ -131,7 +132,7 @@ class Face {
     /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
 
-    /// After the last step or settle().
+    /// Of what pose() shows after the last step or settle().
     Penetration penetration() const;
 
     int node_count() const;

@@ -25,6 +25,7 @@
 #include "sim/lip_drive.h"
 #include "sim/muscle_placement.h"
 #include "sim/muscle_solids.h"
+#include "sim/separation.h"
 #include "sim/shell.h"
 #include "sim/tissue_mesh.h"
 #include "sim/tissue_part.h"
@@ -107,6 +108,10 @@ class FaceTissue {
     void forget_contacts() { contacts_.forget(); }
     /// Of all that is near at x, whatever was found before.
     Penetration penetration(const Points& x) const;
+    /// The same nodes out of each other and of the bones, see separation.h.
+    Points apart(const Points& x, const Rigid& mandible, const std::array<Mat3, 2>& gaze) const {
+        return separated(x, search_, mandible, gaze, fixed_);
+    }
 
     /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
     /// tried first.

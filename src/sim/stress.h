@@ -21,7 +21,7 @@ struct StressReport {
     int longest_inverted_steps = 0;  ///< in a row with any
     double mean_inverted_tets = 0;
     double furthest_m = 0;  ///< of a skin node from rest
-    /// Of the tissue after every step: what 99 of 100 steps stay below, and the deepest.
+    /// Of what is shown after every step: what 99 of 100 steps stay below, and the deepest.
     Penetration usual_penetration, deepest_penetration;
     int inverted_at_rest = 0;   ///< after the rest
     double left_at_rest_m = 0;  ///< furthest skin node from where it began

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/existing_file.h"
+#include "core/known_names.h"
 #include "track/emg_source.h"
 #include "track/timeline.h"
 
@@ -91,7 +92,7 @@ ScriptHeader read_header(const JsonCursor& json) {
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
     json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
-                     "gravity", "channels", "emg", "events", "view"});
+                     "gravity", "channels", "emg", "events", "view", "weakness", "late_s"});
     ScriptHeader header;
     header.rig = json.at("rig").string();
     if (header.rig.empty()) json.at("rig").fail("the path of a rig file");
@@ -337,15 +338,62 @@ ScriptHeader read_script_header(const std::filesystem::path& file) {
     return read_header(JsonCursor::read_file(file));
 }
 
+ScriptHeader read_script_header(const JsonCursor& script) { return read_header(script); }
+
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions) {
     return read_script(JsonCursor::read_file(file), channels, facs, expressions);
 }
 
+namespace {
+
+constexpr const char* kSideNames[] = {"left", "right"};
+
+// "left", "right", or a muscle with or without a side
+void read_weakness(const JsonCursor& json, const std::string& name, const ChannelTable& channels,
+                   Eigen::VectorXd& weakness) {
+    const double value = json.number({0, 1});
+    const auto set = [&](const std::string& id, Side side) {
+        double& one = weakness[channels.column(id, side)];
+        one = std::max(one, value);
+    };
+    for (const Side side : {Side::kLeft, Side::kRight})
+        if (name == kSideNames[side == Side::kLeft ? 0 : 1]) {
+            for (const MuscleChannel& muscle : channels.muscles)
+                if (channels.column(muscle.id, Side::kLeft) !=
+                    channels.column(muscle.id, Side::kRight))
+                    set(muscle.id, side);
+            return;
+        }
+    const SidedName sided = split_side(name);
+    if (!channels.find(sided.id)) {
+        std::vector<std::string> known{"left", "right"};
+        for (const MuscleChannel& muscle : channels.muscles) known.push_back(muscle.id);
+        json.fail("a muscle of the rig, with or without .l or .r, \"left\" or \"right\"" +
+                      risorius::did_you_mean(sided.id, known),
+                  quoted(name));
+    }
+    for (const Side side : {Side::kLeft, Side::kRight})
+        if (!sided.side || *sided.side == side) set(sided.id, side);
+}
+
+}  // namespace
+
 ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions) {
     ScriptDescription script;
     script.header = read_header(json);
+    if (const auto weakness = json.find("weakness")) {
+        script.weakness = Eigen::VectorXd::Zero(channels.column_count());
+        for (const std::string& name : weakness->keys())
+            read_weakness(weakness->at(name), name, channels, script.weakness);
+    }
+    if (const auto late = json.find("late_s")) {
+        late->allow_keys({kSideNames[0], kSideNames[1]});
+        for (std::size_t side = 0; side < 2; ++side)
+            if (const auto v = late->find(kSideNames[side]))
+                script.late_s[side] = v->number({0, 10});
+    }
     const Reader reader(channels, facs, expressions);
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())

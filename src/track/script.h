@@ -107,11 +107,16 @@ struct ScriptDescription {
     std::vector<ExpressionEvent> expressions;
     std::vector<BlinkEvent> blinks;  ///< those of idle events too
     std::vector<IdleEvent> idle;
+    Eigen::VectorXd
+        weakness;  ///< per column, of a muscle's strength that is missing, [0, 1]; empty: none is
+    std::array<double, 2> late_s{
+        0, 0};  ///< how much later the muscles of a side hear of it all, [0, 10]
     std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
 };
 
 /// Reads the header and leaves channels and events for later. Throws Error.
 ScriptHeader read_script_header(const std::filesystem::path& file);
+ScriptHeader read_script_header(const JsonCursor& script);
 
 /// Everything, checked against the rig. Throws Error naming file, place, expected and found.
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,

@@ -21,7 +21,16 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
     : emg_(script.emg),
       expressions_(script.expressions),
       blinks_(script.blinks),
-      column_min_(channels.column_min()) {
+      column_min_(channels.column_min()),
+      late_s_(script.late_s) {
+    if (script.weakness.size() > 0) strength_ = 1 - script.weakness.array();
+    for (const MuscleChannel& muscle : channels.muscles) {
+        const int left = channels.column(muscle.id, Side::kLeft),
+                  right = channels.column(muscle.id, Side::kRight);
+        if (left == right) continue;
+        side_columns_[0].push_back(left);
+        side_columns_[1].push_back(right);
+    }
     for (const IdleEvent& idle : script.idle) idle_.emplace_back(idle);
     for (const ChannelTrack& channel : script.channels) {
         Curve curve(channel.keys, channel.interpolation);
@@ -37,6 +46,23 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
 }
 
 Drive Timeline::at(double t_s) const {
+    Drive drive = together_at(t_s);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (late_s_[side] == 0) continue;
+        const Drive earlier = together_at(t_s - late_s_[side]);
+        for (const int column : side_columns_[side]) {
+            drive.excitation[column] = earlier.excitation[column];
+            drive.activation[column] = earlier.activation[column];
+        }
+    }
+    if (strength_.size() > 0) {
+        drive.excitation.array() *= strength_.array();
+        drive.activation.array() *= strength_.array();
+    }
+    return drive;
+}
+
+Drive Timeline::together_at(double t_s) const {
     Expansion sum;
     sum.excitation = Eigen::VectorXd::Zero(column_min_.size());
 

@@ -3,9 +3,11 @@
 // Sources for one muscle or channel add up and are clamped to its range. A blink is two pulses of AU45: the levator of the
 // lid falls silent, 10 ms later orbicularis oculi fires, and both end together; through activation dynamics the lids meet
 // after 70 to 80 ms and are open again at the end of the blink.
+// Muscles of a side may be late and any of them weak: what they are driven with is what is left, also of activation set directly.
 // Source of the blink: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "track/curve.h"
@@ -28,6 +30,8 @@ class Timeline {
     Drive at(double t_s) const;
 
   private:
+    /// Of a face whose sides hear of everything at once.
+    Drive together_at(double t_s) const;
     struct Source {
         Curve curve;
         Expansion drives;
@@ -44,6 +48,9 @@ class Timeline {
     std::vector<BlinkEvent> blinks_;
     std::vector<IdleMotion> idle_;
     Eigen::VectorXd column_min_;
+    Eigen::VectorXd strength_;  ///< per column, or empty: all have their own
+    std::array<double, 2> late_s_;
+    std::array<std::vector<int>, 2> side_columns_;  ///< of paired muscles
 };
 
 /// Share of an expression's unit that shows at t: 0 before its delayed onset, 1 while held, 0 after the offset.

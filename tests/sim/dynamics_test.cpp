@@ -233,7 +233,9 @@ TEST(Dynamics, RandomDriveOfEverythingLeavesNothingBehind) {
     EXPECT_EQ(report.inverted_at_rest, 0);
     EXPECT_LT(1e3 * report.left_at_rest_m, 0.2);
     EXPECT_LT(report.furthest_m, 0.06);
-    EXPECT_LE(report.usual_penetration.lips_m, report.deepest_penetration.lips_m);
+    EXPECT_LT(1e3 * report.deepest_penetration.lips_m, 0.3);
+    EXPECT_LT(1e3 * report.deepest_penetration.bone_m, 0.2);
+    EXPECT_LT(1e3 * report.deepest_penetration.eyeball_m, 0.2);
     RecordProperty("most_inverted", report.most_inverted_tets);
     RecordProperty("left_mm", std::to_string(1e3 * report.left_at_rest_m));
 }

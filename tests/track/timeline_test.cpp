@@ -162,6 +162,54 @@ TEST(Timeline, BlinkHasASideAnIntensityAndADuration) {
     EXPECT_EQ(activity(face.at(1.361)), 0.0);
 }
 
+TEST(Timeline, WeakMusclesGetWhatIsLeft) {
+    const auto face = [](const std::string& weakness) {
+        Json json = Json::parse(
+            R"({"format": "risorius-script", "version": 1, "rig": "rig.json", "duration_s": 4,
+                "channels": {"AU12": {"keys": [[0, 0.8]]}, "jaw_open": {"keys": [[0, 0.5]]},
+                             "risorius.r": {"keys": [[0, 0.5]], "activation": true}}})");
+        json["weakness"] = Json::parse(weakness);
+        return Timeline(read_script(JsonCursor::from_json(json, "script.json"), tables().channels,
+                                    tables().facs, tables().expressions),
+                        tables().channels)
+            .at(1);
+    };
+    const Drive whole = face("{}"), left = face(R"({"left": 1})"),
+                one = face(R"({"zygomaticus_major.r": 0.25, "right": 0.1})"),
+                both = face(R"({"risorius": 0.5})");
+    const double full = excitation(whole, "zygomaticus_major.l");
+    EXPECT_GT(full, 0.1);
+    EXPECT_EQ(excitation(left, "zygomaticus_major.l"), 0);
+    EXPECT_EQ(excitation(left, "zygomaticus_major.r"), full);
+    EXPECT_EQ(left.at(Kinematic::kJawOpen), 0.5);
+    EXPECT_EQ(excitation(one, "zygomaticus_major.l"), full);
+    EXPECT_NEAR(excitation(one, "zygomaticus_major.r"), 0.75 * full, 1e-15);
+    EXPECT_NEAR(excitation(one, "zygomaticus_minor.r"),
+                0.9 * excitation(whole, "zygomaticus_minor.r"), 1e-15);
+    EXPECT_EQ(both.activation[tables().column("risorius.r")], 0.25);
+    EXPECT_TRUE(std::isnan(both.activation[tables().column("risorius.l")]));
+}
+
+TEST(Timeline, ASideMayHearOfEverythingLater) {
+    Json json = Json::parse(
+        R"({"format": "risorius-script", "version": 1, "rig": "rig.json", "duration_s": 4,
+            "channels": {"AU12": {"keys": [[1, 0], [2, 1]]}}})");
+    const auto face = [&] {
+        return Timeline(read_script(JsonCursor::from_json(json, "script.json"), tables().channels,
+                                    tables().facs, tables().expressions),
+                        tables().channels);
+    };
+    const Timeline together = face();
+    json["late_s"] = {{"right", 0.25}};
+    const Timeline apart = face();
+    for (const double t_s : {0.9, 1.1, 1.5, 2.1, 3.0}) {
+        EXPECT_EQ(excitation(apart.at(t_s), "zygomaticus_major.l"),
+                  excitation(together.at(t_s), "zygomaticus_major.l"));
+        EXPECT_EQ(excitation(apart.at(t_s), "zygomaticus_major.r"),
+                  excitation(together.at(t_s - 0.25), "zygomaticus_major.r"));
+    }
+}
+
 TEST(Timeline, GivesTheSameBitsEveryTimeAndInAnyOrder) {
     const Timeline a = timeline(R"({"AU12": {"keys": [[0, 0], [0.4, 0.8], [3, 0]]}})", kSmile);
     const Timeline b = timeline(R"({"AU12": {"keys": [[0, 0], [0.4, 0.8], [3, 0]]}})", kSmile);

@@ -1,0 +1,48 @@
+// All clips of a design, made in one go or in several: what is there already and has not changed is kept, what fails does not
+// stop the others. Beside the clips come what a laboratory needs of the set: see stimulus_set.h.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/clip.h"
+#include "app/watch.h"
+#include "core/json_cursor.h"
+
+namespace risorius::app {
+
+struct BatchOptions {
+    std::filesystem::path design, out;
+    int workers = 2;  ///< clips made at once
+    int part = 1,
+        parts = 1;  ///< of several machines: which share of the clips is made here, from 1
+    /// Of each clip as it is kept, made or failed; `why` is empty unless it failed. From several threads, one at a time.
+    std::function<void(const std::string& clip, const std::string& state, const std::string& why)>
+        told;
+};
+
+struct BatchPlan {
+    std::string name;
+    std::vector<ClipPlan> clips;
+    double seconds() const;  ///< to make all of them, about, on two cores
+    double megabytes() const;
+};
+
+/// Reads, crosses and checks the whole design; renders nothing. Throws Error.
+BatchPlan plan_batch(const std::filesystem::path& design);
+
+struct BatchReport {
+    std::string name;
+    int made = 0, kept = 0, elsewhere = 0;                    ///< of another part
+    std::vector<std::pair<std::string, std::string>> failed;  ///< clip and why
+    bool complete = false;  ///< all clips are there, and the set's files
+    double seconds = 0;
+    Json json() const;
+};
+
+/// Throws Error before anything is made when the design or the folder is wrong; Interrupted when asked to stop.
+BatchReport make_batch(const BatchOptions& options, const Watch& watch = {});
+
+}  // namespace risorius::app

@@ -1,0 +1,64 @@
+// One clip of a stimulus set: filmed, shown as its control wants it, and written with its ground truth.
+//
+//   stimuli/stim-NAME_video.mp4                  the pictures
+//   stimuli/stim-NAME_annot-frames_events.tsv    a row per frame as it is shown: onset and duration in s, source_frame, and what
+//                                                frame_table.h lists
+//   stimuli/stim-NAME_video.json                 how it was made; there when, and only when, the clip is complete
+//   overview/NAME.png                            five of its frames side by side
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/animate.h"
+#include "app/studio.h"
+#include "core/json_cursor.h"
+#include "stimuli/conditions.h"
+#include "stimuli/design.h"
+
+namespace risorius::app {
+
+/// What is to be made, planned and checked.
+struct ClipPlan {
+    stimuli::Condition condition;
+    stimuli::ClipOptions clips;
+    int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    std::string
+        content_sha256;        ///< of all that the clip hangs on; the same content, the same bytes
+    double seconds() const;    ///< to make it, about, on two cores
+    double megabytes() const;  ///< about
+};
+
+/// Files of a rig are read once for many clips of it.
+class RigDigests {
+  public:
+    struct Known {
+        RigFiles files;
+        std::string sha256;  ///< of rig, mesh and tables
+    };
+    const Known& at(const std::filesystem::path& rig);
+
+  private:
+    std::map<std::filesystem::path, Known> known_;
+};
+
+/// Checks the script against its rig. Throws Error naming the condition.
+ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptions& clips,
+                   RigDigests& rigs);
+
+/// Whether `folder` holds this very clip, whole.
+bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
+
+/// The names of a clip's files below `folder`, the sidecar last.
+std::vector<std::filesystem::path> clip_files(const ClipPlan& plan);
+
+/// Throws Error, RunError, Interrupted; then nothing new has a final name but files that the next try replaces.
+void make_clip(const ClipPlan& plan, const std::filesystem::path& folder, int threads,
+               const Watch& watch, Studio& studio);
+
+/// The sidecar of a clip that is made.
+Json clip_record(const ClipPlan& plan, const std::filesystem::path& folder);
+
+}  // namespace risorius::app

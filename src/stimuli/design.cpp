@@ -1,0 +1,163 @@
+#include "stimuli/design.h"
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/error.h"
+#include "core/existing_file.h"
+#include "stimuli/conditions.h"
+#include "stimuli/table.h"
+
+namespace risorius::stimuli {
+
+namespace {
+
+std::vector<Given> read_values(const JsonCursor& json) {
+    std::vector<Given> out;
+    for (const std::string& name : json.keys()) {
+        if (!is_parameter_name(name))
+            json.at(name).fail("a name of letters, digits and _, a letter first",
+                               risorius::quoted(name));
+        out.push_back({name, json.at(name)});
+    }
+    return out;
+}
+
+/// Values of their own, as if each were written in the file.
+std::vector<JsonCursor> made_levels(const std::vector<double>& values, const JsonCursor& from) {
+    std::vector<JsonCursor> out;
+    for (const double value : values)
+        out.push_back(JsonCursor::from_json(json_number(value), from.place()));
+    return out;
+}
+
+// The same number for the same design whatever else is drawn: splitmix64 (Steele, Lea & Flood 2014) over seed and name.
+double chance(int seed, const std::string& name, int index) {
+    std::uint64_t x = static_cast<std::uint64_t>(seed);
+    const auto mix = [&](std::uint64_t part) {
+        x += part + 0x9e3779b97f4a7c15;
+        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+        x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+        x ^= x >> 31;
+    };
+    for (const char c : name) mix(static_cast<unsigned char>(c));
+    mix(static_cast<std::uint64_t>(index));
+    return static_cast<double>(x >> 11) * 0x1p-53;
+}
+
+constexpr int kMostLevels = 100000;
+
+Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
+    Factor factor{name, {}};
+    if (json.is_array()) {
+        factor.levels = json.items();
+    } else if (json.is_object() && json.has("draw")) {
+        json.allow_keys({"draw", "count"});
+        const std::vector<JsonCursor> ends = json.at("draw").items();
+        if (ends.size() != 2) json.at("draw").fail("[least, most]");
+        const double least = ends[0].number(), most = ends[1].number();
+        std::vector<double> values;
+        for (int i = 0; i < json.at("count").integer(1, kMostLevels); ++i)
+            values.push_back(least + (most - least) * chance(seed, name, i));
+        factor.levels = made_levels(values, json);
+    } else if (json.is_object()) {
+        json.allow_keys({"from", "to", "steps"});
+        const double from = json.at("from").number(), to = json.at("to").number();
+        const int steps = json.at("steps").integer(2, kMostLevels);
+        std::vector<double> values;
+        for (int i = 0; i < steps; ++i)
+            values.push_back(i + 1 == steps ? to : from + (to - from) * i / (steps - 1));
+        factor.levels = made_levels(values, json);
+    } else {
+        json.fail("a list of values, {\"from\", \"to\", \"steps\"} or {\"draw\", \"count\"}");
+    }
+    if (factor.levels.empty()) json.fail("a value at least", "none");
+    return factor;
+}
+
+std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
+    if (json.is_string()) return read_table(existing_file(json));
+    std::vector<std::vector<Given>> rows;
+    for (const JsonCursor& row : json.items()) rows.push_back(read_values(row));
+    if (rows.empty()) json.fail("a condition at least", "none");
+    return rows;
+}
+
+ConditionSet read_set(const JsonCursor& json, int seed) {
+    json.allow_keys({"name", "script", "parameters", "factors", "conditions", "draw", "overrides",
+                     "clip", "controls"});
+    const JsonCursor script = json.at("script");
+    ConditionSet set{
+        .name = json.at("name").string(),
+        .script = script.is_string() ? JsonCursor::read_file(existing_file(script)) : script,
+        .parameters = {},
+        .factors = {},
+        .rows = {{}},
+        .draw = {},
+        .overrides = {},
+        .clip = json.at("clip").string(),
+        .controls = {},
+        .place = json.place()};
+    if (clip_word(set.name).empty()) json.at("name").fail("a name with letters or digits");
+    if (!set.script.is_object()) script.fail("a script, or the file of one");
+    if (const auto v = json.find("parameters")) set.parameters = read_values(*v);
+    if (const auto v = json.find("factors"))
+        for (const std::string& name : v->keys()) {
+            if (!is_parameter_name(name))
+                v->at(name).fail("a name of letters, digits and _, a letter first",
+                                 risorius::quoted(name));
+            set.factors.push_back(read_factor(v->at(name), name, seed));
+        }
+    if (const auto v = json.find("conditions")) set.rows = read_rows(*v);
+    if (const auto v = json.find("draw"))
+        set.draw = v->integer(1, static_cast<int>(kMostConditions));
+    if (const auto v = json.find("overrides"))
+        for (const JsonCursor& one : v->items()) {
+            one.allow_keys({"when", "set"});
+            set.overrides.push_back({read_values(one.at("when")), read_values(one.at("set"))});
+        }
+    if (const auto v = json.find("controls"))
+        for (const JsonCursor& one : v->items()) set.controls.push_back(read_control(one));
+    return set;
+}
+
+ClipOptions read_clips(const JsonCursor& json) {
+    json.allow_keys({"ending", "quality", "crf", "lossless", "landmarks", "photodiode"});
+    ClipOptions clips;
+    if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
+    if (const auto v = json.find("quality"))
+        clips.quality = v->one_of({"preview", "video", "fine"});
+    if (const auto v = json.find("crf")) clips.crf = v->integer(0, 63);
+    if (const auto v = json.find("lossless")) clips.lossless = v->boolean();
+    if (const auto v = json.find("landmarks")) clips.landmarks = v->boolean();
+    if (const auto v = json.find("photodiode")) clips.photodiode = v->string();
+    return clips;
+}
+
+}  // namespace
+
+Design read_design(const std::filesystem::path& file) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.at("format").one_of({"risorius-design"});
+    const JsonCursor version = json.at("version");
+    if (version.json() != 1) version.fail("1, the version of the format this program reads");
+    json.allow_keys({"format", "version", "name", "seed", "clips", "parameters", "sets"});
+    Design design;
+    design.file = file;
+    design.name = json.at("name").string();
+    if (const auto v = json.find("seed")) design.seed = v->integer(0, 2147483647);
+    if (const auto v = json.find("clips")) design.clips = read_clips(*v);
+    if (const auto v = json.find("parameters")) design.parameters = read_values(*v);
+    std::set<std::string> names;
+    for (const JsonCursor& set : json.at("sets").items()) {
+        design.sets.push_back(read_set(set, design.seed));
+        if (!names.insert(design.sets.back().name).second)
+            set.at("name").fail("every set's name once",
+                                risorius::quoted(design.sets.back().name) + " again");
+    }
+    if (design.sets.empty()) json.at("sets").fail("a set of conditions at least", "none");
+    return design;
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,176 @@
+// Clips of a design: the same bytes however they come about, kept while nothing changes.
+#include "app/batch.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/frame_rows.h"
+#include "media/video_reader.h"
+#include "message_of.h"
+#include "paths.h"
+#include "temporary_folder.h"
+
+namespace risorius::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Batch : public testing::Test {
+  protected:
+    static const TemporaryFolder& folder() {
+        static const TemporaryFolder one;
+        return one;
+    }
+    static fs::path design(const std::string& name, const std::vector<double>& intensities,
+                           const std::string& controls = "[]") {
+        Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Smiles",
+            "clips": {"quality": "preview", "ending": "mkv", "photodiode": "lower_left"},
+            "sets": [{"name": "smiles", "clip": "smile_${intensity}",
+                "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.5,
+                    "events": [{"expression": "happiness", "intensity": "${intensity}",
+                                "start_s": 0.05, "onset_s": 0.3, "hold_s": 0.1, "offset_s": 0.3}],
+                    "view": {"width_px": 48, "height_px": 64, "antialiasing": 1}}}]})");
+        json["sets"][0]["script"]["rig"] = kAdult;
+        json["sets"][0]["factors"]["intensity"] = intensities;
+        json["sets"][0]["controls"] = Json::parse(controls);
+        const fs::path file = folder().path() / name;
+        std::ofstream(file) << json.dump();
+        return file;
+    }
+    static inline const std::string kAdult = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
+};
+
+TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
+    const fs::path file = design("design.json", {0.5, 1}, R"(["reversed", "upside_down"])");
+    std::map<std::string, std::string> told;
+    BatchOptions options{.design = file,
+                         .out = folder().path() / "one",
+                         .workers = 1,
+                         .told = [&](const std::string& clip, const std::string& state,
+                                     const std::string&) { told[clip] = state; }};
+    const BatchReport first = make_batch(options);
+    EXPECT_EQ(first.made, 6);
+    EXPECT_TRUE(first.complete);
+    EXPECT_EQ(told.at("smile0p5Reversed"), "made");
+    const std::string sums = text_of(options.out / "SHA256SUMS");
+    const fs::path video = options.out / "stimuli/stim-smile1_video.mkv";
+    const std::string smile = text_of(video);
+
+    // In two parts, on two threads each
+    BatchOptions parts = options;
+    parts.out = folder().path() / "two";
+    parts.workers = 2;
+    parts.parts = 2;
+    parts.part = 2;
+    const BatchReport half = make_batch(parts);
+    EXPECT_EQ(half.made, 3);
+    EXPECT_EQ(half.elsewhere, 3);
+    EXPECT_FALSE(half.complete);
+    EXPECT_FALSE(fs::exists(parts.out / "SHA256SUMS"));
+    parts.parts = parts.part = parts.workers = 1;
+    EXPECT_EQ(make_batch(parts).made, 3);
+    EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), sums);
+
+    // Kept while it is whole, also for another design: what is common stays, what it does not have goes
+    EXPECT_EQ(make_batch(options).kept, 6);
+    std::ofstream(video, std::ios::app) << "x";
+    options.design = design("design.json", {1, 0.8, 0.5});
+    fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
+    const BatchReport other = make_batch(options);
+    EXPECT_EQ(other.made, 3);
+    EXPECT_EQ(text_of(video), smile);
+    EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile1Reversed_video.mkv"));
+    options.design = design("design.json", {1, 0.8});
+    const BatchReport less = make_batch(options);
+    EXPECT_EQ(less.made, 0);
+    EXPECT_EQ(less.kept, 2);
+    EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile0p5_video.mkv"));
+    EXPECT_TRUE(fs::exists(options.out / "stimuli/stim-smile0p8_video.mkv"));
+
+    // Controls show the same in another order and upside down
+    const auto frames = [](const fs::path& of) {
+        media::VideoReader reader(of);
+        std::vector<Image> out;
+        for (int i = 0; i < reader.frames(); ++i) out.push_back(reader.frame(i));
+        return out;
+    };
+    const std::vector<Image> plain = frames(video),
+                             back = frames(parts.out / "stimuli/stim-smile1Reversed_video.mkv"),
+                             turned = frames(parts.out / "stimuli/stim-smile1UpsideDown_video.mkv");
+    ASSERT_EQ(plain.size(), 5u);
+    ASSERT_EQ(back.size(), 5u);
+    // Above the photodiode's square
+    const auto same = [](const Image& a, const Image& b) {
+        return std::equal(a.rgba.begin(), a.rgba.begin() + 4 * 48 * 56, b.rgba.begin());
+    };
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_TRUE(same(plain[i], back[4 - i])) << i;
+        for (const int y : {10, 30, 50})
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(plain[i].pixel(20, y)[k], turned[i].pixel(27, 63 - y)[k]);
+    }
+    EXPECT_FALSE(same(plain[0], plain[4]));
+    const FrameRows rows =
+        frame_rows(text_of(parts.out / "stimuli/stim-smile1Reversed_annot-frames_events.tsv"));
+    ASSERT_EQ(rows.rows(), 5);
+    EXPECT_EQ(rows.number(0, rows.column("source_frame")), 4);
+    EXPECT_EQ(rows.number(1, rows.column("onset")), 0.1);
+}
+
+TEST_F(Batch, RefusesBeforeAnythingIsMade) {
+    const auto complaint = [](const fs::path& file, const fs::path& out) {
+        return message_of([&] { make_batch({.design = file, .out = out, .workers = 1}); });
+    };
+    const fs::path out = folder().path() / "never";
+    Json json = Json::parse(text_of(design("bad.json", {0.5, 1})));
+    const auto with = [&](const char* place, const Json& value) {
+        Json bad = json;
+        bad[Json::json_pointer(place)] = value;
+        std::ofstream(folder().path() / "bad.json") << bad.dump();
+        return complaint(folder().path() / "bad.json", out);
+    };
+    const std::string folder_of = folder().path().string();
+    EXPECT_EQ(
+        with("/sets/0/script/events/0/expression", "hapiness").substr(0, folder_of.size() + 16),
+        folder_of + "/clip smile0p5:/");
+    EXPECT_NE(with("/sets/0/script/events/0/expression", "hapiness").find("\"happiness\""),
+              std::string::npos);
+    EXPECT_NE(with("/sets/0/script/duration_s", "= 0 - 1").find("expected (0, 3600]"),
+              std::string::npos);
+    EXPECT_NE(with("/clips/photodiode", "middle").find("clips/photodiode: expected"),
+              std::string::npos);
+    EXPECT_NE(with("/sets/0/script/fps", 0).find("/fps: expected"), std::string::npos);
+    EXPECT_FALSE(fs::exists(out));
+    // A folder of somebody else
+    fs::create_directory(folder().path() / "mine");
+    std::ofstream(folder().path() / "mine/notes.txt") << "do not touch";
+    EXPECT_NE(complaint(design("good.json", {0.5}), folder().path() / "mine")
+                  .find("expected an empty folder, or one that `batch` has begun"),
+              std::string::npos);
+}
+
+TEST(Moments, AreOfTheLandmarkThatGoesFarthest) {
+    const FrameRows rows = frame_rows(
+        "frame\ttime_s\tpg.x_mm\tpg.y_mm\tpg.z_mm\tpg.u_px\n0\t0\t1\t2\t3\t9\n1\t0.1\t1\t2."
+        "1\t3\t8\n"
+        "2\t0.2\t1\t5\t7\t7\n3\t0.3\t1\t2\t4\t6\n");
+    const std::vector<double> ways = landmark_ways(rows);
+    ASSERT_EQ(ways.size(), 4u);
+    EXPECT_NEAR(ways[2], 5e-3, 1e-12);
+    const app::Moments moments = moments_of(ways);
+    EXPECT_EQ(moments.onset, 2);
+    EXPECT_EQ(moments.apex, 2);
+    EXPECT_EQ(moments_of({0, 0}).onset, 0);
+}
+
+}  // namespace
+}  // namespace risorius::app

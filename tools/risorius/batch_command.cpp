@@ -1,0 +1,135 @@
+// risorius batch DESIGN -o DIR
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/batch.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct BatchArguments {
+    Common common;
+    app::BatchOptions options;
+    std::string part;
+    bool plan = false, list = false;
+};
+
+std::string time_text(double seconds) {
+    char text[48];
+    if (seconds < 120)
+        std::snprintf(text, sizeof text, "%.0f s", seconds);
+    else if (seconds < 7200)
+        std::snprintf(text, sizeof text, "%.0f min", seconds / 60);
+    else
+        std::snprintf(text, sizeof text, "%.1f h", seconds / 3600);
+    return text;
+}
+
+void tell_plan(const BatchArguments& arguments) {
+    const app::BatchPlan plan = app::plan_batch(arguments.options.design);
+    long frames = 0;
+    for (const app::ClipPlan& clip : plan.clips) frames += clip.frames;
+    if (arguments.list) {
+        for (const app::ClipPlan& clip : plan.clips)
+            std::printf("%s\n", clip.condition.clip.c_str());
+    } else if (arguments.common.json) {
+        Json clips = Json::array();
+        for (const app::ClipPlan& clip : plan.clips)
+            clips.push_back({{"stim_id", clip.condition.clip},
+                             {"set", clip.condition.set},
+                             {"control", clip.condition.control.name()},
+                             {"frames", clip.frames},
+                             {"fps", clip.fps}});
+        std::printf("%s\n", Json{{"name", plan.name},
+                                 {"clips", clips},
+                                 {"frames", frames},
+                                 {"seconds_about", plan.seconds()},
+                                 {"megabytes_about", plan.megabytes()}}
+                                .dump(2)
+                                .c_str());
+    } else {
+        std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.0f MB\n",
+                    plan.name.c_str(), plan.clips.size(), frames, time_text(plan.seconds()).c_str(),
+                    plan.megabytes());
+    }
+}
+
+// "2/8"
+void read_part(const std::string& text, app::BatchOptions& options) {
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%6d/%6d%c", &options.part, &options.parts, &rest) != 2 ||
+        options.parts < 1 || options.part < 1 || options.part > options.parts)
+        throw Error("--part", "which of how many, as 2/8", "\"" + text + "\"");
+}
+
+void run(BatchArguments& arguments) {
+    app::BatchOptions& options = arguments.options;
+    if (arguments.plan || arguments.list) return tell_plan(arguments);
+    if (options.out.empty()) throw Error("--out", "the folder of the set", "none");
+    if (options.workers < 1 || options.workers > 256)
+        throw Error("--workers", "clips made at once, 1 to 256", std::to_string(options.workers));
+    if (!arguments.part.empty()) read_part(arguments.part, options);
+    if (arguments.common.json)
+        options.told = [](const std::string& clip, const std::string& state,
+                          const std::string& why) {
+            Json event{{"event", state}, {"stim_id", clip}};
+            if (!why.empty()) event["why"] = why;
+            std::printf("%s\n", event.dump().c_str());
+            std::fflush(stdout);
+        };
+    app::BatchReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::make_batch(options, bar.watch());
+    }
+    if (arguments.common.json) {
+        std::printf("%s\n", report.json().dump().c_str());
+    } else if (!arguments.common.quiet) {
+        std::printf("%s: %d clips made, %d kept, %zu failed, %s\n", options.out.string().c_str(),
+                    report.made, report.kept, report.failed.size(),
+                    time_text(report.seconds).c_str());
+        if (report.complete)
+            std::printf("look at %s\n", (options.out / "index.html").string().c_str());
+        else if (report.elsewhere > 0)
+            std::printf(
+                "%d clips belong to other parts; the same command without --part finishes "
+                "the set\n",
+                report.elsewhere);
+    }
+    if (report.failed.empty()) return;
+    for (const auto& [clip, why] : report.failed)
+        std::fprintf(stderr, "failed: %s: %s\n", clip.c_str(), why.c_str());
+    throw RunError(std::to_string(report.failed.size()) + " of the clips could not be made");
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("batch", "All clips of an experiment's design");
+    auto arguments = std::make_shared<BatchArguments>();
+    app::BatchOptions& options = arguments->options;
+    options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    command->add_option("DESIGN", options.design, "The design")->required();
+    command->add_option("-o,--out", options.out,
+                        "Folder of the set. Clips that are in it already and have not changed are "
+                        "kept: a run that was ended goes on where it was");
+    command->add_flag("--plan", arguments->plan,
+                      "Only check the design and say how many clips, how long and how large");
+    command->add_flag("--list", arguments->list, "Only the names of the clips, a line each");
+    command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
+    command->add_option(
+        "--part", arguments->part,
+        "On several machines with one file system: which share of the clips to make "
+        "here, as 2/8; run it without --part at the end");
+    add_common(*command, arguments->common);
+    command->footer(
+        "Example:\n  risorius batch samples/stimuli/design.json --plan\n"
+        "  risorius batch samples/stimuli/design.json -o out/stimuli");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
