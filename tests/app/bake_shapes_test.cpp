@@ -10,6 +10,7 @@
 
 #include "app/evaluate.h"
 #include "app/shape_player.h"
+#include "app/shot.h"
 #include "app/solve_activations.h"
 #include "core/error.h"
 #include "io/morph_model.h"
@@ -223,6 +224,14 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     rig::Head moved = face.head();
     moved.vertices.col(1).array() += 1e-3;
     EXPECT_THROW(read_shapes_of_file(file, files, moved), Error);
+    // What no blend shape can show is refused before anything is built
+    AnimateOptions options;
+    options.script = fs::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json";
+    options.out = folder().path() / "linear.mp4";
+    options.shapes = file;
+    EXPECT_NO_THROW(plan_shot(options));
+    options.show = "muscles";
+    EXPECT_THROW(plan_shot(options), Error);
 }
 
 TEST_F(BakedShapes, AreSolvedBackToWhatMadeThem) {
