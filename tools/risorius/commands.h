@@ -19,6 +19,7 @@ void add_evaluate(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_shapes(CLI::App& app);
+void add_solve(CLI::App& app);
 void add_batch(CLI::App& app);
 
 /// The input is wrong, and what is wrong has been said.

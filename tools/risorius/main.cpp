@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
     cli::add_info(app);
     cli::add_evaluate(app);
     cli::add_shapes(app);
+    cli::add_solve(app);
     cli::add_batch(app);
     cli::add_bench(app);
     cli::add_figure(app);
