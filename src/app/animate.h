@@ -31,6 +31,8 @@ struct AnimateOptions {
     std::filesystem::path
         out;  ///< .mp4, .mov, .mkv, .webm, a folder "frames/", or .png for a still
     std::optional<std::filesystem::path> rig;
+    std::optional<std::filesystem::path>
+        shapes;  ///< .glb of `risorius shapes`: they play the script, nothing is simulated
     std::optional<PictureSize> size;
     std::optional<int> fps;
     std::optional<std::string> camera;

@@ -233,10 +233,11 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
                 name, static_cast<long>(std::filesystem::file_size(folder.partial() / name)));
     };
     if (wants(options, "glb")) {
-        write_text(
-            folder.partial() / "shapes.glb",
-            io::glb_bytes(morph_model(files, head, report.shapes, set.name, report.correctives.rig,
-                                      report.animation ? &*report.animation : nullptr)));
+        io::MorphModel model =
+            morph_model(files, head, report.shapes, set.name, report.correctives.rig,
+                        report.animation ? &*report.animation : nullptr);
+        model.whole_numbers = !options.floats;
+        write_text(folder.partial() / "shapes.glb", io::glb_bytes(model));
         keep({"shapes.glb"});
     }
     if (report.animation && set.name == "arkit52" && options.only.empty() &&

@@ -20,6 +20,7 @@ struct ShapesOptions {
     std::vector<std::string> only = {};     ///< names of shapes; empty: the whole set
     std::string quality = "preview";        ///< of the mesh that is simulated
     std::vector<std::string> formats = {};  ///< of shape_formats(); empty: all but "cache"
+    bool floats = false;                    ///< in the .glb, in place of 16-bit whole numbers
     bool pictures = true;
     bool correctives = true;
     CorrectiveOptions corrective = {};

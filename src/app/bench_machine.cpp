@@ -12,6 +12,7 @@
 
 #include "app/animate.h"
 #include "app/bench_pictures.h"
+#include "app/bench_shapes.h"
 #include "app/bench_solids.h"
 #include "app/bench_steps.h"
 #include "app/median.h"
@@ -188,14 +189,18 @@ struct Bench {
     }
 };
 
-Json bench_rig(const fs::path& rig_file, bool only_steps, bool only_pictures, const Watch& watch) {
+Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watch& watch) {
     RigFiles files = read_rig_files(rig_file);
     const ScratchFolder scratch;
-    if (only_steps)
+    if (options.only_steps)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
                 {"steps", bench_steps(files, usual_step_benches(), watch)}};
-    if (only_pictures)
+    if (options.only_shapes)
+        return {{"rig", rig_file.generic_string()},
+                {"name", files.rig.name},
+                {"blend_shapes", bench_shapes(files, watch)}};
+    if (options.only_pictures)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
                 {"pictures", bench_pictures(files, scratch.path(), watch)},
@@ -216,6 +221,7 @@ Json bench_rig(const fs::path& rig_file, bool only_steps, bool only_pictures, co
     out["fine_volume_muscles"] = bench.compare_solids();
     out["steps"] = bench_steps(bench.files, usual_step_benches(), watch);
     out["pictures"] = bench_pictures(bench.files, scratch.path(), watch);
+    out["blend_shapes"] = bench_shapes(bench.files, watch);
     out["whole_way"] = bench.whole_way(scratch);
     out["peak_memory_mb"] = peak_memory_mb();
     return out;
@@ -282,10 +288,10 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
                 watch.progress((static_cast<double>(i) + share) / parts,
                                rigs[i].string() + ", " + what);
             };
-        out["rigs"].push_back(bench_rig(rigs[i], options.only_steps, options.only_pictures, one));
+        out["rigs"].push_back(bench_rig(rigs[i], options, one));
     }
     out["solids"] = Json::array();
-    if (options.only_steps || options.only_pictures) return out;
+    if (options.only_steps || options.only_pictures || options.only_shapes) return out;
     Watch solids = watch;
     if (watch.progress)
         solids.progress = [&](double share, const std::string& what) {

@@ -18,10 +18,11 @@ struct BenchOptions {
     std::string quality = "preview";  ///< of that
     bool only_steps = false;          ///< of the faces
     bool only_pictures = false;       ///< and pictures (bench_pictures.h)
+    bool only_shapes = false;         ///< and blend shapes (bench_shapes.h)
 };
 
 /// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality,
-/// how far those steps are from converged ones (bench_steps.h), frames per second of pictures (bench_pictures.h), and the whole way from script to video against real time. Every rig plays the same four seconds.
+/// how far those steps are from converged ones (bench_steps.h), frames per second of pictures (bench_pictures.h), what a frame of blend shapes costs (bench_shapes.h), and the whole way from script to video against real time. Every rig plays the same four seconds.
 Json bench_machine(const BenchOptions& options, const Watch& watch = {});
 
 }  // namespace risorius::app

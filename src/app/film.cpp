@@ -11,6 +11,8 @@
 #include "app/reference_run.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
+#include "app/script_drives.h"
+#include "app/shape_player.h"
 #include "app/sight.h"
 #include "app/stopwatch.h"
 #include "app/three_stages.h"
@@ -54,6 +56,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
         record.recordings.push_back({recording, media::sha256_of_file(recording)});
     record.rig = {files.file, media::sha256_of_file(files.file)};
     record.mesh = {files.rig.mesh_file, media::sha256_of_file(files.rig.mesh_file)};
+    if (options.shapes) record.shapes = {*options.shapes, media::sha256_of_file(*options.shapes)};
     for (const fs::path& table : files.rig.table_files)
         record.tables.push_back({table, media::sha256_of_file(table)});
     record.out = options.out;
@@ -126,6 +129,10 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     face.move(script.header.motion == track::Motion::kDynamic ? sim::Motion::kDynamic
                                                               : sim::Motion::kQuasiStatic);
     const track::Timeline timeline(script, channels);
+    std::optional<ShapePlayer> shapes;
+    ScriptDrives script_drives(script, files.rig);
+    if (options.shapes)
+        shapes.emplace(read_shapes_of_file(*options.shapes, files, face.head()), face, channels);
     const bool inside = shot.view.show == render::Show::kMuscles;
     const int workers =
         options.threads > 1 ? std::min({options.threads, kMostViews, shot.frames}) : 0;
@@ -170,21 +177,23 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         const double t_s = shot.still_time
                                ? shot.first_s
                                : std::max(0.0, shot.time_s(frame) + offset / shot.script.fps);
-        if (frame == 0 && moment == 0) face.start(drive);
-        while (script.header.motion == track::Motion::kDynamic &&
+        if (frame == 0 && moment == 0 && !shapes) face.start(drive);
+        while (!shapes && script.header.motion == track::Motion::kDynamic &&
                face.time_s() + 2 * face.step_s() < t_s) {  // what leads up to a still
             watch.tell(face.time_s() / t_s, "simulating");
             face.step(drive);
         }
-        sim::FacePose pose = face.pose_at(t_s, drive);
+        std::optional<track::Drive> played;
+        if (shapes) played = script_drives.at(t_s);
+        sim::FacePose pose = shapes ? shapes->pose(*played) : face.pose_at(t_s, drive);
         const double angle_rad =
             options.turntable_s ? 2 * std::numbers::pi * (frame + offset) / shot.frames : 0.0;
         if (options.turntable_s) pose = turned(std::move(pose), angle_rad);
-        const Eigen::VectorXd activation = face.activation_at(t_s);
+        const Eigen::VectorXd activation = shapes ? played->excitation : face.activation_at(t_s);
         if (moment == shot.moments() / 2) table.add(frame, t_s, driven(t_s), activation, pose);
         record.widest_jaw_mm = std::max(record.widest_jaw_mm, 1e3 * pose.jaw.open_m);
         record.greatest_bite_n = std::max(record.greatest_bite_n, pose.tooth_force_n);
-        most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
+        if (!shapes) most_inverted_tets = std::max(most_inverted_tets, face.inverted_tets());
         render::Pose seen = pose_for_view(pose);
         if (inside) {
             Points muscles = face.muscle_vertices_at(t_s);

@@ -100,7 +100,7 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
                              const track::Drive& begin, const ActivationFitOptions& options) {
     const Weighting weighted(area);
     const Eigen::VectorXd goal = weighted(measured);
-    const double size = goal.squaredNorm();
+    const double size = options.size > 0 ? options.size : goal.squaredNorm();
     const Points& rest = face.head().vertices;
     const long count = static_cast<long>(unknowns.size());
 
@@ -115,7 +115,8 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
     };
     const auto cost = [&](const Eigen::VectorXd& miss, const Eigen::VectorXd& at) {
         return 0.5 * miss.squaredNorm() / size + options.price * at.lpNorm<1>() +
-               0.5 * options.ridge * at.squaredNorm();
+               0.5 * options.ridge * at.squaredNorm() +
+               (options.keep > 0 ? 0.5 * options.keep * (at - options.near).squaredNorm() : 0.0);
     };
     Eigen::VectorXd miss = settled_miss(x);
     double least = cost(miss, x);
@@ -139,9 +140,10 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
         }
         solve::BoxQuadratic problem;
         problem.A = J.transpose() * J / size;
-        problem.A.diagonal().array() += options.ridge;
+        problem.A.diagonal().array() += options.ridge + options.keep;
         // About x: the unknown is where it goes, so that the price counts from 0
         problem.b = J.transpose() * (miss - J * x) / size;
+        if (options.keep > 0) problem.b -= options.keep * options.near;
         problem.price = Eigen::VectorXd::Constant(count, options.price);
         bool better = false;
         while (!better && longest > 0.01) {
@@ -165,7 +167,7 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
             x = next;
             miss = next_miss;
             least = next_cost;
-            if (gain < 1e-3) longest = 0;
+            if (gain < options.least_gain) longest = 0;
         }
     }
     settled_miss(x);

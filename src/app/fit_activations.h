@@ -1,6 +1,7 @@
 // Searches the activations that bring a face nearest to a measured expression: bounded, with a price on every muscle used.
 //
-//   minimise  1/2 |u(a) - g|_w^2 / |g|_w^2 + price sum |a_i| + ridge/2 sum a_i^2,   0 <= a_i <= 1 (or the muscle's range)
+//   minimise  1/2 |u(a) - g|_w^2 / |g|_w^2 + price sum |a_i| + ridge/2 sum a_i^2 + keep/2 sum (a_i - near_i)^2,
+//             0 <= a_i <= 1 (or the muscle's range)
 //
 // by Gauss-Newton over settled poses. Left and right are tied where the measured shape has both.
 #pragma once
@@ -20,6 +21,10 @@ struct ActivationFitOptions {
     double price = 2e-3;  ///< an activation of 1 has to earn .4 % of |g|^2
     double ridge = 2e-3;
     double longest_step = 0.4;  ///< of an unknown in one round, at first
+    double least_gain = 1e-3;   ///< of a round, ratio of what is minimised, or it is the last
+    double size = 0;            ///< in place of |g|_w^2, m^4; 0: that itself
+    double keep = 0;            ///< what being off `near` costs: keep/2 sum (a_i - near_i)^2
+    Eigen::VectorXd near = {};  ///< as many as unknowns, needed with keep
 };
 
 /// Unknowns of the search: what moves together, and how far it goes.

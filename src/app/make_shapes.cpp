@@ -133,6 +133,7 @@ class Maker {
         keep_upright(plan, poses, watch);
         MadeShapes out;
         out.mirrored = mirror_.has_value();
+        const std::vector<std::optional<double>> as_solved = mirror_poses(plan, poses);
         std::vector<Points> fields;
         std::vector<const SolvedPose*> solved;
         for (std::size_t i = 0; i < set_.goals.size(); ++i) {
@@ -147,6 +148,7 @@ class Maker {
                 fields.back() =
                     (fields.back() - poses[plan.under[i][chosen]].moved) / made.solved_at;
             made.eye_rotation = solved.back()->eye_rotation;
+            made.certificate.asymmetry_as_solved_m = as_solved[plan.own[i][chosen]];
         }
         // Each pair of halves becomes one of its whole
         for (std::size_t i = 0; i < set_.goals.size(); ++i)
@@ -192,6 +194,37 @@ class Maker {
         for (std::size_t k = 0; k < leaning.size(); ++k)
             if (again[k].figures.converged && lean(again[k]) < lean(poses[leaning[k]]))
                 poses[leaning[k]] = std::move(again[k]);
+    }
+
+    // Poses that are mirror images by what drives them become so to the bit: each the mean of itself and of the other's mirror image.
+    // Between two ways to buckle lies the pose that does not. Tells how far each was from being one.
+    std::vector<std::optional<double>> mirror_poses(const Plan& plan,
+                                                    std::vector<SolvedPose>& poses) const {
+        std::vector<std::optional<double>> out(poses.size());
+        if (!mirror_) return out;
+        const auto mirror = [&](std::size_t a, std::size_t b) {
+            if (!are_mirrored(plan.drives[a], plan.drives[b], channels_)) return;
+            out[a] = out[b] = shapes::asymmetry_m(*mirror_, poses[a].moved, poses[b].moved);
+            poses[a].moved =
+                shapes::mean_with_mirror_image(*mirror_, poses[a].moved, poses[b].moved);
+            if (b != a)
+                poses[b].moved =
+                    shapes::with_mirror_image(*mirror_, poses[b].moved, poses[a].moved);
+        };
+        for (std::size_t i = 0; i < set_.goals.size(); ++i) {
+            const ShapeGoal& goal = set_.goals[i];
+            if (goal.partner < 0)
+                for (std::size_t k = 0; k < plan.own[i].size(); ++k) {
+                    mirror(plan.own[i][k], plan.own[i][k]);
+                    if (goal.on_top_of >= 0) mirror(plan.under[i][k], plan.under[i][k]);
+                }
+            else if (goal.left)
+                mirror(plan.own[i][0], plan.own[static_cast<std::size_t>(goal.partner)][0]);
+            if (plan.whole[i] >= 0)
+                mirror(static_cast<std::size_t>(plan.whole[i]),
+                       static_cast<std::size_t>(plan.whole[i]));
+        }
+        return out;
     }
 
     double lip_gap_m(const Points& moved) const {

@@ -42,6 +42,7 @@ Json RunRecord::json() const {
     json["script"] = file(script);
     json["rig"] = file(rig);
     json["mesh"] = file(mesh);
+    if (shapes) json["shapes"] = file(*shapes);
     json["tables"] = Json::array();
     for (const File& table : tables) json["tables"].push_back(file(table));
     json["recordings"] = Json::array();

@@ -36,6 +36,7 @@ struct RunRecord {
         std::string sha256;
     };
     File script, rig, mesh;
+    std::optional<File> shapes;    ///< that have played the script in place of the simulation
     std::vector<File> tables;      ///< files that the rig names
     std::vector<File> recordings;  ///< and that the script does
     std::filesystem::path out;

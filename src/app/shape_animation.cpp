@@ -3,11 +3,10 @@
 #include <cctype>
 #include <cstdio>
 
+#include "app/script_drives.h"
 #include "core/error.h"
-#include "muscle/activation.h"
 #include "track/arkit_names.h"
 #include "track/script.h"
-#include "track/timeline.h"
 
 namespace risorius::app {
 
@@ -31,34 +30,17 @@ std::string timecode(long frame, int fps) {
 
 ShapeAnimation bake_script(const std::filesystem::path& script_file, const RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights) {
-    const track::ChannelTable channels = files.rig.channels();
-    const track::ScriptDescription script =
-        track::read_script(script_file, channels, files.rig.facs, files.rig.expressions);
-    const track::Timeline timeline(script, channels);
-    muscle::ActivationDynamics dynamics(
-        files.rig.muscles.activation_s(), files.rig.muscles.deactivation_s(),
-        {files.rig.activation.law == "smooth" ? muscle::ActivationLaw::Form::kSmooth
-                                              : muscle::ActivationLaw::Form::kThelen2003,
-         files.rig.activation.steepness});
+    const track::ScriptDescription script = track::read_script(
+        script_file, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    ScriptDrives drives(script, files.rig);
     ShapeAnimation out;
     out.name = script_file.stem().string();
     out.fps = script.header.fps;
     for (const ShapeGoal& goal : goals) out.shapes.push_back(goal.name);
     const int frames = script.header.frame_count();
     out.weights.resize(frames, static_cast<long>(goals.size()));
-    Eigen::VectorXd excitation;
-    dynamics.set_activation(timeline.at(0).excitation);
     for (int f = 0; f < frames; ++f) {
-        const double t = static_cast<double>(f) / out.fps;
-        track::Drive drive = timeline.at(t);
-        if (f > 0)
-            dynamics.advance(
-                [&](double time) -> const Eigen::VectorXd& {
-                    excitation = timeline.at(time).excitation;
-                    return excitation;
-                },
-                drive.activation, static_cast<double>(f - 1) / out.fps, t);
-        drive.excitation = dynamics.activation();
+        track::Drive drive = drives.at(static_cast<double>(f) / out.fps);
         out.weights.row(f) = weights.of(drive).transpose();
         out.drives.push_back(std::move(drive));
     }

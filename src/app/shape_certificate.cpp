@@ -36,6 +36,7 @@ Json ShapeCertificate::json() const {
             {"lid_gap_mm", mm(lid_gap_m)},
             {"lip_gap_mm", mm(lip_gap_m)},
             {"asymmetry_mm", mm(asymmetry_m)},
+            {"asymmetry_as_solved_mm", mm(asymmetry_as_solved_m)},
             {"largest_stretch", stretch.greatest},
             {"stretch_of_99_percent", stretch.greatest_of_99},
             {"least_stretch", stretch.least},

@@ -27,8 +27,10 @@ struct ShapeCertificate {
     std::optional<double> lid_gap_m;    ///< of shapes that shut the eye
     std::optional<double> lip_gap_m;    ///< of shapes that shut the mouth over an open jaw
     std::optional<double> asymmetry_m;  ///< of a shape, or of it and its namesake
-    shapes::Stretch stretch;            ///< of the simulated skin
-    double peak_m = 0;                  ///< largest displacement
+    /// The same before both were made mirror images of each other: large where lips have buckled to one side.
+    std::optional<double> asymmetry_as_solved_m;
+    shapes::Stretch stretch;  ///< of the simulated skin
+    double peak_m = 0;        ///< largest displacement
     int moved_vertices = 0;
     bool converged = true;
     int inverted_tets = 0;

@@ -9,7 +9,6 @@ namespace risorius::app {
 
 namespace {
 
-constexpr int kIterations = 400;
 constexpr int kSmallSteps = 6;
 
 track::Drive at_rest(const track::ChannelTable& channels) {
@@ -44,7 +43,7 @@ SolvedPose ShapeSolver::pose(sim::Face& face, const track::Drive& drive, int ste
         face.start([&](double) { return rest; });
         for (int step = 1; step <= so_many; ++step) {
             const track::Drive part = scaled(drive, static_cast<double>(step) / so_many);
-            out.figures = face.settle(part.excitation, part, kIterations);
+            out.figures = face.settle(part.excitation, part);
         }
         out.inverted_tets = face.inverted_tets();
     };

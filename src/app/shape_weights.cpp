@@ -16,7 +16,7 @@ constexpr double kOtherThanSkin =
 }  // namespace
 
 ShapeWeights::ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
-                           const std::vector<ShapeGoal>& goals) {
+                           const std::vector<ShapeGoal>& goals, std::vector<Points>* linear) {
     track::Drive rest;
     rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
     face.start([&](double) { return rest; });
@@ -51,6 +51,11 @@ ShapeWeights::ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
     Eigen::MatrixXd S(count, static_cast<long>(goals.size()));
     for (std::size_t s = 0; s < goals.size(); ++s)
         S.col(static_cast<long>(s)) = vector_of(goals[s].drive);
+    for (long s = 0; linear && s < S.cols(); ++s) {
+        Points& field = linear->emplace_back(Points::Zero(weight.size(), 3));
+        for (long c = 0; c < count; ++c)
+            if (S(c, s) != 0) field += S(c, s) * ways[static_cast<std::size_t>(c)];
+    }
     by_drive_ = S.transpose() * G;
     problem_.A = by_drive_ * S;
     const double scale = problem_.A.diagonal().maxCoeff();
@@ -72,7 +77,7 @@ Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
     solve::BoxQuadratic problem = problem_;
     problem.b = -by_drive_ * vector_of(drive);
     Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.least.size());
-    solve::minimise(problem, out, 1e-7);
+    solve::minimise(problem, out, 1e-5);
     return out;
 }
 

@@ -14,9 +14,10 @@ namespace risorius::app {
 
 class ShapeWeights {
   public:
-    /// Leaves `face` at rest. The goals' drives must be of its rig.
+    /// Leaves `face` at rest. The goals' drives must be of its rig. `linear`, when given, gets what each goal's drive would do
+    /// if the face answered to it in a straight line from rest, V x 3, m.
     ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
-                 const std::vector<ShapeGoal>& goals);
+                 const std::vector<ShapeGoal>& goals, std::vector<Points>* linear = nullptr);
 
     /// One per goal. The head's own motion is no part of it.
     Eigen::VectorXd of(const track::Drive& drive) const;

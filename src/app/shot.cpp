@@ -98,7 +98,7 @@ void check_marks(const SyncMarks& marks, const Shot& shot) {
 }  // namespace
 
 std::string quality_of(const AnimateOptions& options) {
-    return options.quality.value_or(options.draft ? "preview" : "video");
+    return options.quality.value_or(options.draft || options.shapes ? "preview" : "video");
 }
 
 Shot plan_shot(const AnimateOptions& options) {
@@ -165,6 +165,15 @@ Shot plan_shot(const AnimateOptions& options) {
                         "--show " + options.show.value_or(asked.show));
         if (!(*options.scale > 0 && *options.scale <= 1000))
             throw Error("--scale", "a number in (0, 1000]", format_number(*options.scale));
+    }
+    if (options.shapes) {
+        if (shot.view.show == render::Show::kMuscles)
+            throw Error("--shapes", "a sight of the skin, as blend shapes move no muscles",
+                        "--show muscles");
+        if (shot.script.jaw == track::JawDrive::kMuscles)
+            throw Error(options.script.string() + ":/jaw",
+                        "\"channels\" with --shapes, which open the jaw as channels say",
+                        "\"muscles\"");
     }
     check_marks(options.marks, shot);
     for (const std::string& pass : options.passes) {

@@ -43,28 +43,35 @@ class Unpacker {
     /// One row per element.
     Eigen::MatrixXf floats(int index, int width) const {
         const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
-        if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        const bool whole = accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+        if ((accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !whole) ||
+            accessor.normalized ||
             tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)) != width)
-            fail("accessor " + std::to_string(index) + " of " + std::to_string(width) + " floats",
+            fail("accessor " + std::to_string(index) + " of " + std::to_string(width) +
+                     " floats, or whole numbers of 16 bits",
                  "another kind");
+        const auto number = [&](int view, std::size_t offset, std::size_t i) {
+            return whole ? static_cast<float>(read<short>(view, offset, i))
+                         : read<float>(view, offset, i);
+        };
         Eigen::MatrixXf out = Eigen::MatrixXf::Zero(static_cast<long>(accessor.count), width);
         if (accessor.bufferView >= 0)
             for (std::size_t i = 0; i < accessor.count; ++i)
                 for (int k = 0; k < width; ++k)
-                    out(static_cast<long>(i), k) = read<float>(
-                        accessor.bufferView, accessor.byteOffset,
-                        i * static_cast<std::size_t>(width) + static_cast<std::size_t>(k));
+                    out(static_cast<long>(i), k) =
+                        number(accessor.bufferView, accessor.byteOffset,
+                               i * static_cast<std::size_t>(width) + static_cast<std::size_t>(k));
         if (accessor.sparse.isSparse)
             for (std::size_t i = 0; i < static_cast<std::size_t>(accessor.sparse.count); ++i) {
-                const std::size_t row =
-                    whole(accessor.sparse.indices.componentType, accessor.sparse.indices.bufferView,
-                          static_cast<std::size_t>(accessor.sparse.indices.byteOffset), i);
+                const std::size_t row = index_at(
+                    accessor.sparse.indices.componentType, accessor.sparse.indices.bufferView,
+                    static_cast<std::size_t>(accessor.sparse.indices.byteOffset), i);
                 if (row >= accessor.count) fail("a sparse index within its accessor", "one beyond");
                 for (int k = 0; k < width; ++k)
-                    out(static_cast<long>(row), k) = read<float>(
-                        accessor.sparse.values.bufferView,
-                        static_cast<std::size_t>(accessor.sparse.values.byteOffset),
-                        i * static_cast<std::size_t>(width) + static_cast<std::size_t>(k));
+                    out(static_cast<long>(row), k) =
+                        number(accessor.sparse.values.bufferView,
+                               static_cast<std::size_t>(accessor.sparse.values.byteOffset),
+                               i * static_cast<std::size_t>(width) + static_cast<std::size_t>(k));
             }
         return out;
     }
@@ -73,7 +80,7 @@ class Unpacker {
         std::vector<std::size_t> out;
         for (std::size_t i = 0; i < accessor.count; ++i)
             out.push_back(
-                whole(accessor.componentType, accessor.bufferView, accessor.byteOffset, i));
+                index_at(accessor.componentType, accessor.bufferView, accessor.byteOffset, i));
         return out;
     }
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
@@ -101,7 +108,7 @@ class Unpacker {
         std::memcpy(&value, buffer.data.data() + from, sizeof(T));
         return value;
     }
-    std::size_t whole(int type, int view, std::size_t offset, std::size_t i) const {
+    std::size_t index_at(int type, int view, std::size_t offset, std::size_t i) const {
         switch (type) {
             case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
                 return read<unsigned char>(view, offset, i);
@@ -139,6 +146,14 @@ MorphModel read_glb(const std::filesystem::path& file) {
         from.fail("one mesh with blend shapes, as risorius shapes writes it",
                   std::to_string(model.meshes.size()) + " meshes");
     const tinygltf::Mesh& mesh = model.meshes[0];
+    // Of the one node that shows it; the same along every axis
+    double unit_m = 1;
+    for (const tinygltf::Node& node : model.nodes)
+        if (node.mesh == 0 && node.scale.size() == 3) {
+            unit_m = node.scale[0];
+            if (!(unit_m > 0) || node.scale[1] != unit_m || node.scale[2] != unit_m)
+                from.fail("a node with one scale along all axes", "another");
+        }
 
     MorphModel out;
     out.name = mesh.name;
@@ -172,7 +187,8 @@ MorphModel read_glb(const std::filesystem::path& file) {
             out.vertices.bottomRows(most - before).setZero();
         }
         const auto vertex = [&](long i) { return static_cast<int>(numbers(i, 0)); };
-        for (long i = 0; i < at.rows(); ++i) out.vertices.row(vertex(i)) = at.row(i).cast<double>();
+        for (long i = 0; i < at.rows(); ++i)
+            out.vertices.row(vertex(i)) = unit_m * at.row(i).cast<double>();
         MorphPart part;
         if (primitive.material >= 0)
             part.name = from.at(model.materials, primitive.material, "material").name;
@@ -191,7 +207,7 @@ MorphModel read_glb(const std::filesystem::path& file) {
             const Eigen::MatrixXf delta = from.floats(moved->second, 3);
             for (long i = 0; i < std::min(delta.rows(), at.rows()); ++i)
                 if (!delta.row(i).isZero(0.0f))
-                    deltas[t][vertex(i)] = delta.row(i).transpose().cast<double>();
+                    deltas[t][vertex(i)] = unit_m * delta.row(i).transpose().cast<double>();
         }
     }
     for (std::size_t t = 0; t < deltas.size(); ++t) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.h"
@@ -17,7 +18,8 @@ namespace risorius::io {
 
 namespace {
 
-constexpr double kNoTurn = 7e-3;  // of a normal, at weight 1: less than half a degree is not seen
+constexpr double kNoTurn = 0.02;  // of a normal, at weight 1: little more than a degree is not seen
+constexpr double kMostWhole = 32767;  // of 16 bits
 
 using Floats = std::vector<float>;
 
@@ -89,21 +91,25 @@ class Packer {
             index_view(values, vertices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         return add(accessor);
     }
-    /// Vectors that are zero for all of `count` but the ones listed.
-    int sparse(const std::vector<unsigned>& at, const Floats& values, unsigned count) {
-        Floats all = values;
-        if (at.size() < count) all.insert(all.end(), {0.f, 0.f, 0.f});
+    /// Vectors that are zero for all of `count` but the ones listed. There is always one, as some readers take accessors without
+    /// numbers of their own for none at all.
+    template <typename T>
+    int sparse(std::vector<unsigned> at, std::vector<T> values, unsigned count) {
+        if (at.empty()) {
+            at = {0};
+            values.assign(3, T{0});
+        }
+        std::vector<T> all = values;
+        if (at.size() < count) all.insert(all.end(), 3, T{0});
         tinygltf::Accessor accessor = described(all, TINYGLTF_TYPE_VEC3, true);
         accessor.count = count;
-        if (!at.empty()) {
-            accessor.sparse.isSparse = true;
-            accessor.sparse.count = static_cast<int>(at.size());
-            std::tie(accessor.sparse.indices.bufferView, accessor.sparse.indices.componentType) =
-                index_view(at, count, 0);
-            accessor.sparse.indices.byteOffset = 0;
-            accessor.sparse.values.bufferView = view(values, 0);
-            accessor.sparse.values.byteOffset = 0;
-        }
+        accessor.sparse.isSparse = true;
+        accessor.sparse.count = static_cast<int>(at.size());
+        std::tie(accessor.sparse.indices.bufferView, accessor.sparse.indices.componentType) =
+            index_view(at, count, 0);
+        accessor.sparse.indices.byteOffset = 0;
+        accessor.sparse.values.bufferView = view(values, 0);
+        accessor.sparse.values.byteOffset = 0;
         return add(accessor);
     }
 
@@ -112,11 +118,13 @@ class Packer {
         model_.accessors.push_back(accessor);
         return static_cast<int>(model_.accessors.size()) - 1;
     }
-    static tinygltf::Accessor described(const Floats& values, int type, bool with_range) {
+    template <typename T>
+    static tinygltf::Accessor described(const std::vector<T>& values, int type, bool with_range) {
         const auto width =
             static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
         tinygltf::Accessor accessor;
-        accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+        accessor.componentType = std::is_same_v<T, short> ? TINYGLTF_COMPONENT_TYPE_SHORT
+                                                          : TINYGLTF_COMPONENT_TYPE_FLOAT;
         accessor.type = type;
         accessor.count = values.size() / width;
         if (!with_range) return accessor;
@@ -202,17 +210,43 @@ struct TargetFields {
     }
 };
 
-int add_sparse(Packer& packer, const PartVertices& part, const Points& field) {
-    std::vector<unsigned> at;
-    Floats values;
-    for (unsigned i = 0; i < part.count(); ++i) {
-        const auto row = field.row(part.vertex[i]);
-        if (row.isZero(0.0)) continue;
-        at.push_back(i);
-        for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(row[k]));
+// The morph targets of a part. What of one does not move at all shares one accessor for all targets.
+class PartTargets {
+  public:
+    /// `unit`, m: of the whole numbers that deltas become; 0: they stay floats.
+    PartTargets(Packer& packer, const PartVertices& part, double unit)
+        : packer_(packer), part_(part), unit_(unit) {}
+
+    int positions(const Points& field) {
+        return unit_ > 0 ? add<short>(field, unit_, still_place_)
+                         : add<float>(field, 1, still_place_);
     }
-    return packer.sparse(at, values, part.count());
-}
+    int normals(const Points& field) { return add<float>(field, 1, still_normal_); }
+
+  private:
+    template <typename T>
+    int add(const Points& field, double unit, int& still) {
+        std::vector<unsigned> at;
+        std::vector<T> values;
+        for (unsigned i = 0; i < part_.count(); ++i) {
+            const auto row = field.row(part_.vertex[i]);
+            if (row.isZero(0.0)) continue;
+            at.push_back(i);
+            for (int k = 0; k < 3; ++k)
+                values.push_back(static_cast<T>(
+                    std::is_integral_v<T> ? static_cast<double>(std::lround(row[k] / unit))
+                                          : row[k]));
+        }
+        if (!at.empty()) return packer_.sparse(std::move(at), std::move(values), part_.count());
+        if (still < 0) still = packer_.sparse<T>({}, {}, part_.count());
+        return still;
+    }
+
+    Packer& packer_;
+    const PartVertices& part_;
+    double unit_;
+    int still_place_ = -1, still_normal_ = -1;
+};
 
 tinygltf::Material material_of(const MorphPart& part) {
     tinygltf::Material out;
@@ -256,6 +290,13 @@ std::string glb_bytes(const MorphModel& model) {
     out.asset.version = "2.0";
     out.asset.generator = "Risorius";
     Packer packer(out);
+    double largest = 0;
+    for (const MorphTarget& target : model.targets)
+        if (target.delta.size() > 0)
+            largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
+    // Positions are counted in it too, and the node makes metres of them
+    const double unit = model.whole_numbers ? largest / kMostWhole : 0;
+    if (unit > 0) out.extensionsUsed = out.extensionsRequired = {"KHR_mesh_quantization"};
     const Points normals = vertex_normals(model, model.vertices);
     std::vector<PartVertices> vertices;
     tinygltf::Mesh mesh;
@@ -271,7 +312,8 @@ std::string glb_bytes(const MorphModel& model) {
         const auto vectors = [&](const Points& of, bool with_range) {
             return packer.floats(own.gather(of), TINYGLTF_TYPE_VEC3, with_range, kVertexData);
         };
-        primitive.attributes["POSITION"] = vectors(model.vertices, true);
+        primitive.attributes["POSITION"] =
+            vectors(unit > 0 ? Points(model.vertices / unit) : model.vertices, true);
         primitive.attributes["NORMAL"] = vectors(normals, false);
         primitive.attributes["_VERTEX"] = packer.floats(
             Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR, false, kVertexData);
@@ -291,12 +333,13 @@ std::string glb_bytes(const MorphModel& model) {
                                                       false);
         mesh.primitives.push_back(primitive);
     }
+    std::vector<PartTargets> targets;
+    for (const PartVertices& part : vertices) targets.emplace_back(packer, part, unit);
     for (const MorphTarget& target : model.targets) {
         const TargetFields fields(model, target, normals);
         for (std::size_t p = 0; p < vertices.size(); ++p)
-            mesh.primitives[p].targets.push_back(
-                {{"POSITION", add_sparse(packer, vertices[p], fields.delta)},
-                 {"NORMAL", add_sparse(packer, vertices[p], fields.turn)}});
+            mesh.primitives[p].targets.push_back({{"POSITION", targets[p].positions(fields.delta)},
+                                                  {"NORMAL", targets[p].normals(fields.turn)}});
     }
     mesh.weights.assign(model.targets.size(), 0.0);
     Json extras = model.extras.is_object() ? model.extras : Json::object();
@@ -307,6 +350,7 @@ std::string glb_bytes(const MorphModel& model) {
     tinygltf::Node node;
     node.name = model.name;
     node.mesh = 0;
+    if (unit > 0) node.scale.assign(3, unit);
     out.nodes.push_back(node);
     for (const MorphAnimation& animation : model.animations) add_animation(animation, packer, out);
     tinygltf::Scene scene;

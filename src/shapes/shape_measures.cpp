@@ -65,4 +65,19 @@ double asymmetry_m(const geom::MirrorPairs& mirror, const Points& one, const Poi
     return worst;
 }
 
+Points with_mirror_image(const geom::MirrorPairs& mirror, const Points& field,
+                         const Points& other) {
+    Points out = field;
+    for (std::size_t v = 0; v < mirror.partner.size(); ++v)
+        if (const int partner = mirror.partner[v]; partner >= 0)
+            out.row(static_cast<long>(v)) =
+                mirror.reflect(Vec3(other.row(partner).transpose())).transpose();
+    return out;
+}
+
+Points mean_with_mirror_image(const geom::MirrorPairs& mirror, const Points& field,
+                              const Points& other) {
+    return 0.5 * (field + with_mirror_image(mirror, field, other));
+}
+
 }  // namespace risorius::shapes

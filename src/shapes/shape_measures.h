@@ -24,4 +24,9 @@ std::optional<geom::MirrorPairs> mirror_of(const Triangles& skin, const Points& 
 /// Largest distance, m, of one displacement from the mirror image of the other, at skin vertices.
 double asymmetry_m(const geom::MirrorPairs& mirror, const Points& one, const Points& other);
 
+/// `field` at vertices that have a partner replaced by the mirror image of `other`, or by the mean of itself and that.
+Points with_mirror_image(const geom::MirrorPairs& mirror, const Points& field, const Points& other);
+Points mean_with_mirror_image(const geom::MirrorPairs& mirror, const Points& field,
+                              const Points& other);
+
 }  // namespace risorius::shapes

@@ -35,8 +35,10 @@ SparseShape sparse(const Points& field) {
 }
 
 void fade_out(Points& field, const Fade& fade) {
-    for (long v = 0; v < field.rows(); ++v)
-        field.row(v) *= smooth_rise(field.row(v).norm(), fade.none_m, fade.all_m);
+    for (long v = 0; v < field.rows(); ++v) {
+        const double size = field.row(v).norm(), share = smooth_rise(size, fade.none_m, fade.all_m);
+        field.row(v) *= share * size < 0.2 * fade.none_m ? 0.0 : share;
+    }
 }
 
 double left_share(double x_m, double half_width_m) {

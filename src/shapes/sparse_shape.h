@@ -20,9 +20,9 @@ struct SparseShape {
 SparseShape sparse(const Points& field);
 
 /// What moves less than `none_m` does not move, what moves by `all_m` and more moves as it did, smoothly between:
-/// a field that ends on a vertex would show as an edge.
+/// a field that ends on a vertex would show as an edge. Where a fifth of `none_m` would be left nothing is.
 struct Fade {
-    double none_m = 2e-5, all_m = 1e-4;
+    double none_m = 5e-5, all_m = 1.5e-4;
 };
 void fade_out(Points& field, const Fade& fade = {});
 

@@ -636,6 +636,20 @@ Points Face::pull_back(const Points& vertex_gradient) const {
 }
 
 FacePose Face::pose() const { return impl_->pose(1.0); }
+
+FacePose Face::posed(Points vertices, const track::Drive& drive) const {
+    FacePose out;
+    const std::array<Mat3, 2> turned = impl_->gaze(drive);
+    out.jaw = impl_->jaw_joint.place(impl_->mandible(drive));
+    out.jaw_open = drive.at(track::Kinematic::kJawOpen);
+    out.head = head_motion(impl_->head, drive);
+    for (std::size_t side = 0; side < 2; ++side)
+        out.eye_rotation[side] = out.head.linear() * turned[side];
+    out.vertices = std::move(vertices);
+    impl_->follow->turn_eyes(turned, out.vertices);
+    impl_->follow->turn_head(out.head, out.vertices);
+    return out;
+}
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }

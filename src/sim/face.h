@@ -117,6 +117,8 @@ class Face {
 
     /// After the last step. Surfaces that its few iterations left in each other are out of each other, see separation.h.
     FacePose pose() const;
+    /// Of vertices that something else has moved, in the frame of the head: eyes, jaw and the head's own turn as the drive asks for.
+    FacePose posed(Points vertices, const track::Drive& drive) const;
     double time_s() const;
     double step_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step

@@ -132,24 +132,31 @@ void Follow::apply_lids(const FollowDrive& drive, Points& vertices) const {
     }
 }
 
-void Follow::apply(const FollowDrive& drive, Points& vertices) const {
-    apply_lids(drive, vertices);
+void Follow::turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices) const {
     for (int side = 0; side < 2; ++side) {
         const Vec3& centre = head_.eyes[side].centre;
         for (int v : eye_[side])
             vertices.row(v) =
-                (centre + drive.gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
+                (centre + gaze[side] * (rest_.row(v).transpose() - centre)).transpose();
     }
+}
+
+void Follow::turn_head(const Rigid& head, Points& vertices) const {
+    if (head.isApprox(Rigid::Identity(), 0.0)) return;
+    for (long v = 0; v < vertices.rows(); ++v)
+        vertices.row(v) =
+            (neck_.part(head, head_share_[v]) * Vec3(vertices.row(v).transpose())).transpose();
+}
+
+void Follow::apply(const FollowDrive& drive, Points& vertices) const {
+    apply_lids(drive, vertices);
+    turn_eyes(drive.gaze, vertices);
     for (const auto& [v, share] : on_jaw_) {
         const Vec3 rest = rest_.row(v).transpose();
         vertices.row(v) = (rest + share * (drive.mandible * rest - rest)).transpose();
     }
     tongue_.place({drive.tongue_out, drive.tongue_up, drive.mandible}, vertices);
-    if (drive.head.isApprox(Rigid::Identity(), 0.0)) return;
-    for (long v = 0; v < vertices.rows(); ++v)
-        vertices.row(v) =
-            (neck_.part(drive.head, head_share_[v]) * Vec3(vertices.row(v).transpose()))
-                .transpose();
+    turn_head(drive.head, vertices);
 }
 
 }  // namespace risorius::sim

@@ -32,6 +32,10 @@ class Follow {
     /// `vertices` come with the skin already moved.
     void apply(const FollowDrive& drive, Points& vertices) const;
 
+    /// The last parts of that, on vertices that something else has moved: eyes turned by `gaze`, and all with the head.
+    void turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices) const;
+    void turn_head(const Rigid& head, Points& vertices) const;
+
     /// The head's turn on soft points of the head and neck, in place; `rest` says how much of it each takes.
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const;
 

@@ -3,17 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/evaluate.h"
+#include "app/shape_player.h"
+#include "app/shot.h"
+#include "app/solve_activations.h"
 #include "core/error.h"
 #include "io/morph_model.h"
 #include "io/read_mesh.h"
 #include "paths.h"
 #include "temporary_folder.h"
 #include "track/arkit_names.h"
+#include "track/script.h"
+#include "track/timeline.h"
 
 namespace risorius::app {
 namespace {
@@ -166,7 +172,8 @@ TEST_F(BakedShapes, AreWhatTheFilesHold) {
         const MadeShape& made = report().shapes.list[i];
         EXPECT_EQ(model.targets[i].name, made.goal.name);
         ASSERT_EQ(model.targets[i].vertex, made.shape.vertex);
-        EXPECT_LT((model.targets[i].delta - made.shape.delta).cwiseAbs().maxCoeff(), 1e-8);
+        // Whole numbers of 16 bits, of which the largest delta has 32,767
+        EXPECT_LT((model.targets[i].delta - made.shape.delta).cwiseAbs().maxCoeff(), 1e-6);
     }
     // The table is one that `evaluate` reads, and by it the rig makes these very shapes
     const Evaluation evaluation = evaluate(
@@ -177,6 +184,85 @@ TEST_F(BakedShapes, AreWhatTheFilesHold) {
     const JsonCursor json = JsonCursor::read_file(folder().path() / "shapes/results.json");
     EXPECT_EQ(json.at("beyond_limits").integer(0, 100), report().complaints());
     EXPECT_TRUE(fs::exists(folder().path() / "shapes/index.html"));
+}
+
+TEST_F(BakedShapes, PlayWhatDrivesThem) {
+    const RigFiles files = read_rig_files(kAdult);
+    const track::ChannelTable channels = files.rig.channels();
+    sim::Face face(files.rig, files.mesh, sim::quality_named("preview"), files.place());
+    const fs::path file = folder().path() / "shapes/shapes.glb";
+    ShapesOfFile shapes = read_shapes_of_file(file, files, face.head());
+    ASSERT_EQ(shapes.goals.size(), 4u);
+    EXPECT_EQ(shapes.set, "arkit52");
+    EXPECT_EQ(shapes.rig.correctives.size(), report().correctives.rig.correctives.size());
+    const ShapePlayer player(std::move(shapes), face, channels);
+    const Points& rest = face.head().vertices;
+    for (const MadeShape& made : report().shapes.list) {
+        const sim::FacePose pose = player.pose(made.goal.drive);
+        const Points off = pose.vertices - rest - made.shape.dense(rest.rows());
+        EXPECT_LT(off.rowwise().norm().maxCoeff(), 0.02 * made.certificate.peak_m)
+            << made.goal.name;
+    }
+    // The head's own turn and the eyes' are no part of the shapes
+    track::Drive turned = shape("mouthSmileLeft").goal.drive;
+    turned.excitation.setZero();
+    turned.kinematic[static_cast<std::size_t>(track::Kinematic::kHeadYaw)] = 20;
+    turned.kinematic[static_cast<std::size_t>(track::Kinematic::kGazeYawLeft)] = 10;
+    const sim::FacePose pose = player.pose(turned);
+    face.start([&](double) { return turned; });
+    face.settle(turned.excitation, turned);
+    const sim::FacePose simulated = face.pose();
+    EXPECT_EQ(pose.eye_rotation[0], simulated.eye_rotation[0]);
+    EXPECT_TRUE(pose.head.isApprox(simulated.head, 0.0));
+    // Lids go with the gaze, which these shapes do not
+    EXPECT_LT((pose.vertices - simulated.vertices).rowwise().norm().maxCoeff(), 2e-3);
+    EXPECT_GT((pose.vertices - rest).rowwise().norm().maxCoeff(), 20e-3);
+    // Another head's
+    RigFiles other = files;
+    other.rig.facs.arkit.clear();
+    EXPECT_THROW(read_shapes_of_file(file, other, face.head()), Error);
+    rig::Head moved = face.head();
+    moved.vertices.col(1).array() += 1e-3;
+    EXPECT_THROW(read_shapes_of_file(file, files, moved), Error);
+    // What no blend shape can show is refused before anything is built
+    AnimateOptions options;
+    options.script = fs::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json";
+    options.out = folder().path() / "linear.mp4";
+    options.shapes = file;
+    EXPECT_NO_THROW(plan_shot(options));
+    options.show = "muscles";
+    EXPECT_THROW(plan_shot(options), Error);
+}
+
+TEST_F(BakedShapes, AreSolvedBackToWhatMadeThem) {
+    const TemporaryFolder other;
+    const SolveReport solved = solve_activations({.rig = kAdult,
+                                                  .out = other.path() / "solved",
+                                                  .shapes = folder().path() / "shapes/shapes.glb",
+                                                  .only = {"mouthSmileLeft"}});
+    ASSERT_EQ(solved.solved.size(), 1u);
+    const SolvedDrive& one = solved.solved[0];
+    EXPECT_LT(one.rms_m, 0.3e-3);
+    const Eigen::VectorXd truth = shape("mouthSmileLeft").goal.drive.excitation;
+    double error = 0;
+    int used = 0;
+    for (long c = 0; c < truth.size(); ++c)
+        if (truth[c] != 0 || one.drive.excitation[c] != 0) {
+            error += std::abs(truth[c] - one.drive.excitation[c]);
+            ++used;
+        }
+    ASSERT_GT(used, 0);
+    EXPECT_LT(error / used, 0.1);
+    // Its script is one that can be played
+    const rig::RigDescription rig = rig::read_rig(kAdult);
+    const track::ChannelTable channels = rig.channels();
+    const track::ScriptDescription script = track::read_script(other.path() / "solved/script.json",
+                                                               channels, rig.facs, rig.expressions);
+    const track::Drive shown = track::Timeline(script, channels).at(0.5);
+    for (long c = 0; c < truth.size(); ++c)
+        EXPECT_NEAR(std::isnan(shown.activation[c]) ? 0.0 : shown.activation[c],
+                    one.drive.excitation[c], 1e-6);
+    EXPECT_THROW(solve_activations({.rig = kAdult, .out = other.path() / "none"}), Error);
 }
 
 TEST(BakedShapesOfNothing, LeaveNothingBehind) {

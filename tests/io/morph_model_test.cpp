@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "paths.h"
 #include "temporary_folder.h"
 
 namespace risorius::io {
@@ -65,7 +69,8 @@ std::pair<Json, std::string> chunks(const std::string& bytes) {
 TEST(MorphModel, ReadsBackWhatWasWritten) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "quads.glb";
-    const MorphModel model = two_quads();
+    MorphModel model = two_quads();
+    model.whole_numbers = false;
     const std::string bytes = glb_bytes(model);
     EXPECT_EQ(bytes, glb_bytes(model));
     std::ofstream(file, std::ios::binary) << bytes;
@@ -88,8 +93,41 @@ TEST(MorphModel, ReadsBackWhatWasWritten) {
     EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
 }
 
+TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    const MorphModel model = two_quads();
+    const std::string bytes = glb_bytes(model);
+    std::ofstream(file, std::ios::binary) << bytes;
+    const double step = 0.5 / 32767;  // 0.5 is the largest delta
+    const MorphModel back = read_glb(file);
+    EXPECT_LT((back.vertices - model.vertices.topRows(6)).cwiseAbs().maxCoeff(), 1e-6);
+    for (std::size_t t = 0; t < 3; ++t) {
+        ASSERT_EQ(back.targets[t].vertex, model.targets[t].vertex);
+        for (long v = 0; v < model.targets[t].delta.rows(); ++v)
+            EXPECT_LE((back.targets[t].delta.row(v) - model.targets[t].delta.row(v))
+                          .cwiseAbs()
+                          .maxCoeff(),
+                      0.501 * step);
+    }
+    const Json json = chunks(bytes).first;
+    EXPECT_EQ(json["extensionsRequired"], Json({"KHR_mesh_quantization"}));
+    EXPECT_EQ(json["extensionsUsed"], Json({"KHR_mesh_quantization"}));
+    for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(json["nodes"][0]["scale"][k].get<double>(), step, 1e-12);
+    const Json& lift = json["meshes"][0]["primitives"][0]["targets"][0];
+    const auto accessor = [&](const char* name) {
+        return json["accessors"][lift[name].get<std::size_t>()];
+    };
+    EXPECT_EQ(accessor("POSITION")["componentType"], 5122);
+    EXPECT_FALSE(accessor("POSITION").value("normalized", false));
+    EXPECT_EQ(accessor("NORMAL")["componentType"], 5126);
+}
+
 TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
-    const auto [json, binary] = chunks(glb_bytes(two_quads()));
+    MorphModel model = two_quads();
+    model.whole_numbers = false;
+    const auto [json, binary] = chunks(glb_bytes(model));
     EXPECT_EQ(json["asset"]["version"], "2.0");
     const Json& mesh = json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"lift", "nothing", "push"}));
@@ -123,6 +161,86 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
     // Linear light: less than half of an sRGB of 0.8
     EXPECT_NEAR(json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(),
                 0.6038, 1e-3);
+}
+
+constexpr const char* kThree = "/usr/share/javascript/three";  // of Debian's libjs-three
+
+std::string output_of(const std::string& command) {
+    std::string out;
+    FILE* pipe = ::popen(command.c_str(), "r");
+    if (!pipe) return out;
+    std::array<char, 4096> part;
+    while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe))
+        out.append(part.data(), read);
+    ::pclose(pipe);
+    return out;
+}
+
+/// What three.js says of a file, in headless Chromium where there is one, else in node; empty without either.
+std::string loaded_in_three(const std::filesystem::path& file, const std::string& bytes,
+                            const std::filesystem::path& folder) {
+    const std::string script = std::string(RISORIUS_SOURCE_DIR) + "/tests/io/load_in_three.js";
+    if (std::system("command -v chromium >/dev/null 2>&1") == 0) {
+        const std::filesystem::path page = folder / "page.html";
+        std::ofstream out(page);
+        for (const std::string& source :
+             {std::string(kThree) + "/build/three.js",
+              std::string(kThree) + "/examples/js/loaders/GLTFLoader.js", script})
+            out << "<script src=\"file://" << source << "\"></script>\n";
+        out << "<pre id=said></pre><script>const bytes = new Uint8Array([";
+        for (const char byte : bytes)
+            out << static_cast<int>(static_cast<unsigned char>(byte)) << ',';
+        out << "]);\nload(bytes.buffer, (what) => document.getElementById('said').textContent = "
+               "'[[[' + JSON.stringify(what) + ']]]');</script>\n";
+        out.close();
+        const std::string dom = output_of(
+            "chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 "
+            "--user-data-dir='" +
+            (folder / "profile").string() + "' --dump-dom 'file://" + page.string() +
+            "' 2>/dev/null");
+        const std::size_t from = dom.find("[[["), to = dom.find("]]]", from);
+        return to == std::string::npos ? "nothing said" : dom.substr(from + 3, to - from - 3);
+    }
+    if (std::system("command -v node >/dev/null 2>&1") == 0)
+        return output_of("node '" + script + "' " + kThree + " '" + file.string() + "'");
+    return {};
+}
+
+TEST(MorphModel, ThreeJsLoadsItsNamesNumbersAndAnimation) {
+    if (!std::filesystem::exists(kThree)) GTEST_SKIP() << "libjs-three is not installed";
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    for (const bool whole_numbers : {true, false}) {
+        MorphModel model = two_quads();
+        model.whole_numbers = whole_numbers;
+        const std::string bytes = glb_bytes(model);
+        std::ofstream(file, std::ios::binary) << bytes;
+        const std::string said = loaded_in_three(file, bytes, folder.path());
+        if (said.empty()) GTEST_SKIP() << "neither chromium nor node is installed";
+        const Json json = Json::parse(said, nullptr, false);
+        ASSERT_TRUE(json.is_object() && json.contains("meshes")) << said;
+        ASSERT_EQ(json["meshes"].size(), 2u);
+        const std::array<int, 2> vertices{4, 5};
+        for (std::size_t p = 0; p < 2; ++p) {
+            const Json& mesh = json["meshes"][p];
+            EXPECT_EQ(mesh["vertices"], vertices[p]);
+            EXPECT_EQ(mesh["names"], Json({"lift", "nothing", "push"}));
+            EXPECT_EQ(mesh["normals"], 3);
+            EXPECT_NEAR(mesh["largest"]["lift"].get<double>(), p == 0 ? 0.25 : 0.5, 1e-5);
+            EXPECT_EQ(mesh["largest"]["nothing"], 0);
+            EXPECT_NEAR(mesh["largest"]["push"].get<double>(), 0.125, 1e-5);
+            EXPECT_NEAR(mesh["box"][0][0].get<double>(), p == 0 ? 0 : 1, 1e-5);
+            EXPECT_NEAR(mesh["box"][1][0].get<double>(), p == 0 ? 1 : 2, 1e-5);
+        }
+        ASSERT_EQ(json["animations"].size(), 1u);
+        EXPECT_EQ(json["animations"][0]["name"], "hello");
+        EXPECT_NEAR(json["animations"][0]["duration"].get<double>(), 0.02, 1e-6);
+        for (const Json& track : json["animations"][0]["tracks"]) {
+            EXPECT_NE(track[0].get<std::string>().find("morphTargetInfluences"), std::string::npos);
+            EXPECT_EQ(track[1], 2);
+            EXPECT_EQ(track[2], 6);
+        }
+    }
 }
 
 TEST(MorphModel, OtherFilesAreRefusedWithWhatIsWrong) {

@@ -84,6 +84,14 @@ void print_pictures(const Json& cases) {
                     one["encode_ms"].get<double>());
 }
 
+void print_shapes(const Json& one) {
+    std::printf(
+        "  a frame of %d blend shapes of %d vertices: %.2f ms, weights %.2f of them; %.2f at "
+        "most\n",
+        one["shapes"].get<int>(), one["vertices"].get<int>(), one["frame_ms"].get<double>(),
+        one["weights_ms"].get<double>(), one["slowest_frame_ms"].get<double>());
+}
+
 void print(const Json& report) {
     std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
                 report["machine"]["cores"].get<int>());
@@ -96,6 +104,7 @@ void print(const Json& report) {
         std::printf("%s\n", rig["rig"].get<std::string>().c_str());
         if (rig.contains("steps")) print_steps(rig["steps"]);
         if (rig.contains("pictures")) print_pictures(rig["pictures"]);
+        if (rig.contains("blend_shapes")) print_shapes(rig["blend_shapes"]);
         if (!rig.contains("preview")) continue;
         for (const char* quality : {"preview", "video", "fine"})
             std::printf("  %-8s %6d nodes  %7.2f ms per step of 1/60 s  (built in %.2f s)\n",
@@ -147,6 +156,12 @@ void add_bench(CLI::App& app) {
             "1024 and 1920 x 1080, as usual and with --draft")
         ->excludes("--solids")
         ->excludes("--steps");
+    command
+        ->add_flag("--shapes", arguments->options.only_shapes,
+                   "Only what a frame of blend shapes costs")
+        ->excludes("--solids")
+        ->excludes("--steps")
+        ->excludes("--pictures");
     command
         ->add_option("--stress", arguments->options.stress_steps,
                      "Only drive the face at random for so many steps, and say what comes of it")

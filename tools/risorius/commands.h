@@ -12,12 +12,14 @@ void add_render(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_sheet(CLI::App& app);
 void add_fit(CLI::App& app);
+void add_head(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_shapes(CLI::App& app);
+void add_solve(CLI::App& app);
 void add_batch(CLI::App& app);
 
 /// The input is wrong, and what is wrong has been said.

@@ -74,10 +74,12 @@ int main(int argc, char** argv) {
     cli::add_compare(app);
     cli::add_sheet(app);
     cli::add_fit(app);
+    cli::add_head(app);
     cli::add_check(app);
     cli::add_info(app);
     cli::add_evaluate(app);
     cli::add_shapes(app);
+    cli::add_solve(app);
     cli::add_batch(app);
     cli::add_bench(app);
     cli::add_figure(app);

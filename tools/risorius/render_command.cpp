@@ -82,6 +82,10 @@ void add_render(CLI::App& app) {
             "per frame")
         ->required();
     command->add_option("--rig", options.rig, "Another rig than the script's");
+    command->add_option("--shapes", options.shapes,
+                        "shapes.glb of risorius shapes: the script's drives become weights of "
+                        "these blend shapes and "
+                        "their correctives, and nothing is simulated");
     command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
     command->add_option(
         "--show", options.show,
@@ -117,6 +121,7 @@ void add_render(CLI::App& app) {
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"
         "  risorius render samples/smile/script.json --still 1.0 --size 512x512 -o smile.png\n"
+        "  risorius render samples/hello/script.json --shapes adult/shapes.glb -o linear.mp4\n"
         "  risorius render mine/script.json --audio mine/voice.wav --audio-offset -480 -o "
         "talk.mp4\n"
         "  risorius render mine/script.json --fps 120 --lossless --photodiode lower_left "

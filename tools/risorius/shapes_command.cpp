@@ -139,6 +139,9 @@ void add_shapes(CLI::App& app) {
             "with the simulation; 0: none")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
+    command->add_flag("--floats", options.floats,
+                      "Floats in shapes.glb instead of whole numbers of 16 bits, for programs that "
+                      "do not know KHR_mesh_quantization");
     command->add_flag("--no-pictures", arguments->no_pictures, "A certificate of numbers alone");
     command->add_option(
         "--threads", options.threads,

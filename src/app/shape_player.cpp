@@ -1,0 +1,90 @@
+#include "app/shape_player.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/known_names.h"
+#include "io/morph_model.h"
+
+namespace risorius::app {
+
+namespace {
+
+constexpr double kSamePlace_m = 1e-4;  // of vertices, after they have been rounded in a file
+
+// Vertices have to lie where the rig's mesh has them, or shapes would move others than they are meant to.
+void check_mesh(const io::MorphModel& model, const rig::Head& head,
+                const std::filesystem::path& file) {
+    const auto fail = [&](const std::string& found) {
+        throw Error(file.string(),
+                    "the rig's mesh of " + std::to_string(head.vertices.rows()) + " vertices",
+                    found);
+    };
+    if (model.vertices.rows() > head.vertices.rows())
+        fail("one of " + std::to_string(model.vertices.rows()));
+    for (const io::MorphPart& part : model.parts)
+        for (const int v : part.triangles.reshaped())
+            if (const double apart = (model.vertices.row(v) - head.vertices.row(v)).norm();
+                apart > kSamePlace_m)
+                fail("another, whose vertex " + std::to_string(v) + " is " +
+                     format_number(std::round(1e4 * apart) / 10) + " mm off");
+}
+
+}  // namespace
+
+ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const RigFiles& files,
+                                 const rig::Head& head) {
+    const io::MorphModel model = io::read_glb(file);
+    check_mesh(model, head, file);
+    const JsonCursor extras = JsonCursor::from_json(model.extras, file.string()).at("risorius");
+    if (const int vertices = extras.at("vertices").integer(1, 1 << 30);
+        vertices != head.vertices.rows())
+        extras.at("vertices")
+            .fail("the " + std::to_string(head.vertices.rows()) + " vertices of the rig's mesh");
+    ShapesOfFile out;
+    out.set = extras.at("set").string();
+
+    // Correctives come behind the shapes, in the order of their list
+    const std::vector<JsonCursor> correctives = extras.at("correctives").items();
+    if (correctives.size() >= model.targets.size())
+        extras.at("correctives").fail("fewer of them than morph targets");
+    const std::size_t count = model.targets.size() - correctives.size();
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < count; ++s) {
+        names.push_back(model.targets[s].name);
+        out.rig.shapes.push_back({model.targets[s].vertex, model.targets[s].delta});
+    }
+    const ShapeSet set = shape_set(files.rig, out.set, names, file.string());
+    for (const std::string& name : names) {
+        const auto index = set.index(name);
+        if (!index || set.goals.size() != count)
+            throw Error(file.string(), "shapes of the rig's table, each with its other half",
+                        "\"" + name + "\" among " + std::to_string(count));
+        out.goals.push_back(set.goals[static_cast<std::size_t>(*index)]);
+    }
+    for (std::size_t c = 0; c < correctives.size(); ++c) {
+        shapes::Corrective& one = out.rig.correctives.emplace_back();
+        const io::MorphTarget& target = model.targets[count + c];
+        one.name = correctives[c].at("name").string();
+        if (one.name != target.name)
+            correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
+        for (const JsonCursor& driver : correctives[c].at("drivers").items())
+            one.drivers.push_back(
+                static_cast<int>(index_of_name(driver.place(), driver.string(), names)));
+        if (one.drivers.empty()) correctives[c].at("drivers").fail("at least one shape");
+        one.shape = {target.vertex, target.delta};
+    }
+    return out;
+}
+
+ShapePlayer::ShapePlayer(ShapesOfFile shapes, sim::Face& face, const track::ChannelTable& channels)
+    : shapes_(std::move(shapes)), face_(face), weights_(face, channels, shapes_.goals) {}
+
+sim::FacePose ShapePlayer::pose(const track::Drive& drive) const {
+    Points vertices = face_.head().vertices;
+    shapes_.rig.add_to(vertices, weights_.of(drive));
+    return face_.posed(std::move(vertices), drive);
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,132 @@
+#include "sculpt/head_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+#include "core/error.h"
+#include "sculpt/lashes.h"
+#include "sculpt/oral.h"
+
+namespace risorius::sculpt {
+namespace {
+
+void append(geom::PolygonMesh& whole, const geom::PolygonMesh& part) {
+    const int base = whole.vertex_count();
+    Points joined(base + part.vertex_count(), 3);
+    joined.topRows(base) = whole.positions;
+    joined.bottomRows(part.vertex_count()) = part.positions;
+    whole.positions = joined;
+    for (int f = 0; f < part.face_count(); ++f) {
+        for (int c = part.face_begin[f]; c < part.face_begin[f + 1]; ++c)
+            whole.corner_vertex.push_back(base + part.corner_vertex[c]);
+        whole.face_begin.push_back(static_cast<int>(whole.corner_vertex.size()));
+        whole.face_group.push_back(static_cast<int>(whole.group_names.size()) + part.face_group[f]);
+    }
+    whole.group_names.insert(whole.group_names.end(), part.group_names.begin(),
+                             part.group_names.end());
+}
+
+/// Nearest vertices, each used once; the right side mirrors the left.
+std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& tables) {
+    std::map<std::string, int> named = skin.landmark;
+    std::set<int> used;
+    for (const auto& [id, v] : named) used.insert(v);
+    std::set<int> on_skin;
+    for (std::size_t f = 0; f < skin.mesh.face.size(); ++f)
+        if (skin.mesh.group[f] == 0)
+            for (const int v : skin.mesh.face[f])
+                if (v >= 0) on_skin.insert(v);
+    for (const auto& [id, p] : tables.landmarks) {
+        if (p.x() < 0 || named.count(id)) continue;
+        const bool middle = p.x() == 0;
+        int best = -1;
+        for (const int v : on_skin) {
+            if (used.count(v) || (middle && !skin.mesh.midline[static_cast<std::size_t>(v)]))
+                continue;
+            if (best < 0 || (skin.mesh.point[static_cast<std::size_t>(v)] - p).squaredNorm() <
+                                (skin.mesh.point[static_cast<std::size_t>(best)] - p).squaredNorm())
+                best = v;
+        }
+        named[id] = best;
+        used.insert(best);
+    }
+    const std::vector<int> other = mirror_map(skin.mesh);
+    std::map<std::string, int> both = named;
+    for (const auto& [id, v] : named)
+        if (id.size() > 2 && id.ends_with("_l"))
+            both[id.substr(0, id.size() - 2) + "_r"] = other[static_cast<std::size_t>(v)];
+    return both;
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+    const auto half = std::filesystem::path(file.string() + ".part");
+    {
+        std::ofstream out(half, std::ios::binary);
+        out << text;
+        if (!out.flush()) throw RunError("cannot write " + file.string());
+    }
+    std::filesystem::rename(half, file);
+}
+
+}  // namespace
+
+HeadModel make_head(const DesignTables& tables) {
+    const Globe globe;
+    const HeadSurface surface(tables);
+    const Skin skin = make_skin(tables, surface, globe);
+    HeadModel model;
+    model.mesh = mirrored(skin.mesh);
+    append(model.mesh, globe_mesh(globe, 1, "eye_l"));
+    append(model.mesh, globe_mesh(globe, -1, "eye_r"));
+    append(model.mesh, teeth(Arch::kUpper, "teeth_upper"));
+    append(model.mesh, teeth(Arch::kLower, "teeth_lower"));
+    append(model.mesh, gums(Arch::kUpper, "gums_upper"));
+    append(model.mesh, gums(Arch::kLower, "gums_lower"));
+    append(model.mesh, tongue("tongue"));
+    append(model.mesh, lashes(skin, globe, 1, "lashes_l"));
+    append(model.mesh, lashes(skin, globe, -1, "lashes_r"));
+    model.landmarks = name_landmarks(skin, tables);
+    return model;
+}
+
+void write_head(const HeadModel& model, const std::filesystem::path& folder) {
+    std::string text =
+        "# Risorius adult head, made by tools/sculpt from models/adult/design. CC0. Millimetres; "
+        "see ORIGIN.md.\n";
+    char line[96];
+    const auto& mesh = model.mesh;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        // Adding zero turns a rounded -0 into 0.
+        const auto rounded = [&](int axis) {
+            return std::round(mesh.positions(v, axis) * 1000) / 1000 + 0.0;
+        };
+        std::snprintf(line, sizeof line, "v %.3f %.3f %.3f\n", rounded(0), rounded(1), rounded(2));
+        text += line;
+    }
+    for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
+        text.append("g ").append(mesh.group_names[g]).append("\n");
+        for (int f = 0; f < mesh.face_count(); ++f) {
+            if (mesh.face_group[f] != static_cast<int>(g)) continue;
+            text += "f";
+            for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+                text.append(" ").append(std::to_string(mesh.corner_vertex[c] + 1));
+            text += "\n";
+        }
+    }
+    write_file(folder / "head.obj", text);
+
+    text = "{\n  \"format\": \"risorius-landmarks\",\n  \"version\": 1,\n  \"landmarks\": {";
+    const char* separator = "\n";
+    for (const auto& [id, v] : model.landmarks) {
+        text.append(separator).append("    \"").append(id).append("\": {\"vertex\": ");
+        text.append(std::to_string(v)).append("}");
+        separator = ",\n";
+    }
+    text += "\n  }\n}\n";
+    write_file(folder / "landmarks.json", text);
+}
+
+}  // namespace risorius::sculpt

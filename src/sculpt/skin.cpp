@@ -1,0 +1,263 @@
+#include "sculpt/skin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace risorius::sculpt {
+namespace {
+
+constexpr int kColumns = 48;
+constexpr int kEarColumn0 = 29, kEarColumn1 = 35;
+constexpr int kCapSide = 12;  ///< cells along the front and the back edge of the crown cap
+
+/// A row that follows a feature round the head: its height s at azimuths 0, 60, 100 and 180 degrees.
+struct KeyRow {
+    int row;
+    double s[4];
+};
+constexpr KeyRow kKeyRows[] = {
+    {0, {150, 150, 150, 150}},     // crown
+    {9, {86, 86, 86, 86}},         // hairline
+    {18, {45, 45, 45, 45}},        // brow
+    {26, {18, 18, 17, 15}},        // pupil
+    {42, {-33, -33, -34, -30}},    // base of the nose
+    {48, {-53, -51, -48, -42}},    // lips
+    {54, {-72, -65, -57, -48}},    // mentolabial furrow
+    {63, {-105, -86, -68, -56}},   // border of the jaw
+    {70, {-134, -118, -96, -70}},  // cervical point
+    {72, {-144, -130, -107, -77}}  // end of the measured neck
+};
+constexpr int kJawRow = 63, kNeckRow = 72, kNeckBaseRows = 5, kSkirtRows = 11;
+constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
+
+double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
+
+double row_height(int row, double azimuth_deg) {
+    std::size_t k = 0;
+    while (k + 2 < std::size(kKeyRows) && kKeyRows[k + 1].row <= row) ++k;
+    const double t =
+        static_cast<double>(row - kKeyRows[k].row) / (kKeyRows[k + 1].row - kKeyRows[k].row);
+    int a = 0;
+    while (a < 2 && kKeyAzimuth[a + 1] < azimuth_deg) ++a;
+    const double u = std::clamp(
+        (azimuth_deg - kKeyAzimuth[a]) / (kKeyAzimuth[a + 1] - kKeyAzimuth[a]), 0.0, 1.0);
+    const auto at = [&](const KeyRow& key) { return smooth_between(key.s[a], key.s[a + 1], u); };
+    return at(kKeyRows[k]) * (1 - t) + at(kKeyRows[k + 1]) * t;
+}
+
+double column_azimuth(int column, int row) {
+    // Breakpoints (column, degrees) by level: pupil, base of the nose, lips, everywhere else even.
+    const auto through = [&](std::initializer_list<std::pair<int, double>> points) {
+        auto a = points.begin();
+        while (a + 2 < points.end() && (a + 1)->first <= column) ++a;
+        const auto b = a + 1;
+        return a->second + (b->second - a->second) * (column - a->first) / (b->first - a->first);
+    };
+    constexpr double kSide = 38.5, kEar0 = 85, kEar1 = 109;
+    if (column >= 16) {
+        const double low =
+            through({{16, kSide}, {kEarColumn0, kEar0}, {kEarColumn1, kEar1}, {kColumns, 180}});
+        const double even = 180.0 * column / kColumns;
+        const double t = std::clamp((14.0 - row) / 14.0, 0.0, 1.0);
+        return low + (even - low) * t;
+    }
+    const double even = kSide * column / 16, pupil = through({{0, 0}, {4, 7.2}, {16, kSide}}),
+                 nose = through({{0, 0}, {1, 1.3}, {7, 14.6}, {16, kSide}}),
+                 lips = through({{0, 0}, {10, 22.5}, {16, kSide}}),
+                 crown = 180.0 * column / kColumns;
+    const auto mix = [](double a, double b, double from, double to, int at) {
+        return smooth_between(a, b, std::clamp((at - from) / (to - from), 0.0, 1.0));
+    };
+    if (row <= 18) return mix(crown, even, 0, 14, row);
+    if (row <= 26) return mix(even, pupil, 18, 26, row);
+    if (row <= 40) return mix(pupil, nose, 28, 36, row);
+    if (row <= 50) return mix(nose, lips, 42, 46, row);
+    return mix(lips, even, 54, 62, row);
+}
+
+struct Block {
+    int row0, row1, column0, column1;
+};
+constexpr Block kEyeBlock{21, 31, 4, 16}, kNoseBlock{34, 42, 1, 7}, kMouthBlock{43, 53, 0, 10},
+    kEarBlock{22, 42, kEarColumn0, kEarColumn1};
+
+void add_crown(Skin& skin, const HeadSurface& head) {
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<int>& ring = skin.grid[0];
+    constexpr int kRows = kColumns - 2 * kCapSide;
+    std::vector<std::vector<int>> id(kRows + 1, std::vector<int>(kCapSide + 1));
+    for (int c = 0; c <= kCapSide; ++c) {
+        id[0][c] = ring[c];
+        id[kRows][c] = ring[kColumns - c];
+    }
+    for (int r = 0; r <= kRows; ++r) id[r][kCapSide] = ring[kCapSide + r];
+    for (int r = 1; r < kRows; ++r)
+        for (int c = 0; c < kCapSide; ++c) {
+            const double u = static_cast<double>(c) / kCapSide, v = static_cast<double>(r) / kRows;
+            const auto p = [&](int row, int column) {
+                return mesh.point[static_cast<std::size_t>(id[row][column])];
+            };
+            const Vec3 straight = (1 - v) * p(0, c) + v * p(kRows, c);
+            Vec3 q = straight;
+            q.x() = u * p(r, kCapSide).x();
+            q.z() = (1 - u) * straight.z() + u * p(r, kCapSide).z();
+            id[r][c] = mesh.add(head.project(q), Hold::kOnHead, c == 0);
+        }
+    for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kCapSide; ++c)
+            mesh.quad(id[r][c], id[r][c + 1], id[r + 1][c + 1], id[r + 1][c]);
+}
+
+/// Down the neck to its base, then outwards over the trapezius to the edge of the bust; own design.
+void add_skirt(Skin& skin) {
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<int> last = skin.grid[kNeckRow];
+    const std::vector<int> before = skin.grid[kNeckRow - 2];
+    std::vector<std::vector<int>> rows{last};
+    for (int k = 1; k <= kSkirtRows; ++k) rows.emplace_back(kColumns + 1);
+    const auto hermite = [](const Vec3& p, const Vec3& dp, const Vec3& q, const Vec3& dq,
+                            double t) {
+        const double t2 = t * t, t3 = t2 * t;
+        return Vec3((2 * t3 - 3 * t2 + 1) * p + (t3 - 2 * t2 + t) * dp + (3 * t2 - 2 * t3) * q +
+                    (t3 - t2) * dq);
+    };
+    for (int c = 0; c <= kColumns; ++c) {
+        const Vec3 start = mesh.point[static_cast<std::size_t>(last[c])];
+        const double a = std::atan2(start.x(), start.z() + 26.0), cos_a = std::cos(a),
+                     sin_a = std::sin(a);
+        const Vec3 base(58 * std::pow(sin_a, 0.85), -117 - 17 * cos_a + 3 * cos_a * cos_a,
+                        -30 + (cos_a > 0 ? 51 : 62) * cos_a);
+        const Vec3 end(132 * std::pow(sin_a, 0.8), -166 - 14 * cos_a + 4 * cos_a * cos_a,
+                       -38 + (cos_a > 0 ? 84 : 86) * cos_a);
+        const Vec3 down = (start - mesh.point[static_cast<std::size_t>(before[c])]).normalized();
+        const double reach0 = (base - start).norm(), reach1 = (end - base).norm();
+        // Steeper in front of and behind the neck, where the body goes on downwards.
+        const Vec3 turn =
+            ((base - start).normalized() + 0.9 * (end - base).normalized()).normalized();
+        const Vec3 out = ((end - base).normalized() + Vec3(0, -0.35 - 0.5 * sin_a, 0)).normalized();
+        for (int k = 1; k <= kSkirtRows; ++k) {
+            const Vec3 p = k <= kNeckBaseRows ? hermite(start, down * reach0, base, turn * reach0,
+                                                        static_cast<double>(k) / kNeckBaseRows)
+                                              : hermite(base, turn * reach1, end, out * reach1,
+                                                        static_cast<double>(k - kNeckBaseRows) /
+                                                            (kSkirtRows - kNeckBaseRows));
+            rows[k][c] = mesh.add(p, Hold::kPinned, c == 0 || c == kColumns);
+        }
+    }
+    for (int k = 0; k < kSkirtRows; ++k)
+        for (int c = 0; c < kColumns; ++c)
+            mesh.quad(rows[k][c], rows[k + 1][c], rows[k + 1][c + 1], rows[k][c + 1]);
+    skin.grid.insert(skin.grid.end(), rows.begin() + 1, rows.end());
+}
+
+/// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
+double philtrum(const Vec3& p) {
+    if (p.z() < 80 || p.y() > -30 || p.y() < -46) return 0;
+    const double along =
+        std::clamp((-31.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
+    const double ridge = 3.6 + 2.2 * std::clamp((-32.0 - p.y()) / 12.0, 0.0, 1.0),
+                 x = std::abs(p.x());
+    const auto bell = [](double t) { return std::exp(-t * t); };
+    return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
+}
+
+/// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.
+void smooth_joints(Skin& skin) {
+    HalfMesh& mesh = skin.mesh;
+    std::vector<double> nose(mesh.point.size(), 0.0), crown(mesh.point.size(), 0.0),
+        neck(mesh.point.size(), 0.0);
+    const auto fall = [](double d, double from, double to) {
+        return std::clamp((to - d) / (to - from), 0.0, 1.0);
+    };
+    for (std::size_t v = 0; v < mesh.point.size(); ++v) {
+        const Vec3& p = mesh.point[v];
+        nose[v] = p.y() > -34 ? fall((p - Vec3(11, -20, 102)).norm(), 12, 18) : 0;
+        crown[v] = fall(Vec2(p.x(), p.z() - 5).norm(), 30, 55) * (p.y() > 90 ? 1 : 0);
+    }
+    for (int r = kJawRow + 2; r < static_cast<int>(skin.grid.size()) - 1; ++r)
+        for (const int v : skin.grid[static_cast<std::size_t>(r)])
+            neck[static_cast<std::size_t>(v)] = std::clamp((r - kJawRow - 1) / 5.0, 0.0, 1.0);
+    for (const int v : skin.fixed) nose[static_cast<std::size_t>(v)] = 0;
+    mesh.smooth(6, nose);
+    mesh.smooth(60, crown);
+    mesh.smooth(60, neck);
+}
+
+}  // namespace
+
+std::vector<int> block_loop(const std::vector<std::vector<int>>& grid, int row0, int row1,
+                            int column0, int column1) {
+    std::vector<int> loop;
+    for (int r = row0; r < row1; ++r) loop.push_back(grid[r][column0]);
+    for (int c = column0; c < column1; ++c) loop.push_back(grid[row1][c]);
+    for (int r = row1; r > row0; --r) loop.push_back(grid[r][column1]);
+    for (int c = column1; c > column0; --c) loop.push_back(grid[row0][c]);
+    return loop;
+}
+
+Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap) {
+    const Vec3 from = point - globe.centre;
+    const double d = from.norm();
+    if (d > 18 || from.z() < -2) return point;
+    const double least = globe.radius_at(from.z() / d) + gap;
+    const double soft = 0.5, over = d - least;
+    return globe.centre + from / d * (least + 0.5 * (over + std::sqrt(over * over + soft * soft)));
+}
+
+Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe& globe) {
+    Skin skin;
+    HalfMesh& mesh = skin.mesh;
+    const auto inside = [](const Block& b, int r, int c) {
+        return r > b.row0 && r < b.row1 && (c > b.column0 || b.column0 == 0) && c < b.column1;
+    };
+    const auto in_block = [&](int r, int c) {
+        return inside(kEyeBlock, r, c) || inside(kNoseBlock, r, c) || inside(kMouthBlock, r, c) ||
+               inside(kEarBlock, r, c);
+    };
+    skin.grid.assign(kNeckRow + 1, std::vector<int>(kColumns + 1, -1));
+    for (int r = 0; r <= kNeckRow; ++r)
+        for (int c = 0; c <= kColumns; ++c) {
+            if (in_block(r, c)) continue;
+            const double azimuth = column_azimuth(c, r);
+            const Vec3 p = head.at(azimuth * M_PI / 180, row_height(r, azimuth));
+            skin.grid[r][c] =
+                mesh.add(p, r == kNeckRow ? Hold::kPinned : Hold::kOnHead, c == 0 || c == kColumns);
+        }
+    const auto cell_in = [](const Block& b, int r, int c) {
+        return r >= b.row0 && r < b.row1 && c >= b.column0 && c < b.column1;
+    };
+    for (int r = 0; r < kNeckRow; ++r)
+        for (int c = 0; c < kColumns; ++c)
+            if (!cell_in(kEyeBlock, r, c) && !cell_in(kNoseBlock, r, c) &&
+                !cell_in(kMouthBlock, r, c) && !cell_in(kEarBlock, r, c))
+                mesh.quad(skin.grid[r][c], skin.grid[r + 1][c], skin.grid[r + 1][c + 1],
+                          skin.grid[r][c + 1]);
+
+    const auto loop = [&](const Block& b) {
+        return block_loop(skin.grid, b.row0, b.row1, b.column0, b.column1);
+    };
+    add_crown(skin, head);
+    add_lids(skin, loop(kEyeBlock), tables, head, globe);
+    std::vector<int> mouth;  // the midline side of the block is open: bottom, right side, top
+    for (int c = 0; c < kMouthBlock.column1; ++c) mouth.push_back(skin.grid[kMouthBlock.row1][c]);
+    for (int r = kMouthBlock.row1; r > kMouthBlock.row0; --r)
+        mouth.push_back(skin.grid[r][kMouthBlock.column1]);
+    for (int c = kMouthBlock.column1; c >= 0; --c) mouth.push_back(skin.grid[kMouthBlock.row0][c]);
+    add_mouth(skin, mouth, tables, head);
+    add_nasal_wing(skin, loop(kNoseBlock), tables);
+    add_ear(skin, loop(kEarBlock), tables, head);
+
+    const auto on_head = [&](const Vec3& p) {
+        Vec3 q = clear_of_globe(head.project(p), globe, 1.3);
+        q.z() += philtrum(q);
+        return q;
+    };
+    mesh.relax(60, 0.5, on_head, Hold::kOnHead);
+    mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
+    add_skirt(skin);
+    smooth_joints(skin);
+    fit_landmarks(skin, tables);
+    return skin;
+}
+
+}  // namespace risorius::sculpt

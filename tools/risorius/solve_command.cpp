@@ -1,0 +1,97 @@
+// risorius solve RIG --shapes FILE | --mesh FILE | --landmarks FILE -o DIR
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/solve_activations.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct SolveArguments {
+    Common common;
+    app::SolveOptions options;
+};
+
+void print(const app::SolveReport& report, const app::SolveOptions& options) {
+    std::printf("%s: %zu %s of %s, %d points\n", report.rig.c_str(), report.solved.size(),
+                report.sequence ? "frames" : "shapes", report.given.c_str(), report.points);
+    std::printf("  %-24s %9s %9s %9s %8s\n", "mm", "given rms", "left rms", "left max", "highest");
+    for (const app::SolvedDrive& one : report.solved)
+        std::printf("  %-24s %9.3f %9.3f %9.3f %8.2f\n", one.name.c_str(), 1e3 * one.given_rms_m,
+                    1e3 * one.rms_m, 1e3 * one.greatest_m, one.highest);
+    std::printf("all: %.3f mm RMS left; script: %s\n", 1e3 * report.rms_m(),
+                (options.out / "script.json").generic_string().c_str());
+}
+
+void run(SolveArguments& arguments) {
+    if (arguments.options.threads < 0 || arguments.options.threads > 256)
+        throw Error("--threads", "an integer in [0, 256]",
+                    std::to_string(arguments.options.threads));
+    app::SolveReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::solve_activations(arguments.options, bar.watch());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", report.json().dump(2).c_str());
+    else if (!arguments.common.quiet)
+        print(report, arguments.options);
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("solve", "Shapes, or landmarks over time, to muscle activations");
+    auto arguments = std::make_shared<SolveArguments>();
+    app::SolveOptions& options = arguments->options;
+    command->add_option("RIG", options.rig, "The rig whose muscles are sought")->required();
+    command
+        ->add_option("-o,--out", options.out,
+                     "Folder: script.json, which render plays, and results.json")
+        ->required();
+    command->add_option("--shapes", options.shapes,
+                        "Blend shapes on the rig's mesh: a table as under \"Measured shapes\" in "
+                        "README.md (.json), or shapes.glb of risorius shapes");
+    command
+        ->add_option("--mesh", options.meshes,
+                     "In place of it: the rig's mesh with its vertices moved, OBJ; several with "
+                     "commas")
+        ->delimiter(',');
+    command->add_option("--landmarks", options.landmarks,
+                        "In place of it: a table with the columns time_s and ID.x_mm, ID.y_mm, "
+                        "ID.z_mm of some landmarks, the first row at rest, as render --landmarks "
+                        "writes it");
+    command->add_option("--only", options.only, "Names of shapes, separated by commas")
+        ->delimiter(',');
+    command
+        ->add_option("--quality", options.quality,
+                     "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")
+        ->capture_default_str();
+    command
+        ->add_option("--price", options.price,
+                     "Of an activation of 1, in halves of what is given, squared")
+        ->capture_default_str();
+    command->add_option("--ridge", options.ridge, "Of its square, likewise")->capture_default_str();
+    command
+        ->add_option("--smooth", options.smooth,
+                     "Of the square of its change from frame to frame, likewise")
+        ->capture_default_str();
+    command->add_option("--fps", options.fps, "Frames sought, of so many a second at most")
+        ->capture_default_str();
+    command->add_option("--threads", options.threads,
+                        "Shapes sought at a time; 0: as many as the machine has cores");
+    add_common(*command, arguments->common);
+    command->footer(
+        "Examples:\n"
+        "  risorius solve anna/rig.json --shapes anna/arkit.json -o anna/solved\n"
+        "  risorius solve anna/rig.json --mesh anna/smile.obj,anna/frown.obj -o anna/solved\n"
+        "  risorius solve anna/rig.json --landmarks anna/track.tsv -o anna/solved\n"
+        "  risorius render anna/solved/script.json -o anna/solved.mp4");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
