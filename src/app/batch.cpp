@@ -18,16 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder of somebody else is not filled with clips.
-void check_folder(const fs::path& out) {
-    if (!fs::exists(out)) return;
-    if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
-    if (!fs::is_empty(out) && !fs::exists(out / "dataset_description.json") &&
-        !fs::exists(out / "code") && !fs::exists(out / "stimuli"))
-        throw Error(out.string(), "an empty folder, or one that `batch` has begun",
-                    "a folder with other files");
-}
-
 /// Calls make(i) for all i < count, on several threads when there are several workers.
 void for_each(std::size_t count, int workers,
               const std::function<void(std::size_t i, Studio&)>& make) {
@@ -52,6 +42,15 @@ void for_each(std::size_t count, int workers,
 }
 
 }  // namespace
+
+void check_batch_folder(const fs::path& out) {
+    if (!fs::exists(out)) return;
+    if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
+    if (!fs::is_empty(out) && !fs::exists(out / "dataset_description.json") &&
+        !fs::exists(out / "code") && !fs::exists(out / "stimuli"))
+        throw Error(out.string(), "an empty folder, or one that `batch` has begun",
+                    "a folder with other files");
+}
 
 double BatchPlan::seconds() const {
     double sum = 0;
@@ -92,7 +91,7 @@ Json BatchReport::json() const {
 BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
     const Stopwatch time;
     const BatchPlan plan = plan_batch(options.design);
-    check_folder(options.out);
+    check_batch_folder(options.out);
     BatchReport report;
     report.name = plan.name;
 

@@ -33,6 +33,9 @@ struct BatchPlan {
 /// Reads, crosses and checks the whole design; renders nothing. Throws Error.
 BatchPlan plan_batch(const std::filesystem::path& design);
 
+/// A folder of somebody else is not filled with clips. Throws Error.
+void check_batch_folder(const std::filesystem::path& out);
+
 struct BatchReport {
     std::string name;
     int made = 0, kept = 0, elsewhere = 0;                    ///< of another part

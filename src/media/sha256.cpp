@@ -34,28 +34,60 @@ constexpr std::array<std::uint32_t, 64> kRounds = {
 
 using State = std::array<std::uint32_t, 8>;
 
+// What goes into the rounds does not hang on the state: found for several blocks side by side, as wide as vectors are.
+constexpr std::size_t kLanes = 8;
+using Lanes = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+using Schedule = std::array<Lanes, 64>;
+
+// A block's own word of each round, constant included, lies `kLanes` apart from the next.
+void add_block(State& state, const std::uint32_t* words) {
+    State s = state;
+    const auto round = [&](std::size_t i, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                           std::uint32_t& d, std::uint32_t e, std::uint32_t f, std::uint32_t g,
+                           std::uint32_t& h) {
+        h += words[i * kLanes] + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+             (((f ^ g) & e) ^ g);
+        d += h;
+        h += (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) | ((a | b) & c));
+    };
+    for (std::size_t i = 0; i < 64; i += 8) {  // each of the eight takes every role once
+        round(i, s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7]);
+        round(i + 1, s[7], s[0], s[1], s[2], s[3], s[4], s[5], s[6]);
+        round(i + 2, s[6], s[7], s[0], s[1], s[2], s[3], s[4], s[5]);
+        round(i + 3, s[5], s[6], s[7], s[0], s[1], s[2], s[3], s[4]);
+        round(i + 4, s[4], s[5], s[6], s[7], s[0], s[1], s[2], s[3]);
+        round(i + 5, s[3], s[4], s[5], s[6], s[7], s[0], s[1], s[2]);
+        round(i + 6, s[2], s[3], s[4], s[5], s[6], s[7], s[0], s[1]);
+        round(i + 7, s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[0]);
+    }
+    for (std::size_t i = 0; i < 8; ++i) state[i] += s[i];
+}
+
 void add_blocks_portably(State& state, const std::uint8_t* bytes, std::size_t blocks) {
-    for (; blocks > 0; --blocks, bytes += kBlock) {
-        std::array<std::uint32_t, 64> w;
-        for (std::size_t i = 0; i < 16; ++i)
-            w[i] = static_cast<std::uint32_t>(bytes[4 * i]) << 24 |
-                   static_cast<std::uint32_t>(bytes[4 * i + 1]) << 16 |
-                   static_cast<std::uint32_t>(bytes[4 * i + 2]) << 8 | bytes[4 * i + 3];
+    Schedule w, words;
+    while (blocks > 0) {
+        const std::size_t some = std::min(blocks, kLanes);
+        for (std::size_t i = 0; i < 16; ++i) {
+            w[i] = Lanes{};
+            for (std::size_t lane = 0; lane < some; ++lane) {
+                std::uint32_t word = 0;
+                std::memcpy(&word, bytes + lane * kBlock + 4 * i, 4);
+                if constexpr (std::endian::native == std::endian::little)
+                    word = __builtin_bswap32(word);
+                w[i][lane] = word;
+            }
+            words[i] = w[i] + kRounds[i];
+        }
         for (std::size_t i = 16; i < 64; ++i) {
-            const std::uint32_t a = w[i - 15], b = w[i - 2];
-            w[i] = w[i - 16] + w[i - 7] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3) +
-                   (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10);
+            const Lanes &a = w[i - 15], &b = w[i - 2];
+            w[i] = w[i - 16] + w[i - 7] + ((a >> 7 | a << 25) ^ (a >> 18 | a << 14) ^ a >> 3) +
+                   ((b >> 17 | b << 15) ^ (b >> 19 | b << 13) ^ b >> 10);
+            words[i] = w[i] + kRounds[i];
         }
-        State s = state;
-        for (std::size_t i = 0; i < 64; ++i) {
-            const std::uint32_t e = s[4], a = s[0];
-            const std::uint32_t t = s[7] + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                                    ((e & s[5]) ^ (~e & s[6])) + kRounds[i] + w[i];
-            const std::uint32_t u = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) +
-                                    ((a & s[1]) ^ (a & s[2]) ^ (s[1] & s[2]));
-            s = {t + u, a, s[1], s[2], s[3] + t, e, s[5], s[6]};
-        }
-        for (std::size_t i = 0; i < 8; ++i) state[i] += s[i];
+        const auto* first = reinterpret_cast<const std::uint32_t*>(words.data());
+        for (std::size_t lane = 0; lane < some; ++lane) add_block(state, first + lane);
+        bytes += some * kBlock;
+        blocks -= some;
     }
 }
 

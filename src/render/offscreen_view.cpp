@@ -164,7 +164,8 @@ struct OffscreenView::Impl {
                                                   : Materials::Skin::kPlain;
         materials =
             std::make_unique<Materials>(scene, *buffers, skin, options.draft, muscles.get());
-        lights = std::make_unique<Lights>(camera, centre, options.light, options.draft);
+        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
+                                          options.draft);
         target = std::make_unique<Framebuffer>(
             picture.tile_width_samples(), picture.tile_height_samples(),
             options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);

@@ -8,7 +8,7 @@ namespace {
 
 using Pair = tissue::Contacts::Contact;
 
-constexpr int kSweeps = 48;  // at most; some five are usual
+constexpr int kSweeps = 200;  // at most; some five are usual
 // What is left in, about what poses that have come to rest have, and how much more may be when no more sweeps follow
 constexpr double kLipSlack_m = 0.19e-3, kOtherSlack_m = 0.11e-3, kEnough_m = 0.05e-3;
 constexpr double kOverRelaxation = 1.5;

@@ -73,7 +73,7 @@ TEST(Motion, HeldStillTheFaceComesToRest) {
     const DriveAt wild = random_drive(7, 1);
     const track::Drive last = wild(0.999);
     const DriveAt drive = [&](double t) { return t < 1 ? wild(t) : last; };
-    face.start(drive);
+    face.start(always(neutral()));
     double most = 0;
     for (int i = 0; i < 60; ++i) {
         face.step(drive);

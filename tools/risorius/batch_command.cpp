@@ -4,8 +4,10 @@
 #include <thread>
 
 #include "app/batch.h"
+#include "app/slurm.h"
 #include "commands.h"
 #include "core/error.h"
+#include "core/known_names.h"
 
 namespace risorius::cli {
 
@@ -16,6 +18,8 @@ struct BatchArguments {
     app::BatchOptions options;
     std::string part;
     bool plan = false, list = false;
+    std::string engine = "local";
+    app::SlurmOptions slurm;
 };
 
 std::string time_text(double seconds) {
@@ -73,6 +77,15 @@ void run(BatchArguments& arguments) {
     if (options.workers < 1 || options.workers > 256)
         throw Error("--workers", "clips made at once, 1 to 256", std::to_string(options.workers));
     if (!arguments.part.empty()) read_part(arguments.part, options);
+    index_of_name("--engine", arguments.engine, {"local", "slurm"});
+    if (arguments.engine == "slurm") {
+        if (!arguments.part.empty()) throw Error("--part", "--engine local beside it", "slurm");
+        if (arguments.slurm.tasks < 1 || arguments.slurm.tasks > 10000)
+            throw Error("--tasks", "tasks of the array, 1 to 10000",
+                        std::to_string(arguments.slurm.tasks));
+        arguments.slurm.program = std::filesystem::canonical("/proc/self/exe");
+        arguments.slurm.workers = options.workers;
+    }
     if (arguments.common.json)
         options.told = [](const std::string& clip, const std::string& state,
                           const std::string& why) {
@@ -84,7 +97,9 @@ void run(BatchArguments& arguments) {
     app::BatchReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::make_batch(options, bar.watch());
+        report = arguments.engine == "slurm"
+                     ? app::make_batch_on_slurm(options, arguments.slurm, bar.watch())
+                     : app::make_batch(options, bar.watch());
     }
     if (arguments.common.json) {
         std::printf("%s\n", report.json().dump().c_str());
@@ -125,10 +140,34 @@ void add_batch(CLI::App& app) {
         "--part", arguments->part,
         "On several machines with one file system: which share of the clips to make "
         "here, as 2/8; run it without --part at the end");
+    constexpr const char* kCluster = "On a cluster";
+    command
+        ->add_option("--engine", arguments->engine,
+                     "local, or slurm: a job array makes the clips, --workers at once in each "
+                     "task; it is followed, "
+                     "and tried again where it failed")
+        ->capture_default_str()
+        ->group(kCluster);
+    command->add_option("--tasks", arguments->slurm.tasks, "Of the job array")
+        ->capture_default_str()
+        ->group(kCluster);
+    command
+        ->add_option("--retries", arguments->slurm.retries,
+                     "How often tasks whose clips are not all there are sent again")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 100))
+        ->group(kCluster);
+    command->add_option("--account", arguments->slurm.account, "Handed on to sbatch")
+        ->group(kCluster);
+    command->add_option("--partition", arguments->slurm.partition, "Handed on to sbatch")
+        ->group(kCluster);
+    command->add_option("--time", arguments->slurm.time, "Handed on to sbatch")->group(kCluster);
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius batch samples/stimuli/design.json --plan\n"
-        "  risorius batch samples/stimuli/design.json -o out/stimuli");
+        "  risorius batch samples/stimuli/design.json -o out/stimuli\n"
+        "  risorius batch samples/stimuli/design.json -o out/stimuli --engine slurm --tasks 32 "
+        "--time 1:00:00");
     command->callback([arguments] { run(*arguments); });
 }
 

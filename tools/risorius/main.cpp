@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
     cli::add_compare(app);
     cli::add_sheet(app);
     cli::add_fit(app);
+    cli::add_head(app);
     cli::add_check(app);
     cli::add_info(app);
     cli::add_evaluate(app);

@@ -3,11 +3,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "head_model.h"
+#include "sculpt/head_quality.h"
 
 int main(int argc, char** argv) {
-    std::filesystem::path design = std::string(RISORIUS_SOURCE_DIR) + "/models/adult/design",
-                          output;
+    std::filesystem::path design = risorius::sculpt::models_folder() / "adult/design", output;
     for (int k = 1; k < argc; ++k) {
         const std::string flag = argv[k];
         if (flag == "--output" && k + 1 < argc) {
@@ -30,7 +29,9 @@ int main(int argc, char** argv) {
             std::filesystem::create_directories(output);
             risorius::sculpt::write_head(model, output);
         }
-        std::printf("%s", risorius::sculpt::fit_report(model, tables).c_str());
+        std::printf("%s",
+                    risorius::sculpt::quality_report(risorius::sculpt::head_quality(model, tables))
+                        .c_str());
         return 0;
     } catch (const risorius::Error& error) {
         std::fprintf(stderr, "sculpt: %s\n", error.what());

@@ -7,6 +7,7 @@ namespace risorius::render {
 namespace {
 
 constexpr int kShadowSide = 1024;
+constexpr int kLow_px = 640;  ///< pictures whose pixels are wider than places of half a shadow map
 constexpr double kShadowReachPerFrame =
     0.62;  ///< half width of the map over the height of the frame
 
@@ -17,10 +18,10 @@ void put(float* to, const Vec3& v) {
 }  // namespace
 
 Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
-               bool draft)
+               int height_px, bool draft)
     : program_("shadow", depth_vertex_shader(), ""),
       clip_location_(program_.location("clip_from_world")),
-      shadow_side_(draft ? kShadowSide / 2 : kShadowSide) {
+      shadow_side_(draft || height_px <= kLow_px ? kShadowSide / 2 : kShadowSide) {
     const LightPlan plan = plan_light(options, camera.azimuth_rad);
     const Vec3 exposure = exposure_for(plan, options.exposure_ev), key = plan.key.direction;
     shadow_ = plan.key.card.maxCoeff() > 0;

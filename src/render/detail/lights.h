@@ -25,8 +25,9 @@ Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
 class Lights {
   public:
-    /// `draft`: a shadow of half as many places.
-    Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options, bool draft);
+    /// `height_px`: of the picture; low ones and drafts get a shadow of half as many places.
+    Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
+           int height_px, bool draft);
     ~Lights();
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;

@@ -354,7 +354,8 @@ float SceneBuffers::nearest_depth(const unsigned* face) const {
 bool SceneBuffers::may_hide(const Batch& batch) const {
     return batch.texture < 0 &&
            (batch.material == Material::kEye || batch.material == Material::kTeeth ||
-            batch.material == Material::kGums || batch.material == Material::kTongue);
+            batch.material == Material::kGums || batch.material == Material::kTongue ||
+            batch.material == Material::kMouth);
 }
 
 template <typename Keep>

@@ -84,6 +84,7 @@ layout(binding = 0) uniform sampler2DShadow shadow_map;
 
 // Soft edge of the key light over a disc of 3.5 mm. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
 // among them, every fourth each, and all get the mean. Not to be called where the block's samples go different ways.
+// Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself.
 float key_visibility(vec3 p, vec3 n) {
     float texel = mouth_axis.w;
     vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
@@ -92,12 +93,14 @@ float key_visibility(vec3 p, vec3 n) {
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
     e *= 0.0035 / (texel * float(textureSize(shadow_map, 0).x));
     vec2 f = vec2(-e.y, e.x);
+    vec2 slope = (mat3(shadow_from_world) * n).xy * (0.5 * texel * float(textureSize(shadow_map, 0).x)) / max(dot(n, key_direction.xyz), 0.2);
     vec4 r = sqrt((vec4(0.5, 4.5, 8.5, 12.5) + float(first)) * 0.0625);
     vec4 lit;
-    lit.x = textureLod(shadow_map, vec3(c.xy + r.x * e, c.z), 0.0);
-    lit.y = textureLod(shadow_map, vec3(c.xy + r.y * (-0.9847 * e - 0.1743 * f), c.z), 0.0);
-    lit.z = textureLod(shadow_map, vec3(c.xy + r.z * (0.9392 * e + 0.3433 * f), c.z), 0.0);
-    lit.w = textureLod(shadow_map, vec3(c.xy + r.w * (-0.8650 * e - 0.5018 * f), c.z), 0.0);
+    vec2 a = r.x * e, b = r.y * (-0.9847 * e - 0.1743 * f), g = r.z * (0.9392 * e + 0.3433 * f), h = r.w * (-0.8650 * e - 0.5018 * f);
+    lit.x = textureLod(shadow_map, vec3(c.xy + a, c.z + dot(slope, a)), 0.0);
+    lit.y = textureLod(shadow_map, vec3(c.xy + b, c.z + dot(slope, b)), 0.0);
+    lit.z = textureLod(shadow_map, vec3(c.xy + g, c.z + dot(slope, g)), 0.0);
+    lit.w = textureLod(shadow_map, vec3(c.xy + h, c.z + dot(slope, h)), 0.0);
     float s = dot(lit, vec4(0.25));
     s += (0.5 - float(q.x)) * dFdxFine(s);
     return s + (0.5 - float(q.y)) * dFdyFine(s);
@@ -171,7 +174,9 @@ uniform vec4 finish;      // roughness, reflectance straight on, share of it, la
 float seen_through_lips(vec3 p) {
     vec3 d = p - mouth_centre.xyz, a = mouth_axis.xyz;
     d -= a * clamp(dot(d, a) / max(dot(a, a), 1e-9), -0.75, 0.75);
-    return mouth_centre.w / (mouth_centre.w + 3.1416 * dot(d, d) + 1e-9);
+    float share = mouth_centre.w / (mouth_centre.w + 3.1416 * dot(d, d) + 1e-9);
+    // The deeper, the more of the gap is hidden by cheeks, teeth and palate.
+    return share * sqrt(share);
 }
 
 void main() {

@@ -200,7 +200,7 @@ Shape lash_shape(double length_m, double aside, bool upper) {
     Shape shape;
     for (std::size_t i = 0; i < kStrandPoints; ++i) {
         const double u = static_cast<double>(i) / (kStrandPoints - 1);
-        const double rise = upper ? -0.28 * u + 0.95 * u * u : -0.42 * u - 0.10 * u * u;
+        const double rise = upper ? -0.34 * u + 0.78 * u * u : -0.42 * u - 0.10 * u * u;
         const double out = upper ? 0.95 * u - 0.30 * u * u : 0.72 * u - 0.15 * u * u;
         shape[i] = length_m * Vec3(aside * (0.35 * u + 0.65 * u * u), rise, out);
     }
@@ -288,13 +288,13 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
             Strand strand;
             strand.root = *root;
             strand.eye = eye;
-            // Longest a little outside of the middle; those of a tuft lean together.
+            // Longest a little outside of the middle; the tips of a tuft draw together.
             const double bow = std::sin(std::numbers::pi * std::pow(s, 1.25));
             const double length = upper ? 0.0045 + 0.0042 * bow : 0.0024 + 0.0020 * bow;
             const double aside =
-                1.15 * (s - 0.46) + tuft * (0.6 - 0.3 * (i % 4)) + 0.12 * (jitter - 0.5);
-            strand.offset = lash_shape(length * (0.72 + 0.28 * long_), aside, upper);
-            strand.width_m = upper ? 0.00015 : 0.00009;
+                1.15 * (s - 0.46) + 0.5 * tuft + 0.024 * (1.5 - i % 4) + 0.08 * (jitter - 0.5);
+            strand.offset = lash_shape(length * (0.60 + 0.40 * long_), aside, upper);
+            strand.width_m = upper ? 0.00017 : 0.00009;
             strand.shade = 0.20 + 0.2 * shade;
             strands.push_back(strand);
         }

@@ -1,7 +1,7 @@
 // Lips and the cavity behind them: skin loops, vermilion, the line of contact, the inner lip and a bag round the teeth.
 #include <cmath>
 
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 namespace {

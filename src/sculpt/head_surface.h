@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "tables.h"
+#include "sculpt/tables.h"
 
 namespace risorius::sculpt {
 

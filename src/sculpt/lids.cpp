@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 namespace {

@@ -1,4 +1,4 @@
-#include "tables.h"
+#include "sculpt/tables.h"
 
 #include <cmath>
 #include <fstream>
@@ -71,7 +71,43 @@ std::map<std::string, std::vector<LoopPoint>> read_loops(const std::filesystem::
     return loops;
 }
 
+std::vector<Measure> read_measures(const std::filesystem::path& file) {
+    std::vector<Measure> measures;
+    const auto cells = read_csv(file);
+    if (cells[0].size() < 6) throw Error(file.string(), "at least six columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        measures.push_back({row[0], row[1], row[2], number(file, row[3]), number(file, row[4]),
+                            number(file, row[5])});
+    }
+    return measures;
+}
+
+std::vector<Handle> read_handles(const std::filesystem::path& file) {
+    const std::map<std::string, Handle::Kind> kinds{{"move", Handle::Kind::kMove},
+                                                    {"scale", Handle::Kind::kScale},
+                                                    {"lid", Handle::Kind::kLid}};
+    std::vector<Handle> handles;
+    const auto cells = read_csv(file);
+    if (cells[0].size() != 9) throw Error(file.string(), "nine columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        const auto kind = kinds.find(row[1]);
+        if (kind == kinds.end())
+            throw Error(file.string() + ": row " + std::to_string(r + 1), "move, scale or lid",
+                        quoted(row[1]));
+        const double reach = number(file, row[5]);
+        handles.push_back({row[0], kind->second,
+                           Vec3(number(file, row[2]), number(file, row[3]), number(file, row[4])),
+                           std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach,
+                           Vec3(number(file, row[6]), number(file, row[7]), number(file, row[8]))});
+    }
+    return handles;
+}
+
 }  // namespace
+
+std::filesystem::path models_folder() { return RISORIUS_MODELS_FOLDER; }
 
 DesignTables read_design_tables(const std::filesystem::path& folder) {
     DesignTables tables;
@@ -84,6 +120,19 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
             Vec3(number(file, cells[r][2]), number(file, cells[r][3]), number(file, cells[r][4]));
     tables.nose_loops = read_loops(folder / "nose_loops.csv");
     tables.ear_loops = read_loops(folder / "ear_loops.csv");
+    tables.measures = read_measures(folder / "anthropometry.csv");
+    tables.handles = read_handles(folder / "parameters.csv");
+    const auto tones = folder / "tones.csv";
+    for (const auto& row : read_csv(tones))
+        if (row.size() == 5 && row[0] != "part")
+            tables.tones[row[0]][row[1]] =
+                Vec3(number(tones, row[2]), number(tones, row[3]), number(tones, row[4]));
+    for (const char* part : {"skin", "lips", "iris", "hair"})
+        if (tables.tones[part].empty())
+            throw Error(tones.string(), std::string("a row of part ") + part, "none");
+    for (const auto& [name, tone] : tables.tones["skin"])
+        if (!tables.tones["lips"].count(name))
+            throw Error(tones.string(), "lips for skin " + quoted(name), "none");
     return tables;
 }
 

@@ -23,6 +23,22 @@ struct LoopPoint {
     Vec3 point;
 };
 
+/// A distance between two landmarks and how it is spread among adults.
+struct Measure {
+    std::string name, from, to;
+    double mean_mm, sd_mm, men_less_women_mm;
+};
+
+/// How one parameter moves the average head: everything within `reach` of a place is moved along `by`, or enlarged about it.
+/// Each works on both sides.
+struct Handle {
+    std::string parameter;
+    enum class Kind { kMove, kScale, kLid } kind;
+    Vec3 at;
+    double reach_mm;  ///< infinite: everywhere
+    Vec3 by;          ///< mm, or percent for kScale, per unit of the parameter
+};
+
 struct DesignTables {
     GridTable face_depth;                   ///< z over rows y, columns x
     GridTable head_radius;                  ///< r about (x 0, z 20) over rows y, columns azimuth
@@ -30,7 +46,13 @@ struct DesignTables {
     std::map<std::string, std::vector<LoopPoint>> nose_loops;  ///< left side, head frame
     std::map<std::string, std::vector<LoopPoint>>
         ear_loops;  ///< left side, ear frame: back, up, out
+    std::vector<Measure> measures;
+    std::vector<Handle> handles;
+    std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
 };
+
+/// models/ of the tree this was built from.
+std::filesystem::path models_folder();
 
 /// Throws Error on a missing or malformed table.
 DesignTables read_design_tables(const std::filesystem::path& folder);

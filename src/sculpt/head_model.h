@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 
@@ -16,8 +16,5 @@ HeadModel make_head(const DesignTables& tables);
 
 /// OBJ with groups, coordinates to a micrometre; landmark file beside it.
 void write_head(const HeadModel& model, const std::filesystem::path& folder);
-
-/// How well the head meets the tables, as text.
-std::string fit_report(const HeadModel& model, const DesignTables& tables);
 
 }  // namespace risorius::sculpt

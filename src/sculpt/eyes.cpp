@@ -1,4 +1,4 @@
-#include "eyes.h"
+#include "sculpt/eyes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "skin.h"
+#include "sculpt/skin.h"
 
 #include <algorithm>
 #include <cmath>

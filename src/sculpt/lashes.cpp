@@ -1,4 +1,4 @@
-#include "lashes.h"
+#include "sculpt/lashes.h"
 
 #include <cmath>
 

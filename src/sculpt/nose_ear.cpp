@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 namespace {

@@ -1,4 +1,4 @@
-#include "head_surface.h"
+#include "sculpt/head_surface.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

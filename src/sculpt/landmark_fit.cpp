@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 namespace {

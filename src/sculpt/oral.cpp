@@ -1,4 +1,4 @@
-#include "oral.h"
+#include "sculpt/oral.h"
 
 #include <algorithm>
 #include <array>

@@ -1,15 +1,14 @@
-#include "head_model.h"
+#include "sculpt/head_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
-#include "lashes.h"
-#include "oral.h"
+#include "sculpt/lashes.h"
+#include "sculpt/oral.h"
 
 namespace risorius::sculpt {
 namespace {
@@ -128,81 +127,6 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
     }
     text += "\n  }\n}\n";
     write_file(folder / "landmarks.json", text);
-}
-
-std::string fit_report(const HeadModel& model, const DesignTables& tables) {
-    std::ostringstream out;
-    const auto& mesh = model.mesh;
-    out << "vertices " << mesh.vertex_count() << ", faces " << mesh.face_count() << "\n";
-    for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
-        std::set<int> used;
-        int faces = 0;
-        for (int f = 0; f < mesh.face_count(); ++f) {
-            if (mesh.face_group[f] != static_cast<int>(g)) continue;
-            ++faces;
-            used.insert(mesh.corner_vertex.begin() + mesh.face_begin[f],
-                        mesh.corner_vertex.begin() + mesh.face_begin[f + 1]);
-        }
-        out << "  " << mesh.group_names[g] << ": " << used.size() << " vertices, " << faces
-            << " faces\n";
-    }
-    // Depth: front-most skin under each measured ray.
-    const Triangles skin = geom::triangulate(mesh, {mesh.group_index("skin")});
-    double sum = 0, worst = 0, inner_sum = 0;
-    int count = 0, inner = 0;
-    const auto& depth = tables.face_depth;
-    for (std::size_t r = 0; r < depth.rows.size(); ++r)
-        for (std::size_t c = 0; c < depth.columns.size(); ++c) {
-            const double x = depth.columns[c], y = depth.rows[r], measured = depth.value[r][c];
-            if (std::isnan(measured)) continue;
-            double z = -1e9;
-            for (long t = 0; t < skin.rows(); ++t) {
-                const Vec3 a = mesh.positions.row(skin(t, 0)), b = mesh.positions.row(skin(t, 1)),
-                           d = mesh.positions.row(skin(t, 2));
-                const double area =
-                    (b.x() - a.x()) * (d.y() - a.y()) - (b.y() - a.y()) * (d.x() - a.x());
-                if (area < 1e-9) continue;  // only what faces forward
-                const double u =
-                    ((x - a.x()) * (d.y() - a.y()) - (y - a.y()) * (d.x() - a.x())) / area;
-                const double v =
-                    ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
-                if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
-                z = std::max(z, (1 - u - v) * a.z() + u * b.z() + v * d.z());
-            }
-            if (z < -1e8) continue;
-            const double error = z - measured;
-            // Where the skin turns away from the ray a sideways millimetre is many of depth.
-            sum += error * error;
-            ++count;
-            if (measured > 40) {
-                inner_sum += error * error;
-                ++inner;
-                worst = std::max(worst, std::abs(error));
-            }
-        }
-    out.precision(3);
-    out << "face depth: RMS " << std::sqrt(sum / count) << " mm over " << count
-        << " rays; in front of z = 40: RMS " << std::sqrt(inner_sum / inner) << " mm, greatest "
-        << worst << " mm\n";
-    double square = 0, greatest = 0;
-    std::string which;
-    int n = 0;
-    std::ostringstream over;
-    for (const auto& [id, p] : tables.landmarks) {
-        const double error =
-            (Vec3(mesh.positions.row(model.landmarks.at(id)).transpose()) - p).norm();
-        square += error * error;
-        ++n;
-        if (error > greatest) {
-            greatest = error;
-            which = id;
-        }
-        if (error > 1.5 && !id.ends_with("_r")) over << "  " << id << " " << error << " mm\n";
-    }
-    out << "landmarks: RMS " << std::sqrt(square / n) << " mm, greatest " << greatest << " mm ("
-        << which << ")\n"
-        << over.str();
-    return out.str();
 }
 
 }  // namespace risorius::sculpt

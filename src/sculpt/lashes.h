@@ -1,7 +1,7 @@
 // Lashes: one ribbon along each lid margin, standing on it and curving away from the eye. A renderer cuts the single hairs.
 #pragma once
 
-#include "skin.h"
+#include "sculpt/skin.h"
 
 namespace risorius::sculpt {
 

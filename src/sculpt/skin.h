@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "eyes.h"
-#include "half_mesh.h"
-#include "head_surface.h"
+#include "sculpt/eyes.h"
+#include "sculpt/half_mesh.h"
+#include "sculpt/head_surface.h"
 
 namespace risorius::sculpt {
 

@@ -1,4 +1,4 @@
-#include "half_mesh.h"
+#include "sculpt/half_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,176 @@
+#include "app/sculpt_head.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/fit_rig.h"
+#include "app/rig_files.h"
+#include "app/scene_from_rig.h"
+#include "app/staged_file.h"
+#include "app/staged_folder.h"
+#include "core/known_names.h"
+#include "media/image_file.h"
+#include "render/offscreen_view.h"
+#include "rig/head.h"
+#include "sculpt/deform_head.h"
+
+namespace risorius::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kMeshFile = "head.obj";
+constexpr const char* kLandmarks = "landmarks.json";
+constexpr const char* kIdentityFile = "identity.json";
+constexpr const char* kRigFile = "rig.json";
+constexpr const char* kViews = "views.png";
+constexpr const char* kResults = "results.json";
+
+sculpt::DesignTables design_tables() {
+    return sculpt::read_design_tables(sculpt::models_folder() / "adult/design");
+}
+
+Json tone_json(const Vec3& tone) { return Json{tone.x(), tone.y(), tone.z()}; }
+
+Json look_json(const sculpt::Identity& identity, const sculpt::DesignTables& tables) {
+    // Skin begins to show its age at 25, and hair is grey at 75.
+    constexpr double kYoung = 25, kOld = 75;
+    Json look;
+    look["skin_tone"] = tone_json(tables.tones.at("skin").at(identity.skin));
+    look["lip_tone"] = tone_json(tables.tones.at("lips").at(identity.skin));
+    look["iris_tone"] = tone_json(tables.tones.at("iris").at(identity.iris));
+    look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
+    look["freckles"] = identity.freckles;
+    look["scalp_hair"] = identity.scalp_hair;
+    look["beard"] = identity.beard;
+    look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
+    return look;
+}
+
+Image views_of(const fs::path& rig_file) {
+    constexpr int kWidth_px = 560, kHeight_px = 720;
+    const RigFiles files = read_rig_files(rig_file);
+    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+    const render::Scene scene = scene_from_rig(head, files.rig, files.mesh);
+    render::Pose pose;
+    pose.positions = head.vertices;
+    Image row(3 * kWidth_px, kHeight_px);
+    int left = 0;
+    for (const char* camera : {"front", "three_quarter", "profile"}) {
+        render::OffscreenView view(
+            scene, {.width_px = kWidth_px, .height_px = kHeight_px, .camera = camera});
+        const Image one = view.draw(pose);
+        for (int y = 0; y < kHeight_px; ++y)
+            std::copy_n(one.pixel(0, y), 4 * kWidth_px, row.pixel(left, y));
+        left += kWidth_px;
+    }
+    return row;
+}
+
+}  // namespace
+
+sculpt::Identity chosen_identity(const IdentityChoice& choice) {
+    const sculpt::DesignTables tables = design_tables();
+    if (choice.seed && !choice.identity.empty())
+        throw Error("--seed", "a seed or --identity", "both");
+    sculpt::Identity identity;
+    if (!choice.identity.empty()) {
+        fs::path file = choice.identity;
+        if (file.extension() != ".json") {
+            index_of_name("--identity", choice.identity, sculpt::named_identities());
+            file = sculpt::identity_file(choice.identity);
+        }
+        identity = sculpt::read_identity(file, tables);
+    } else if (choice.seed) {
+        identity = sculpt::random_identity(*choice.seed, tables);
+    }
+    identity.sex = choice.sex.value_or(identity.sex);
+    identity.age = choice.age.value_or(identity.age);
+    identity.skin = choice.skin.value_or(identity.skin);
+    identity.iris = choice.iris.value_or(identity.iris);
+    identity.hair = choice.hair.value_or(identity.hair);
+    sculpt::check_identity(identity, tables, "--");
+    if (choice.seed) sculpt::deform_within_spread(sculpt::make_head(tables), tables, identity);
+    for (const std::string& text : choice.shape) {
+        const std::size_t equals = text.find('=');
+        std::size_t used = 0;
+        double value = 0;
+        if (equals != std::string::npos) {
+            try {
+                value = std::stod(text.substr(equals + 1), &used);
+            } catch (const std::exception&) {
+                used = 0;
+            }
+        }
+        if (used == 0 || equals + 1 + used != text.size())
+            throw Error("--shape", "PARAMETER=NUMBER", quoted(text));
+        identity.shape[text.substr(0, equals)] = value;
+    }
+    sculpt::check_identity(identity, tables, "--");
+    return identity;
+}
+
+SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
+    // Shape it, and prove that there are people like this
+    watch.tell(0, "sculpting");
+    const sculpt::DesignTables tables = design_tables();
+    SculptReport report;
+    report.out = options.out;
+    report.identity = options.identity;
+    const sculpt::HeadModel model =
+        sculpt::deform_head(sculpt::make_head(tables), tables, options.identity);
+    sculpt::check_spread(model, tables, options.identity, options.place);
+    report.quality = sculpt::head_quality(model, tables, options.identity.sex, false);
+
+    // Write mesh, landmarks and who it is
+    StagedFolder folder(options.out);
+    const fs::path partial = folder.partial();
+    sculpt::write_head(model, partial);
+    write_text(partial / kIdentityFile, sculpt::identity_json(options.identity).dump(2) + "\n");
+    report.files = {kMeshFile, kLandmarks, kIdentityFile, kResults};
+
+    // Give it muscles, and colours of its own
+    if (!options.mesh_only) {
+        FitOptions fit;
+        fit.mesh = partial / kMeshFile;
+        fit.landmarks = partial / kLandmarks;
+        fit.out = partial / kRigFile;
+        fit.standard = options.standard;
+        fit.metres_per_unit = 1e-3;
+        fit.name = options.identity.name;
+        fit.calibrate = options.calibrate;
+        fit.solids = true;
+        report.notes = fit_rig(fit, watch).notes;
+        Json rig = JsonCursor::read_file(fit.out).json();
+        rig["look"] = look_json(options.identity, tables);
+        write_text(fit.out, rig.dump(1) + "\n");
+        media::write_png(views_of(fit.out), partial / kViews);
+        report.files.insert(report.files.end(), {kRigFile, kViews});
+    }
+    std::sort(report.files.begin(), report.files.end());
+    write_text(partial / kResults, report.json().dump(2) + "\n");
+    folder.commit();
+    watch.tell(1, "done");
+    return report;
+}
+
+Json SculptReport::json() const {
+    Json json;
+    json["identity"] = sculpt::identity_json(identity);
+    json["worst_deviation"] = quality.worst_deviation();
+    for (const sculpt::MeasureScore& m : quality.measures)
+        json["measures"][m.measure] = {{"length_mm", m.length_mm}, {"deviation", m.deviation}};
+    json["self_intersections"] = quality.self_intersections;
+    json["quad_share"] = quality.quad_share;
+    json["unusual_valence_share"] = quality.unusual_valence_share;
+    json["mirror_error_mm"] = quality.mirror_error_mm;
+    json["aspect"] = {{"median", quality.aspect_median},
+                      {"of_99", quality.aspect_99},
+                      {"greatest", quality.aspect_worst}};
+    json["notes"] = notes;
+    json[kFilesKey] = files;
+    return json;
+}
+
+}  // namespace risorius::app

@@ -1,0 +1,92 @@
+// A stimulus set made by a job array of a real Slurm that the test starts on the loopback.
+#include "app/slurm.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "app/run_program.h"
+#include "paths.h"
+#include "temporary_folder.h"
+
+namespace risorius::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using app::run_program;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Slurm : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (run_program({"slurmctld", "-V"}).exit_code == 127 ||
+            run_program({"munged", "--version"}).exit_code == 127)
+            GTEST_SKIP() << "no slurm-wlm and munge here";
+        if (geteuid() != 0) GTEST_SKIP() << "starting a Slurm takes root";
+        const std::string port = std::to_string(20000 + 2 * (getpid() % 10000));
+        const app::ProgramResult up = run_program({cluster(), "start", folder().string(), port});
+        ASSERT_EQ(up.exit_code, 0) << up.output;
+        setenv("SLURM_CONF", (folder() / "slurm.conf").c_str(), 1);
+    }
+    void TearDown() override { run_program({cluster(), "stop", folder().string()}); }
+
+    static std::string cluster() { return RISORIUS_SOURCE_DIR "/tests/data/slurm/cluster.sh"; }
+    const fs::path& folder() const { return folder_.path(); }
+
+    fs::path design() const {
+        Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Two",
+            "clips": {"quality": "preview", "ending": "mkv"},
+            "sets": [{"name": "two", "clip": "${expression}",
+                "factors": {"expression": ["happiness", "fear"]},
+                "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.3,
+                    "events": [{"expression": "${expression}", "start_s": 0.0, "onset_s": 0.2}],
+                    "view": {"width_px": 48, "height_px": 64, "antialiasing": 1}}}]})");
+        json["sets"][0]["script"]["rig"] = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
+        const fs::path file = folder() / "it's a design.json";
+        std::ofstream(file) << json.dump();
+        return file;
+    }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
+    const app::BatchOptions here{.design = design(), .out = folder() / "here", .workers = 1};
+    app::BatchOptions there = here;
+    there.out = folder() / "there";
+    ASSERT_TRUE(app::make_batch(here).complete);
+
+    // A program that fails in its first round
+    const fs::path program = folder() / "risorius once";
+    std::ofstream(program) << "#!/bin/sh\nif [ ! -e \"" << folder().string()
+                           << "/failed\" ]; then touch \"" << folder().string()
+                           << "/failed\"; exit 1; fi\nexec " RISORIUS_BINARY_DIR
+                              "/risorius \"$@\"\n";
+    fs::permissions(program, fs::perms::owner_all);
+    app::SlurmOptions slurm{.program = program, .tasks = 2, .workers = 1, .retries = 0};
+    app::BatchReport report = app::make_batch_on_slurm(there, slurm);
+    EXPECT_FALSE(report.complete);
+    EXPECT_EQ(report.made, 1);
+    ASSERT_EQ(report.failed.size(), 1u);
+    EXPECT_FALSE(fs::exists(there.out / "SHA256SUMS"));
+    fs::remove(folder() / "failed");
+    slurm.retries = 1;
+    report = app::make_batch_on_slurm(there, slurm);
+    EXPECT_TRUE(report.complete);
+    EXPECT_EQ(report.kept, 1);
+    EXPECT_EQ(report.made, 1);
+    EXPECT_EQ(text_of(there.out / "SHA256SUMS"), text_of(here.out / "SHA256SUMS"));
+    EXPECT_FALSE(fs::exists(there.out / "code/slurm.sh"));
+}
+
+}  // namespace
+}  // namespace risorius::scenario

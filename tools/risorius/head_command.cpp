@@ -1,0 +1,89 @@
+// risorius head [--identity NAME|FILE] [--seed N] -o DIR
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/sculpt_head.h"
+#include "commands.h"
+#include "core/error.h"
+
+namespace risorius::cli {
+
+namespace {
+
+struct HeadArguments {
+    Common common;
+    app::IdentityChoice choice;
+    app::SculptOptions options;
+};
+
+void run(HeadArguments& arguments) {
+    arguments.options.identity = app::chosen_identity(arguments.choice);
+    if (!arguments.choice.identity.empty()) arguments.options.place = arguments.choice.identity;
+    app::SculptReport report;
+    {
+        ProgressBar bar(arguments.common);
+        report = app::sculpt_head(arguments.options, bar.watch());
+    }
+    if (arguments.common.json) {
+        std::printf("%s\n", report.json().dump(2).c_str());
+    } else if (!arguments.common.quiet) {
+        std::printf("%s: %s\n", report.out.string().c_str(), report.identity.name.c_str());
+        for (const std::string& file : report.files) std::printf("  %s\n", file.c_str());
+        std::printf("%s", sculpt::quality_report(report.quality).c_str());
+        for (const std::string& note : report.notes) std::printf("note: %s\n", note.c_str());
+    }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += " " + name;
+    return text;
+}
+
+std::string footer() {
+    std::string text;
+    try {
+        const auto tables = sculpt::read_design_tables(sculpt::models_folder() / "adult/design");
+        text = "Identities:" + listed(sculpt::named_identities()) +
+               "\nShapes, in standard deviations from -2 to 2:" +
+               listed(sculpt::shape_parameters(tables)) +
+               "\nSkin:" + listed(sculpt::tone_names(tables, "skin")) +
+               "; iris:" + listed(sculpt::tone_names(tables, "iris")) +
+               "; hair:" + listed(sculpt::tone_names(tables, "hair")) + "\n";
+    } catch (const Error& error) {
+        text = std::string(error.what()) + "\n";
+    }
+    return text +
+           "\nExamples:\n  risorius head --seed 7 -o out/seven\n"
+           "  risorius head --sex -1 --age 62 --shape lips=0.8 --shape face_width=-1 -o out/eva";
+}
+
+}  // namespace
+
+void add_head(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "head", "A head of your own making, with its rig: average, named or drawn");
+    auto arguments = std::make_shared<HeadArguments>();
+    app::IdentityChoice& choice = arguments->choice;
+    command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
+    command->add_option("--identity", choice.identity,
+                        "A name of models/identities, or a file like them (.json)");
+    command->add_option("--seed", choice.seed, "Somebody drawn from the spread of adults");
+    command->add_option("--sex", choice.sex, "-1 woman to 1 man");
+    command->add_option("--age", choice.age, "20 to 80 years");
+    command->add_option("--shape", choice.shape, "PARAMETER=NUMBER, as often as there are any");
+    command->add_option("--skin", choice.skin, "Tone of the skin, by name");
+    command->add_option("--iris", choice.iris, "Colour of the eyes, by name");
+    command->add_option("--hair", choice.hair, "Colour of brows and hair, by name");
+    command->add_flag("--mesh-only", arguments->options.mesh_only,
+                      "Mesh and landmarks alone, without rig and pictures");
+    command->add_flag(
+        "--calibrate", arguments->options.calibrate,
+        "Make each muscle as strong as it has to be on this head, which takes minutes; "
+        "else they are as strong as the adult's");
+    add_common(*command, arguments->common);
+    command->footer(footer);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace risorius::cli
