@@ -190,6 +190,7 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     const RigFiles files = read_rig_files(kAdult);
     const track::ChannelTable channels = files.rig.channels();
     sim::Face face(files.rig, files.mesh, sim::quality_named("preview"), files.place());
+    ASSERT_FALSE(report().shapes.list.empty());  // made by now
     const fs::path file = folder().path() / "shapes/shapes.glb";
     ShapesOfFile shapes = read_shapes_of_file(file, files, face.head());
     ASSERT_EQ(shapes.goals.size(), 4u);
@@ -214,8 +215,16 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     const sim::FacePose simulated = face.pose();
     EXPECT_EQ(pose.eye_rotation[0], simulated.eye_rotation[0]);
     EXPECT_TRUE(pose.head.isApprox(simulated.head, 0.0));
-    // Lids go with the gaze, which these shapes do not
-    EXPECT_LT((pose.vertices - simulated.vertices).rowwise().norm().maxCoeff(), 2e-3);
+    // Lids and the corners between them go with the gaze, which these shapes do not
+    double worst = 0;
+    for (long v = 0; v < rest.rows(); ++v) {
+        const auto from_eye = [&](int side) {
+            return (Vec3(rest.row(v).transpose()) - face.head().eyes[side].centre).norm();
+        };
+        if (std::min(from_eye(0), from_eye(1)) > 25e-3)
+            worst = std::max(worst, (pose.vertices - simulated.vertices).row(v).norm());
+    }
+    EXPECT_LT(worst, 0.5e-3);
     EXPECT_GT((pose.vertices - rest).rowwise().norm().maxCoeff(), 20e-3);
     // Another head's
     RigFiles other = files;
@@ -235,6 +244,7 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
 }
 
 TEST_F(BakedShapes, AreSolvedBackToWhatMadeThem) {
+    ASSERT_FALSE(report().shapes.list.empty());  // made by now
     const TemporaryFolder other;
     const SolveReport solved = solve_activations({.rig = kAdult,
                                                   .out = other.path() / "solved",
