@@ -20,7 +20,7 @@ struct BatchOptions {
         parts = 1;  ///< of several machines: which share of the clips is made here, from 1
     /// Of each clip as it is kept, made or failed; `why` is empty unless it failed. From several threads, one at a time.
     std::function<void(const std::string& clip, const std::string& state, const std::string& why)>
-        told;
+        told{};
 };
 
 struct BatchPlan {

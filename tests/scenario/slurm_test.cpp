@@ -60,19 +60,24 @@ class Slurm : public testing::Test {
 };
 
 TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
-    const app::BatchOptions here{.design = design(), .out = folder() / "here", .workers = 1};
+    app::BatchOptions here;
+    here.design = design();
+    here.out = folder() / "here";
+    here.workers = 1;
     app::BatchOptions there = here;
     there.out = folder() / "there";
     ASSERT_TRUE(app::make_batch(here).complete);
 
-    // A program that fails in its first round
+    // A program that fails the first time, whichever task comes first: a folder is made by one only
     const fs::path program = folder() / "risorius once";
-    std::ofstream(program) << "#!/bin/sh\nif [ ! -e \"" << folder().string()
-                           << "/failed\" ]; then touch \"" << folder().string()
-                           << "/failed\"; exit 1; fi\nexec " RISORIUS_BINARY_DIR
-                              "/risorius \"$@\"\n";
+    std::ofstream(program) << "#!/bin/sh\nif mkdir '" << (folder() / "failed").string()
+                           << "' 2>/dev/null; then exit 1; fi\n"
+                           << "exec '" RISORIUS_BINARY_DIR "/risorius' \"$@\"\n";
     fs::permissions(program, fs::perms::owner_all);
-    app::SlurmOptions slurm{.program = program, .tasks = 2, .workers = 1, .retries = 0};
+    app::SlurmOptions slurm;
+    slurm.program = program;
+    slurm.tasks = 2;
+    slurm.retries = 0;
     app::BatchReport report = app::make_batch_on_slurm(there, slurm);
     EXPECT_FALSE(report.complete);
     EXPECT_EQ(report.made, 1);
