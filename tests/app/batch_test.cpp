@@ -50,7 +50,7 @@ class Batch : public testing::Test {
 };
 
 TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
-    const fs::path file = design("design.json", {0.5, 1}, R"(["reversed", "upside_down"])");
+    const fs::path file = design("design.json", {0.5, 1}, R"(["reversed", "upside_down", "phase_scrambled"])");
     std::map<std::string, std::string> told;
     BatchOptions options{.design = file,
                          .out = folder().path() / "one",
@@ -58,7 +58,7 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
                          .told = [&](const std::string& clip, const std::string& state,
                                      const std::string&) { told[clip] = state; }};
     const BatchReport first = make_batch(options);
-    EXPECT_EQ(first.made, 6);
+    EXPECT_EQ(first.made, 8);
     EXPECT_TRUE(first.complete);
     EXPECT_EQ(told.at("smile0p5Reversed"), "made");
     const std::string sums = text_of(options.out / "SHA256SUMS");
@@ -72,16 +72,16 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     parts.parts = 2;
     parts.part = 2;
     const BatchReport half = make_batch(parts);
-    EXPECT_EQ(half.made, 3);
-    EXPECT_EQ(half.elsewhere, 3);
+    EXPECT_EQ(half.made, 4);
+    EXPECT_EQ(half.elsewhere, 4);
     EXPECT_FALSE(half.complete);
     EXPECT_FALSE(fs::exists(parts.out / "SHA256SUMS"));
     parts.parts = parts.part = parts.workers = 1;
-    EXPECT_EQ(make_batch(parts).made, 3);
+    EXPECT_EQ(make_batch(parts).made, 4);
     EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), sums);
 
     // Kept while it is whole, also for another design: what is common stays, what it does not have goes
-    EXPECT_EQ(make_batch(options).kept, 6);
+    EXPECT_EQ(make_batch(options).kept, 8);
     std::ofstream(video, std::ios::app) << "x";
     options.design = design("design.json", {1, 0.8, 0.5});
     fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
