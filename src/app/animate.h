@@ -52,6 +52,8 @@ struct AnimateOptions {
     std::vector<double> times_s;         ///< ascending: these moments instead of every frame
     std::optional<std::string> quality;  ///< sim::quality_named; "video", or "preview" for a draft
     std::optional<int> antialiasing;     ///< samples per pixel and side, 1..4; 1 for a draft
+    /// Everything goes down as far as it went up, and up where it went down: no face can do that. The head must keep still.
+    bool flipped_motion = false;
     bool draft = false;      ///< quickly, to look at: of what is not given, the quickest
     bool landmarks = false;  ///< their places in the table
     bool emg = false;        ///< what electrodes would record, in the table

@@ -12,8 +12,10 @@
 #include "app/version.h"
 #include "core/error.h"
 #include "media/image_file.h"
+#include "media/phase_scramble.h"
 #include "media/sha256.h"
 #include "media/sync_marks.h"
+#include "track/timeline.h"
 
 namespace risorius::app {
 
@@ -168,7 +170,10 @@ class ClipPictures {
           kind_(plan.condition.control.kind),
           background_(background),
           video_(video),
-          later_(shows_other_order(kind_) || shows_part(kind_)) {}
+          later_(shows_other_order(kind_) || shows_part(kind_)) {
+        if (kind_ == ControlKind::kPhaseScrambled)
+            phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
+    }
 
     void take(Image image) {
         if (later_)
@@ -205,6 +210,7 @@ class ClipPictures {
   private:
     void write(Image image) {
         if (kind_ == ControlKind::kUpsideDown) turn_upside_down(image);
+        if (phases_) phases_->scramble(image);
         const int height = std::min(kThumb_px, image.height_px);
         thumbs_.push_back(
             shrunk(image, std::max(1, image.width_px * height / image.height_px), height));
@@ -222,10 +228,24 @@ class ClipPictures {
     std::array<std::uint8_t, 3> background_;
     media::VideoWriter& video_;
     bool later_;
+    std::optional<media::PhaseScrambler> phases_;
     int written_ = 0;
     std::vector<Image> held_, thumbs_;
     media::Sha256 hash_;
 };
+
+/// In any frame.
+bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
+                    const ClipPlan& plan) {
+    const track::Timeline timeline(script, channels);
+    for (int frame = 0; frame < plan.frames; ++frame) {
+        const track::Drive drive = timeline.at(static_cast<double>(frame) / plan.fps);
+        for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
+             k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
+            if (drive.kinematic[static_cast<std::size_t>(k)] != 0) return true;
+    }
+    return false;
+}
 
 /// How it was made, without what differs from one making to the next and from one folder to another.
 Json run_without_places(const RunRecord& record) {
@@ -283,6 +303,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptio
                         ", which keeps them in memory",
                     std::to_string(plan.frames) + " of " + std::to_string(plan.width_px) + " x " +
                         std::to_string(plan.height_px));
+    if (kind == ControlKind::kFlipped && moves_the_head(script, rig.files.rig.channels(), plan))
+        throw Error(json.place(), "a head that keeps still, for the control flipped",
+                    "one that the script moves");
     if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
 
     // All that the clip hangs on
@@ -291,7 +314,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptio
                  {"script", condition.script},
                  {"rig", rig.sha256},
                  {"control", condition.control.name()},
-                 {"seed", kind == ControlKind::kScrambled ? condition.seed : 0u},
+                 {"seed", kind == ControlKind::kScrambled || kind == ControlKind::kPhaseScrambled
+                              ? condition.seed
+                              : 0u},
                  {"ending", clips.ending},
                  {"quality", clips.quality},
                  {"crf", clips.crf ? Json(*clips.crf) : Json()},
@@ -357,6 +382,7 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
     options.landmarks = plan.clips.landmarks || shows_part(plan.condition.control.kind) ||
                         plan.condition.control.kind == ControlKind::kApex;
     options.threads = threads;
+    options.flipped_motion = plan.condition.control.kind == ControlKind::kFlipped;
     const Shot shot = plan_shot(options);
     std::array<std::uint8_t, 3> background{};
     for (std::size_t k = 0; k < 3; ++k)

@@ -102,6 +102,11 @@ sim::FacePose turned(sim::FacePose pose, double angle_rad) {
     return pose;
 }
 
+/// Every vertex as far below where it is at rest as it was above.
+void flip_motion(const Points& rest, sim::FacePose& pose) {
+    pose.vertices.col(1) = 2 * rest.col(1) - pose.vertices.col(1);
+}
+
 }  // namespace
 
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
@@ -186,6 +191,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         std::optional<track::Drive> played;
         if (shapes) played = script_drives.at(t_s);
         sim::FacePose pose = shapes ? shapes->pose(*played) : face.pose_at(t_s, drive);
+        if (options.flipped_motion) flip_motion(face.head().vertices, pose);
         const double angle_rad =
             options.turntable_s ? 2 * std::numbers::pi * (frame + offset) / shot.frames : 0.0;
         if (options.turntable_s) pose = turned(std::move(pose), angle_rad);

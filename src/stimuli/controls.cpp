@@ -13,8 +13,8 @@ namespace risorius::stimuli {
 
 const std::vector<std::string>& control_names() {
     static const std::vector<std::string> kNames{
-        "reversed",   "scrambled", "apex",      "upside_down", "eyes_only",
-        "mouth_only", "neutral",   "knock_out", "palsy",       "late_side"};
+        "reversed",   "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
+        "mouth_only", "flipped",   "neutral", "knock_out",   "palsy",           "late_side"};
     return kNames;
 }
 

@@ -12,17 +12,19 @@
 namespace risorius::stimuli {
 
 enum class ControlKind {
-    kNone,        ///< the condition itself
-    kReversed,    ///< last frame first
-    kScrambled,   ///< frames in an order drawn by chance
-    kApex,        ///< the frame farthest from the first, all the time
-    kUpsideDown,  ///< turned by half a turn in the picture
-    kEyesOnly,    ///< nothing but what surrounds the eyes
-    kMouthOnly,   ///< nothing but what surrounds the mouth
-    kNeutral,     ///< the face at rest for as long
-    kKnockOut,    ///< without one muscle
-    kPalsy,       ///< with one half of the face weak
-    kLateSide     ///< one half of the face later than the other
+    kNone,            ///< the condition itself
+    kReversed,        ///< last frame first
+    kScrambled,       ///< frames in an order drawn by chance
+    kApex,            ///< the frame farthest from the first, all the time
+    kUpsideDown,      ///< turned by half a turn in the picture
+    kPhaseScrambled,  ///< every spatial frequency as strong as it is, somewhere else
+    kEyesOnly,        ///< nothing but what surrounds the eyes
+    kMouthOnly,       ///< nothing but what surrounds the mouth
+    kFlipped,         ///< everything goes down as far as it went up: no face can do that
+    kNeutral,         ///< the face at rest for as long
+    kKnockOut,        ///< without one muscle
+    kPalsy,           ///< with one half of the face weak
+    kLateSide         ///< one half of the face later than the other
 };
 
 /// In the order of the enumeration, from kReversed on, as design files write them.

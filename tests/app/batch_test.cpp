@@ -50,7 +50,8 @@ class Batch : public testing::Test {
 };
 
 TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
-    const fs::path file = design("design.json", {0.5, 1}, R"(["reversed", "upside_down"])");
+    const fs::path file = design("design.json", {0.5, 1},
+                                 R"(["reversed", "upside_down", "phase_scrambled", "flipped"])");
     std::map<std::string, std::string> told;
     BatchOptions options{.design = file,
                          .out = folder().path() / "one",
@@ -58,7 +59,7 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
                          .told = [&](const std::string& clip, const std::string& state,
                                      const std::string&) { told[clip] = state; }};
     const BatchReport first = make_batch(options);
-    EXPECT_EQ(first.made, 6);
+    EXPECT_EQ(first.made, 10);
     EXPECT_TRUE(first.complete);
     EXPECT_EQ(told.at("smile0p5Reversed"), "made");
     const std::string sums = text_of(options.out / "SHA256SUMS");
@@ -72,16 +73,16 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     parts.parts = 2;
     parts.part = 2;
     const BatchReport half = make_batch(parts);
-    EXPECT_EQ(half.made, 3);
-    EXPECT_EQ(half.elsewhere, 3);
+    EXPECT_EQ(half.made, 5);
+    EXPECT_EQ(half.elsewhere, 5);
     EXPECT_FALSE(half.complete);
     EXPECT_FALSE(fs::exists(parts.out / "SHA256SUMS"));
     parts.parts = parts.part = parts.workers = 1;
-    EXPECT_EQ(make_batch(parts).made, 3);
+    EXPECT_EQ(make_batch(parts).made, 5);
     EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), sums);
 
     // Kept while it is whole, also for another design: what is common stays, what it does not have goes
-    EXPECT_EQ(make_batch(options).kept, 6);
+    EXPECT_EQ(make_batch(options).kept, 10);
     std::ofstream(video, std::ios::app) << "x";
     options.design = design("design.json", {1, 0.8, 0.5});
     fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
@@ -123,6 +124,15 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
         frame_rows(text_of(parts.out / "stimuli/stim-smile1Reversed_annot-frames_events.tsv"));
     ASSERT_EQ(rows.rows(), 5);
     EXPECT_EQ(rows.number(0, rows.column("source_frame")), 4);
+    // Corners of the mouth that go up by so much go down
+    const auto corner = [&](const char* clip, int frame) {
+        const FrameRows of = frame_rows(text_of(
+            parts.out / "stimuli" / ("stim-" + std::string(clip) + "_annot-frames_events.tsv")));
+        return of.number(frame, of.column("ch_l.y_mm"));
+    };
+    const double up = corner("smile1", 4) - corner("smile1", 0);
+    EXPECT_GT(up, 2);
+    EXPECT_NEAR(corner("smile1Flipped", 4) - corner("smile1Flipped", 0), -up, 1e-3);
     EXPECT_EQ(rows.number(1, rows.column("onset")), 0.1);
 }
 
@@ -148,6 +158,11 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
               std::string::npos);
     EXPECT_NE(with("/clips/photodiode", "middle").find("clips/photodiode: expected"),
               std::string::npos);
+    Json turning = Json::parse(R"({"head_yaw_deg": {"keys": [[0, 0], [0.4, 10]]}})");
+    json["sets"][0]["controls"] = {"flipped"};
+    EXPECT_NE(with("/sets/0/script/channels", turning).find("a head that keeps still"),
+              std::string::npos);
+    json["sets"][0]["controls"] = Json::array();
     EXPECT_NE(with("/sets/0/script/fps", 0).find("/fps: expected"), std::string::npos);
     EXPECT_FALSE(fs::exists(out));
     // A folder of somebody else
