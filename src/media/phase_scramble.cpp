@@ -16,7 +16,8 @@ PhaseScrambler::PhaseScrambler(int width_px, int height_px, unsigned seed)
     std::mt19937 random(seed);
     cv::Mat noise(height_px, width_px, CV_64F);
     for (int y = 0; y < height_px; ++y)
-        for (int x = 0; x < width_px; ++x) noise.at<double>(y, x) = random() * 0x1p-32 - 0.5;
+        for (int x = 0; x < width_px; ++x)
+            noise.at<double>(y, x) = static_cast<double>(random()) * 0x1p-32 - 0.5;
     cv::dft(noise, impl_->turn, cv::DFT_COMPLEX_OUTPUT);
     for (int y = 0; y < height_px; ++y)
         for (int x = 0; x < width_px; ++x) {
