@@ -32,6 +32,15 @@ std::string whole_reference(const std::string& text) {
     return is_parameter_name(name) ? name : std::string();
 }
 
+/// `known`: a map by name.
+[[noreturn]] void fail_unknown(const std::string& name, const std::string& place,
+                               const auto& known) {
+    std::vector<std::string> names;
+    for (const auto& [one, value] : known) names.push_back(one);
+    throw Error(place, "a parameter of the design" + did_you_mean(name, names),
+                risorius::quoted(name));
+}
+
 std::string fill_text(const std::string& text, const std::string& place, const ValueOf& value_of) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
@@ -100,12 +109,7 @@ struct Parameters::Impl {
 
     const Json& at(const std::string& name, const std::string& place) const {
         const auto found = values.find(name);
-        if (found == values.end()) {
-            std::vector<std::string> names;
-            for (const auto& [known, value] : values) names.push_back(known);
-            throw Error(place, "a parameter of the design" + did_you_mean(name, names),
-                        risorius::quoted(name));
-        }
+        if (found == values.end()) fail_unknown(name, place, values);
         return found->second;
     }
 };
@@ -119,12 +123,7 @@ Parameters::Parameters(const std::vector<Given>& given) : impl_(std::make_unique
         const auto known = impl_->values.find(name);
         if (known != impl_->values.end()) return known->second;
         const auto source = open.find(name);
-        if (source == open.end()) {
-            std::vector<std::string> names;
-            for (const auto& [other, value] : open) names.push_back(other);
-            throw Error(place, "a parameter of the design" + did_you_mean(name, names),
-                        risorius::quoted(name));
-        }
+        if (source == open.end()) fail_unknown(name, place, open);
         if (std::find(way.begin(), way.end(), name) != way.end()) {
             std::string circle;
             for (const std::string& step : way) circle += step + " -> ";
