@@ -28,7 +28,8 @@ void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inn
     }
 }
 
-void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold how) {
+void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold how,
+                    int in_group) {
     std::vector<std::vector<int>> id(static_cast<std::size_t>(rows) + 1,
                                      std::vector<int>(static_cast<std::size_t>(columns) + 1, -1));
     const auto at = [&](int place) { return loop[static_cast<std::size_t>(place) % loop.size()]; };
@@ -54,21 +55,36 @@ void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold ho
         }
     for (int r = 0; r < rows; ++r)
         for (int c = 0; c < columns; ++c)
-            quad(id[r][c], id[r + 1][c], id[r + 1][c + 1], id[r][c + 1]);
+            quad(id[r][c], id[r + 1][c], id[r + 1][c + 1], id[r][c + 1], in_group);
 }
 
 std::vector<std::vector<int>> HalfMesh::neighbours() const {
     std::vector<std::set<int>> sets(point.size());
     for (const auto& f : face) {
-        const int n = f[3] < 0 ? 3 : 4;
-        for (int k = 0; k < n; ++k) {
-            sets[static_cast<std::size_t>(f[k])].insert(f[(k + 1) % n]);
-            sets[static_cast<std::size_t>(f[(k + 1) % n])].insert(f[k]);
+        for (int k = 0; k < 4; ++k) {
+            sets[static_cast<std::size_t>(f[k])].insert(f[(k + 1) % 4]);
+            sets[static_cast<std::size_t>(f[(k + 1) % 4])].insert(f[k]);
         }
     }
     std::vector<std::vector<int>> lists;
     for (const auto& s : sets) lists.emplace_back(s.begin(), s.end());
     return lists;
+}
+
+std::vector<Vec3> HalfMesh::normals() const {
+    std::vector<Vec3> sum(point.size(), Vec3::Zero());
+    for (const auto& f : face)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto at = [&](std::size_t i) {
+                return point[static_cast<std::size_t>(f[i % 4])];
+            };
+            sum[static_cast<std::size_t>(f[k])] += (at(k + 1) - at(k)).cross(at(k + 3) - at(k));
+        }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+        if (midline[v]) sum[v].x() = 0;
+        sum[v].normalize();
+    }
+    return sum;
 }
 
 void HalfMesh::relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,
@@ -187,9 +203,8 @@ geom::PolygonMesh mirrored(const HalfMesh& half) {
     }
     mesh.group_names = {"skin", "mouth"};
     const auto append = [&](const std::array<int, 4>& f, int group, bool mirror) {
-        const int corners = f[3] < 0 ? 3 : 4;
-        for (int k = 0; k < corners; ++k) {
-            const int v = f[mirror ? corners - 1 - k : k];
+        for (int k = 0; k < 4; ++k) {
+            const int v = f[mirror ? 3 - k : k];
             mesh.corner_vertex.push_back(mirror ? other[static_cast<std::size_t>(v)] : v);
         }
         mesh.face_begin.push_back(static_cast<int>(mesh.corner_vertex.size()));

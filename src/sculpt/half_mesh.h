@@ -21,7 +21,7 @@ struct HalfMesh {
     std::vector<Vec3> point;
     std::vector<Hold> hold;
     std::vector<bool> midline;
-    std::vector<std::array<int, 4>> face;  ///< last corner -1 for a triangle
+    std::vector<std::array<int, 4>> face;
     std::vector<int> group;                ///< of each face: 0 skin, 1 mouth
 
     int add(const Vec3& p, Hold how, bool on_midline = false);
@@ -32,10 +32,13 @@ struct HalfMesh {
                 int in_group = 0);
 
     /// Fills the rectangle bounded by `loop` (left side down `rows`, bottom right `columns`, right side up, top back).
-    void fill(const std::vector<int>& loop, int rows, int columns, Hold how);
+    void fill(const std::vector<int>& loop, int rows, int columns, Hold how, int in_group = 0);
 
     /// Neighbours along edges; the midline sees both halves.
     std::vector<std::vector<int>> neighbours() const;
+
+    /// Unit vectors outwards at the vertices; on the midline without x.
+    std::vector<Vec3> normals() const;
 
     /// Takes ripples out without shrinking (Taubin 1995): `share` 0..1 says how much each vertex takes part.
     void smooth(int iterations, const std::vector<double>& share);

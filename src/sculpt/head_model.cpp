@@ -38,7 +38,7 @@ std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& 
     for (std::size_t f = 0; f < skin.mesh.face.size(); ++f)
         if (skin.mesh.group[f] == 0)
             for (const int v : skin.mesh.face[f])
-                if (v >= 0) on_skin.insert(v);
+                on_skin.insert(v);
     for (const auto& [id, p] : tables.landmarks) {
         if (p.x() < 0 || named.count(id)) continue;
         const bool middle = p.x() == 0;

@@ -16,22 +16,6 @@ double kernel(double d) {
     return t >= 1 ? 0 : std::pow(1 - t, 4) * (4 * t + 1);
 }
 
-Vec3 normal_at(const HalfMesh& mesh, int vertex) {
-    Vec3 sum = Vec3::Zero();
-    for (const auto& f : mesh.face) {
-        const int n = f[3] < 0 ? 3 : 4;
-        for (int k = 0; k < n; ++k) {
-            if (f[k] != vertex) continue;
-            const auto at = [&](int i) {
-                return mesh.point[static_cast<std::size_t>(f[(i + n) % n])];
-            };
-            sum += (at(k + 1) - at(k)).cross(at(k - 1) - at(k));
-        }
-    }
-    if (mesh.midline[static_cast<std::size_t>(vertex)]) sum.x() = 0;
-    return sum.normalized();
-}
-
 }  // namespace
 
 void fit_landmarks(Skin& skin, const DesignTables& tables) {
@@ -40,11 +24,12 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
     std::set<int> candidates;
     for (std::size_t f = 0; f < mesh.face.size(); ++f)
         for (const int v : mesh.face[f])
-            if (v >= 0 && !fixed.count(v)) candidates.insert(v);
+            if (!fixed.count(v)) candidates.insert(v);
     struct Pull {
         int vertex;
         Vec3 at, by;
     };
+    const std::vector<Vec3> normal = mesh.normals();
     std::vector<Pull> pulls;
     for (const auto& [id, p] : tables.landmarks) {
         if (p.x() < 0 || skin.landmark.count(id)) continue;
@@ -65,7 +50,7 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
         // The wing of the nose keeps the form of its loops, which were placed by these points.
         if (id == "al_l" || id == "ac_l" || id == "sbal_l" || id == "c") continue;
         // Along the skin fully; across it only half, because depth table and landmark differ by their rounding.
-        const Vec3 n = normal_at(mesh, best);
+        const Vec3& n = normal[static_cast<std::size_t>(best)];
         by -= 0.5 * n * n.dot(by);
         pulls.push_back({best, at, by});
     }

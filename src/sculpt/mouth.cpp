@@ -9,7 +9,7 @@ namespace {
 constexpr int kHalfLoop = 30, kCorner = 15;
 constexpr double kSquareness = 0.6;  ///< of the sections of the cavity: 1 an ellipse, 0 a box
 
-/// Even by length through points, `count` steps.
+/// As even by length as lets every point be a vertex, `count` steps.
 std::vector<Vec3> even_curve(const std::vector<Vec3>& points, int count) {
     std::vector<std::pair<double, Vec3>> through;
     double length = 0;
@@ -17,7 +17,7 @@ std::vector<Vec3> even_curve(const std::vector<Vec3>& points, int count) {
         if (k > 0) length += (points[k] - points[k - 1]).norm();
         through.emplace_back(length, points[k]);
     }
-    for (auto& t : through) t.first *= count / length;
+    for (auto& t : through) t.first = std::round(t.first * count / length);
     return curve_points(through, count, false);
 }
 
@@ -27,8 +27,8 @@ struct Section {
     double half_width;
     double front, bend;  ///< z at the midline, and how far the sides lie behind it
 };
-constexpr Section kSections[] = {{2.6, 2.6, 22.8, 90.6, 14},   {8, 7.5, 24, 90.4, 17},
-                                 {15.5, 14.5, 26.5, 90.0, 22}, {20, 19.5, 30, 87.5, 26},
+constexpr Section kSections[] = {{2.6, 2.6, 23.6, 90.8, 13.5}, {8, 7.5, 26.4, 91, 16.5},
+                                 {15.5, 14.5, 29, 91, 20.5}, {20, 19.5, 31.5, 87.8, 24},
                                  {21.5, 22, 32.5, 80, 23},     {22, 23, 33.5, 67, 15},
                                  {22.5, 25, 34.5, 52, 6},      {20.5, 27, 31, 37, 3},
                                  {13, 25, 22, 25, 0},          {5, 10, 10, 21, 0}};
@@ -146,13 +146,17 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
                             section.front - section.bend * w * w);
             },
             Hold::kPinned, 1);
+    // The throat closes with two rows of quads, from a vertex on the midline to the corners.
+    constexpr int kRows = 2;
+    std::vector<int> throat{previous[kHalfLoop]};
+    const Vec3 floor = mesh.point[static_cast<std::size_t>(previous[0])],
+               roof = mesh.point[static_cast<std::size_t>(previous[kHalfLoop])];
+    for (int r = 1; r < kRows; ++r)
+        throat.push_back(mesh.add(roof + (floor - roof) * r / kRows, Hold::kPinned, true));
+    throat.insert(throat.end(), previous.begin(), previous.end() - 1);
+    mesh.fill(throat, kRows, (kHalfLoop - kRows) / 2, Hold::kPinned, 1);
     for (std::size_t v = first_fixed; v < mesh.point.size(); ++v)
         skin.fixed.push_back(static_cast<int>(v));
-    // The throat closes as a seam.
-    for (int k = 0; k + 1 < kCorner; ++k)
-        mesh.quad(previous[k], previous[k + 1], previous[kHalfLoop - k - 1],
-                  previous[kHalfLoop - k], 1);
-    mesh.quad(previous[kCorner - 1], previous[kCorner], previous[kCorner + 1], -1, 1);
 }
 
 }  // namespace risorius::sculpt

@@ -1,4 +1,5 @@
 // Nasal wing with nostril, and ear: lofts through the edge loops of the design tables.
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -15,6 +16,30 @@ std::vector<Vec3> loop_points(const std::map<std::string, std::vector<LoopPoint>
     std::vector<std::pair<double, Vec3>> through;
     for (const LoopPoint& p : found->second) through.emplace_back(place(p.place), p.point);
     return curve_points(through, count, true);
+}
+
+/// What ridges and pits add at a place of the plane of the ear: outwards, and backwards where one overhangs.
+Vec3 ear_relief(const std::map<std::string, std::vector<ReliefPoint>>& features, const Vec3& p) {
+    constexpr double kSharpness = 3;  // of the joint where two ridges meet
+    double ridges = 0, pits = 0, lean = 0;
+    for (const auto& [name, line] : features) {
+        double greatest = 0, leaning = 0;
+        for (std::size_t k = 0; k + 1 < std::max<std::size_t>(line.size(), 2); ++k) {
+            const ReliefPoint &a = line[k], &b = line[std::min(k + 1, line.size() - 1)];
+            const Vec2 along = b.place - a.place, from = p.head<2>() - a.place;
+            const double length = along.squaredNorm();
+            const double t = length > 0 ? std::clamp(from.dot(along) / length, 0.0, 1.0) : 0.0;
+            const double width = a.width_mm + t * (b.width_mm - a.width_mm),
+                         height = a.height_mm + t * (b.height_mm - a.height_mm);
+            const double share = std::exp(-(from - t * along).squaredNorm() / (width * width));
+            if (std::abs(height * share) <= std::abs(greatest)) continue;
+            greatest = height * share;
+            leaning = share * (a.lean_mm + t * (b.lean_mm - a.lean_mm));
+        }
+        (greatest > 0 ? ridges : pits) += std::pow(std::abs(greatest), kSharpness);
+        lean += leaning;
+    }
+    return {lean, 0, std::pow(ridges, 1 / kSharpness) - std::pow(pits, 1 / kSharpness)};
 }
 
 }  // namespace
@@ -88,34 +113,75 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     const Vec3 up = Vec3(0.05, 0.985, -0.16).normalized();
     const Vec3 back = (Vec3(0.42, 0, -0.907) - up * up.dot(Vec3(0.42, 0, -0.907))).normalized();
     const Vec3 out = back.cross(up);
-    const auto named = [&](const char* name) {
-        std::vector<Vec3> points = loop_points(tables.ear_loops, name, kLoop, place);
-        for (Vec3& p : points) p = origin + back * p.x() + up * p.y() + out * p.z();
-        return points;
+    const auto in_space = [&](const Vec3& p) {
+        return Vec3(origin + back * p.x() + up * p.y() + out * p.z());
     };
+    const auto in_frame = [&](const Vec3& p) {
+        const Vec3 d = p - origin;
+        return Vec3(d.dot(back), d.dot(up), d.dot(out));
+    };
+    const auto named = [&](const char* name) {
+        return loop_points(tables.ear_loops, name, kLoop, place);
+    };
+    // Square to the plane of the ear, which the rays of the head surface are not
+    const auto on_head = [&](const Vec3& flat) {
+        Vec3 p = in_space(flat);
+        for (int k = 0; k < 20; ++k) p += out * (head.project(p) - p).dot(out);
+        return in_frame(p);
+    };
+    // In front the ear grows out of the cheek: there its first loops lie on the head.
+    const auto attached = [](int k) {
+        constexpr double kFrom = 2, kTo = kRows + 0.5, kSoft = 2;
+        return std::clamp(std::min(k - kFrom, kTo - k) / kSoft, 0.0, 1.0);
+    };
+    std::vector<Vec3> behind = named("behind"), edge = named("outline");
+    const std::vector<Vec3> inner = named("inner");
+    for (int k = 0; k < kLoop; ++k) {
+        behind[k] = on_head(behind[k]);
+        edge[k] += attached(k) * (on_head(edge[k]) - edge[k]);
+    }
+
     std::vector<int> previous = block;
-    std::vector<Vec3> last;
-    for (const int v : block) last.push_back(mesh.point[static_cast<std::size_t>(v)]);
-    const auto ring = [&](const std::vector<Vec3>& points, Hold hold) {
+    const auto ring = [&](const std::function<Vec3(int)>& at, Hold hold) {
         std::vector<int> ids;
-        for (const Vec3& p : points) ids.push_back(mesh.add(p, hold));
+        for (int k = 0; k < kLoop; ++k) ids.push_back(mesh.add(at(k), hold));
         mesh.bridge(previous, ids, true);
         previous = ids;
-        last = points;
     };
-    const auto halfway_to = [&](const std::vector<Vec3>& next) {
-        std::vector<Vec3> points;
-        for (int k = 0; k < kLoop; ++k) points.push_back(0.5 * (last[k] + next[k]));
-        ring(points, Hold::kSmooth);
+    ring(
+        [&](int k) {
+            return Vec3(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] +
+                               in_space(behind[k])));
+        },
+        Hold::kSmooth);
+    ring([&](int k) { return in_space(behind[k]); }, Hold::kPinned);
+    // The back of the auricle, up to the rounded edge of the helix
+    const auto rear = [&](int k, double inwards, double deeper) {
+        const Vec3 to_inner = (inner[k] - edge[k]).cwiseProduct(Vec3(1, 1, 0)).normalized();
+        const double share = 1 - attached(k);
+        Vec3 free = edge[k] + share * (inwards * to_inner - Vec3(0, 0, deeper));
+        constexpr double kClear = 0.8;  // of the head
+        free.z() = std::min(std::max(free.z(), on_head(free).z() + kClear), edge[k].z() - 0.2);
+        const Vec3 bound = behind[k] + (edge[k] - behind[k]) * (1 - inwards / 6);
+        return Vec3(free + attached(k) * (bound - free));
     };
-    std::vector<Vec3> behind = named("behind");
-    for (int k = kRows / 6; k <= kRows + 1; ++k) behind[k] = head.project(behind[k]);
-    halfway_to(behind);
-    ring(behind, Hold::kPinned);
-    halfway_to(named("outer"));
-    for (const char* name : {"outer", "helix", "scapha", "antihelix", "concha"})
-        ring(named(name), Hold::kPinned);
-    mesh.fill(previous, kRows, kAcross, Hold::kSmooth);
+    ring([&](int k) { return in_space(0.45 * behind[k] + 0.55 * rear(k, 2.2, 3.6)); },
+         Hold::kSmooth);
+    ring([&](int k) { return in_space(rear(k, 1.6, 3.2)); }, Hold::kPinned);
+    ring([&](int k) { return in_space(rear(k, 0.3, 1.7)); }, Hold::kPinned);
+    // The front is a relief over the plane of the ear: laid out flat first, then raised by its ridges and pits.
+    const std::size_t first = mesh.point.size();
+    for (const double f : {0.0, 0.07, 0.15, 0.24, 0.34, 0.45, 0.56, 0.67, 0.78, 0.89, 1.0})
+        ring([&](int k) { return Vec3(edge[k] + f * (inner[k] - edge[k])); }, Hold::kPinned);
+    mesh.fill(previous, kRows, kAcross, Hold::kPinned);
+    for (std::size_t v = first; v < mesh.point.size(); ++v) {
+        const auto ring_of = (v - first) / kLoop;
+        const double share = ring_of > 2 ? 1.0 : static_cast<double>(ring_of) / 3.0;
+        const int k = static_cast<int>((v - first) % kLoop);
+        // Nothing is raised where the edge lies on the cheek.
+        const double rise = ring_of > 2 ? 1.0 : 1 - attached(k) * (1 - share);
+        mesh.point[v] = in_space(mesh.point[v] + rise * ear_relief(tables.ear_relief, mesh.point[v]));
+    }
 }
 
 }  // namespace risorius::sculpt

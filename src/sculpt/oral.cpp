@@ -21,19 +21,20 @@ constexpr Crown kLowerCrowns[7] = {
     {5.3, 8.8, 5.6, false}, {5.8, 9.0, 5.9, false}, {6.8, 10.3, 7.0, false}, {7.0, 8.6, 7.4, true},
     {7.1, 8.2, 7.8, true},  {10.8, 7.5, 9.6, true}, {10.4, 7.0, 9.4, true}};
 
-/// The incisal and occlusal line of one side as a polyline dense in length; measured edges, tips and cusps.
+/// The incisal and occlusal line of one side as a polyline dense in length. Incisors and molars as measured (skull data); the canines at
+/// the norm between them (34 mm above, 29 below), some millimetres behind the lips and not where the narrow measured arch has them.
 class ArchLine {
   public:
     explicit ArchLine(Arch arch) {
         std::vector<Vec3> knots;
         if (arch == Arch::kUpper)
-            knots = {Vec3(0, -53.7, 88.3),   Vec3(8.2, -53.2, 86.0), Vec3(14.3, -51.7, 79),
-                     Vec3(19, -50.2, 69.5),  Vec3(22.6, -48, 58.4),  Vec3(24.6, -45.5, 49.7),
-                     Vec3(25.2, -44.4, 44.5)};
+            knots = {Vec3(0, -53.7, 88.3),  Vec3(8.2, -53.3, 86.9),  Vec3(13.5, -52.6, 83),
+                     Vec3(17, -51.7, 76.4), Vec3(19.8, -50.5, 69.8), Vec3(22.6, -48.4, 60.5),
+                     Vec3(24.6, -46, 51),   Vec3(25.2, -44.6, 45.5)};
         else
-            knots = {Vec3(0, -52.0, 86.3),  Vec3(7.2, -51.4, 83.4), Vec3(12.5, -50.0, 75.5),
-                     Vec3(16.8, -49.6, 67), Vec3(20.4, -48.4, 57),  Vec3(22.6, -46.2, 48),
-                     Vec3(23.2, -45, 43)};
+            knots = {Vec3(0, -52.0, 86.3),    Vec3(6.5, -51.7, 85.1),  Vec3(11.3, -51, 81.2),
+                     Vec3(15, -50.2, 75.3),   Vec3(18.1, -49.6, 67.9), Vec3(20.9, -48.4, 57.5),
+                     Vec3(22.7, -46.2, 48.5), Vec3(23.2, -45, 43)};
         // Mirrored start, so that the arch crosses the midline at a right angle.
         std::vector<Vec3> all{Vec3(-knots[1].x(), knots[1].y(), knots[1].z())};
         all.insert(all.end(), knots.begin(), knots.end());
@@ -276,8 +277,8 @@ geom::PolygonMesh tongue(const std::string& group) {
     };
     constexpr Section kSections[] = {
         {-56.6, 79.0, 4.5, 1.8}, {-56.4, 77.5, 8.2, 3.0}, {-56.2, 74, 11.0, 4.0},
-        {-56, 69, 13.0, 5.0},    {-56, 63, 14.6, 6.4},    {-56.4, 57, 15.8, 8.0},
-        {-57.4, 51, 16.6, 9.8},  {-59.6, 45, 17.0, 11.4}, {-62.5, 40.5, 16.4, 12},
+        {-55.7, 69, 13.0, 5.6},  {-55.2, 63, 14.6, 7.6},  {-55, 57, 15.8, 9.8},
+        {-56.2, 51, 16.6, 11.6}, {-59.2, 45, 17.0, 12.2}, {-62.5, 40.5, 16.4, 12},
         {-66.5, 37.5, 15, 11},   {-70, 36, 12.5, 9}};
     constexpr int kAround = 28;
     Builder builder(group);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace risorius::sculpt {
 namespace {
@@ -20,8 +21,8 @@ constexpr KeyRow kKeyRows[] = {
     {9, {86, 86, 86, 86}},         // hairline
     {18, {45, 45, 45, 45}},        // brow
     {26, {18, 18, 17, 15}},        // pupil
-    {42, {-33, -33, -34, -30}},    // base of the nose
-    {48, {-53, -51, -48, -42}},    // lips
+    {42, {-33, -34, -39, -34}},    // base of the nose
+    {48, {-53, -51, -50, -44}},    // lips
     {54, {-72, -65, -57, -48}},    // mentolabial furrow
     {63, {-105, -86, -68, -56}},   // border of the jaw
     {70, {-134, -118, -96, -70}},  // cervical point
@@ -53,7 +54,7 @@ double column_azimuth(int column, int row) {
         const auto b = a + 1;
         return a->second + (b->second - a->second) * (column - a->first) / (b->first - a->first);
     };
-    constexpr double kSide = 38.5, kEar0 = 85, kEar1 = 109;
+    constexpr double kSide = 38.5, kEar0 = 81, kEar1 = 116;
     if (column >= 16) {
         const double low =
             through({{16, kSide}, {kEarColumn0, kEar0}, {kEarColumn1, kEar1}, {kColumns, 180}});
@@ -161,6 +162,36 @@ double philtrum(const Vec3& p) {
     return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
 }
 
+/// The groove that sets the wing of the nose off from its side and the cheek, and the dimple before the tip.
+void carve_wing(Skin& skin) {
+    struct Point {
+        Vec3 at;
+        double depth, width;  ///< mm; width where 1/e of the depth is left
+    };
+    constexpr int kPoints = 6;
+    const Point groove[kPoints] = {{Vec3(18.4, -27, 88.6), 0.5, 1.8}, {Vec3(18.3, -21.5, 89.5), 0.9, 1.8},
+                                   {Vec3(16.8, -16.6, 92), 1.1, 2},   {Vec3(14.4, -14, 96.5), 1.1, 2.2},
+                                   {Vec3(12.4, -14, 102), 0.9, 2.4},  {Vec3(11, -17, 108), 0.5, 2.6}};
+    const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<Vec3> before = mesh.point;
+    const std::vector<Vec3> normal = mesh.normals();
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const Vec3& p = before[v];
+        if (fixed.count(static_cast<int>(v)) || (p - Vec3(14, -20, 97)).norm() > 24) continue;
+        double deepest = 0;
+        for (int k = 0; k + 1 < kPoints; ++k) {
+            const Vec3 along = groove[k + 1].at - groove[k].at, from = p - groove[k].at;
+            const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+            const double width = groove[k].width + t * (groove[k + 1].width - groove[k].width),
+                         depth = groove[k].depth + t * (groove[k + 1].depth - groove[k].depth);
+            deepest = std::max(
+                deepest, depth * std::exp(-(from - t * along).squaredNorm() / (width * width)));
+        }
+        mesh.point[v] -= deepest * normal[v];
+    }
+}
+
 /// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.
 void smooth_joints(Skin& skin) {
     HalfMesh& mesh = skin.mesh;
@@ -256,6 +287,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
     add_skirt(skin);
     smooth_joints(skin);
+    carve_wing(skin);
     fit_landmarks(skin, tables);
     return skin;
 }

@@ -71,6 +71,21 @@ std::map<std::string, std::vector<LoopPoint>> read_loops(const std::filesystem::
     return loops;
 }
 
+std::map<std::string, std::vector<ReliefPoint>> read_relief(const std::filesystem::path& file) {
+    std::map<std::string, std::vector<ReliefPoint>> features;
+    const auto cells = read_csv(file);
+    if (cells[0].size() != 6) throw Error(file.string(), "six columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        const double width = number(file, row[4]);
+        if (!(width > 0))
+            throw Error(file.string() + ": row " + std::to_string(r + 1), "a width above 0", row[4]);
+        features[row[0]].push_back({Vec2(number(file, row[1]), number(file, row[2])),
+                                    number(file, row[3]), width, number(file, row[5])});
+    }
+    return features;
+}
+
 std::vector<Measure> read_measures(const std::filesystem::path& file) {
     std::vector<Measure> measures;
     const auto cells = read_csv(file);
@@ -120,6 +135,7 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
             Vec3(number(file, cells[r][2]), number(file, cells[r][3]), number(file, cells[r][4]));
     tables.nose_loops = read_loops(folder / "nose_loops.csv");
     tables.ear_loops = read_loops(folder / "ear_loops.csv");
+    tables.ear_relief = read_relief(folder / "ear_relief.csv");
     tables.measures = read_measures(folder / "anthropometry.csv");
     tables.handles = read_handles(folder / "parameters.csv");
     const auto tones = folder / "tones.csv";

@@ -23,6 +23,14 @@ struct LoopPoint {
     Vec3 point;
 };
 
+/// A point of a ridge or pit of the ear: the line through them is raised, and falls off to both sides like a bell.
+struct ReliefPoint {
+    Vec2 place;        ///< back, up in the ear frame, mm
+    double height_mm;  ///< outwards; below 0: a pit
+    double width_mm;   ///< aside, where 1/e of it is left
+    double lean_mm;    ///< backwards, where it overhangs
+};
+
 /// A distance between two landmarks and how it is spread among adults.
 struct Measure {
     std::string name, from, to;
@@ -46,6 +54,7 @@ struct DesignTables {
     std::map<std::string, std::vector<LoopPoint>> nose_loops;  ///< left side, head frame
     std::map<std::string, std::vector<LoopPoint>>
         ear_loops;  ///< left side, ear frame: back, up, out
+    std::map<std::string, std::vector<ReliefPoint>> ear_relief;  ///< ridges and pits by name
     std::vector<Measure> measures;
     std::vector<Handle> handles;
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
