@@ -6,6 +6,14 @@
 
 namespace risorius::sculpt {
 
+const std::vector<std::string>& region_names() {
+    static const std::vector<std::string> names{
+        "scalp",   "forehead", "temple",           "brow", "orbit", "lid", "nose", "wing",
+        "nostril", "cheek",    "skin_round_mouth", "lips", "chin",  "jaw", "ear",  "nape",
+        "neck",    "shoulder", "mouth_lining"};
+    return names;
+}
+
 int HalfMesh::add(const Vec3& p, Hold how, bool on_midline) {
     point.push_back(p);
     if (on_midline) point.back().x() = 0;
@@ -17,6 +25,7 @@ int HalfMesh::add(const Vec3& p, Hold how, bool on_midline) {
 void HalfMesh::quad(int a, int b, int c, int d, int in_group) {
     face.push_back({a, b, c, d});
     group.push_back(in_group);
+    region.push_back(in_group == 1 ? Region::kLining : adding);
 }
 
 void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed,
@@ -28,8 +37,7 @@ void HalfMesh::bridge(const std::vector<int>& outer, const std::vector<int>& inn
     }
 }
 
-void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold how,
-                    int in_group) {
+void HalfMesh::fill(const std::vector<int>& loop, int rows, int columns, Hold how, int in_group) {
     std::vector<std::vector<int>> id(static_cast<std::size_t>(rows) + 1,
                                      std::vector<int>(static_cast<std::size_t>(columns) + 1, -1));
     const auto at = [&](int place) { return loop[static_cast<std::size_t>(place) % loop.size()]; };

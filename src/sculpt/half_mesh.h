@@ -17,12 +17,39 @@ enum class Hold {
     kPinned,  ///< stays
 };
 
+/// Of the skin, and the lining of the mouth.
+enum class Region {
+    kScalp,
+    kForehead,
+    kTemple,
+    kBrow,
+    kOrbit,
+    kLid,
+    kNose,
+    kWing,
+    kNostril,
+    kCheek,
+    kMouthSkin,
+    kLips,
+    kChin,
+    kJaw,
+    kEar,
+    kNape,
+    kNeck,
+    kShoulder,
+    kLining
+};
+/// "scalp", "forehead" ..., in the order of the regions
+const std::vector<std::string>& region_names();
+
 struct HalfMesh {
     std::vector<Vec3> point;
     std::vector<Hold> hold;
     std::vector<bool> midline;
     std::vector<std::array<int, 4>> face;
-    std::vector<int> group;                ///< of each face: 0 skin, 1 mouth
+    std::vector<int> group;          ///< of each face: 0 skin, 1 mouth
+    std::vector<Region> region;      ///< of each face
+    Region adding = Region::kCheek;  ///< region of faces to come
 
     int add(const Vec3& p, Hold how, bool on_midline = false);
     void quad(int a, int b, int c, int d, int in_group = 0);
@@ -52,7 +79,7 @@ struct HalfMesh {
 std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count,
                                bool closed);
 
-/// Both halves: the left one first in its own order, then the mirrored vertices; groups "skin", "mouth".
+/// Both halves: the left one first in its own order, then the mirrored vertices, faces likewise; groups "skin", "mouth".
 geom::PolygonMesh mirrored(const HalfMesh& half);
 
 /// Vertex of the mirrored mesh that mirrors `vertex`, by index.

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "sculpt/lashes.h"
+#include "sculpt/layout.h"
 #include "sculpt/oral.h"
 
 namespace risorius::sculpt {
@@ -37,8 +38,7 @@ std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& 
     std::set<int> on_skin;
     for (std::size_t f = 0; f < skin.mesh.face.size(); ++f)
         if (skin.mesh.group[f] == 0)
-            for (const int v : skin.mesh.face[f])
-                on_skin.insert(v);
+            for (const int v : skin.mesh.face[f]) on_skin.insert(v);
     for (const auto& [id, p] : tables.landmarks) {
         if (p.x() < 0 || named.count(id)) continue;
         const bool middle = p.x() == 0;
@@ -88,6 +88,13 @@ HeadModel make_head(const DesignTables& tables) {
     append(model.mesh, tongue("tongue"));
     append(model.mesh, lashes(skin, globe, 1, "lashes_l"));
     append(model.mesh, lashes(skin, globe, -1, "lashes_r"));
+    lay_out(skin.mesh, tables.landmarks.at("v").z(), skin.upper_margin, skin.lower_margin,
+            model.mesh);
+    // Both halves have their faces in the same order.
+    for (const bool mirror : {false, true})
+        for (std::size_t f = 0; f < skin.mesh.face.size(); ++f)
+            model.regions[region_names()[static_cast<std::size_t>(skin.mesh.region[f])]].push_back(
+                static_cast<int>(f + (mirror ? skin.mesh.face.size() : 0)));
     model.landmarks = name_landmarks(skin, tables);
     return model;
 }
@@ -106,13 +113,32 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
         std::snprintf(line, sizeof line, "v %.3f %.3f %.3f\n", rounded(0), rounded(1), rounded(2));
         text += line;
     }
+    // Each place of the layout once
+    std::map<std::pair<long, long>, int> numbers;
+    std::vector<int> number(mesh.corner_vertex.size());
+    for (long c = 0; c < mesh.corner_texcoord.rows(); ++c) {
+        const std::pair<long, long> key{std::lround(mesh.corner_texcoord(c, 0) * 1e5),
+                                        std::lround(mesh.corner_texcoord(c, 1) * 1e5)};
+        const auto [entry, added] = numbers.emplace(key, static_cast<int>(numbers.size()) + 1);
+        number[static_cast<std::size_t>(c)] = entry->second;
+        if (!added) continue;
+        std::snprintf(line, sizeof line, "vt %.5f %.5f\n", static_cast<double>(key.first) * 1e-5,
+                      static_cast<double>(key.second) * 1e-5);
+        text += line;
+    }
+    std::vector<int> place_in_file(static_cast<std::size_t>(mesh.face_count()));
+    int written_faces = 0;
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
         text.append("g ").append(mesh.group_names[g]).append("\n");
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
+            place_in_file[static_cast<std::size_t>(f)] = written_faces++;
             text += "f";
             for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
-                text.append(" ").append(std::to_string(mesh.corner_vertex[c] + 1));
+                text.append(" ")
+                    .append(std::to_string(mesh.corner_vertex[c] + 1))
+                    .append("/")
+                    .append(std::to_string(number[static_cast<std::size_t>(c)]));
             text += "\n";
         }
     }
@@ -127,6 +153,28 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
     }
     text += "\n  }\n}\n";
     write_file(folder / "landmarks.json", text);
+
+    // Faces as they are counted in the file, from 0: runs of first and last.
+    text = "{\n  \"format\": \"risorius-regions\",\n  \"version\": 1,\n  \"regions\": {";
+    separator = "\n";
+    for (const auto& [name, faces] : model.regions) {
+        text.append(separator).append("    \"").append(name).append("\": [");
+        // The file has the groups one after the other.
+        std::vector<int> written;
+        for (const int f : faces) written.push_back(place_in_file[static_cast<std::size_t>(f)]);
+        std::sort(written.begin(), written.end());
+        for (std::size_t k = 0; k < written.size();) {
+            std::size_t last = k;
+            while (last + 1 < written.size() && written[last + 1] == written[last] + 1) ++last;
+            text.append(k > 0 ? ", [" : "[").append(std::to_string(written[k])).append(", ");
+            text.append(std::to_string(written[last])).append("]");
+            k = last + 1;
+        }
+        text += "]";
+        separator = ",\n";
+    }
+    text += "\n  }\n}\n";
+    write_file(folder / "regions.json", text);
 }
 
 }  // namespace risorius::sculpt

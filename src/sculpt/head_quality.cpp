@@ -159,14 +159,18 @@ void judge_layout(const HeadModel& model, HeadQuality& quality) {
     for (int f = 0; f < mesh.face_count(); ++f) {
         if (mesh.group_names[static_cast<std::size_t>(mesh.face_group[f])] != "skin") continue;
         const int corners = mesh.corner_count(f), begin = mesh.face_begin[f];
+        double area = 0;
         for (int k = 0; k < corners; ++k) {
             const int a = begin + k, b = begin + (k + 1) % corners;
+            area += mesh.corner_texcoord(a, 0) * mesh.corner_texcoord(b, 1) -
+                    mesh.corner_texcoord(b, 0) * mesh.corner_texcoord(a, 1);
             const double flat = (mesh.corner_texcoord.row(a) - mesh.corner_texcoord.row(b)).norm();
             const double length = (mesh.positions.row(mesh.corner_vertex[a]) -
                                    mesh.positions.row(mesh.corner_vertex[b]))
                                       .norm();
             stretch.push_back(length / std::max(flat, 1e-12));
         }
+        if (area < 0) ++quality.turned_over;
     }
     const double usual = share_of(stretch, 0.5);
     quality.stretch_low = share_of(stretch, 0.01) / usual;
@@ -236,8 +240,10 @@ std::string quality_report(const HeadQuality& q) {
     print(out, "aspect           median %.2f, 99 of 100 below %.1f, greatest %.1f\n",
           q.aspect_median, q.aspect_99, q.aspect_worst);
     if (q.stretch_high > 0)
-        print(out, "layout           98 of 100 edges %.2f to %.2f of the usual length\n",
-              q.stretch_low, q.stretch_high);
+        print(out,
+              "layout           98 of 100 edges %.2f to %.2f of the usual length, %d faces turned "
+              "over\n",
+              q.stretch_low, q.stretch_high, q.turned_over);
     return out;
 }
 

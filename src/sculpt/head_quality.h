@@ -41,6 +41,7 @@ struct HeadQuality {
     double aspect_median = 0, aspect_99 = 0, aspect_worst = 0;
     /// Of lengths on the skin over those of the layout, to their median: 1st and 99th of a hundred. 0 without a layout.
     double stretch_low = 0, stretch_high = 0;
+    int turned_over = 0;  ///< faces of the skin that lie on their face in the layout
 
     double worst_deviation() const;  ///< greatest of the measures, either way
 };

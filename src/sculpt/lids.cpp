@@ -106,6 +106,7 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
         }
     }
     const std::size_t first_fixed = mesh.point.size();
+    mesh.adding = Region::kLid;
     ring(before_margin, Hold::kPinned);
     skin.lid_margin =
         ring([&](int k) { return clear_of_globe(margin[k], globe, 0.9); }, Hold::kPinned);

@@ -28,7 +28,7 @@ struct Section {
     double front, bend;  ///< z at the midline, and how far the sides lie behind it
 };
 constexpr Section kSections[] = {{2.6, 2.6, 23.6, 90.8, 13.5}, {8, 7.5, 26.4, 91, 16.5},
-                                 {15.5, 14.5, 29, 91, 20.5}, {20, 19.5, 31.5, 87.8, 24},
+                                 {15.5, 14.5, 29, 91, 20.5},   {20, 19.5, 31.5, 87.8, 24},
                                  {21.5, 22, 32.5, 80, 23},     {22, 23, 33.5, 67, 15},
                                  {22.5, 25, 34.5, 52, 6},      {20.5, 27, 31, 37, 3},
                                  {13, 25, 22, 25, 0},          {5, 10, 10, 21, 0}};
@@ -89,6 +89,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
     }
     const std::size_t first_fixed = mesh.point.size();
     const std::vector<int> red = ring(border, Hold::kPinned, 0);
+    mesh.adding = Region::kLips;
     // Across the red of the lip: full at first, then turning in to the line of contact.
     const auto across = [&](int k, double t) {
         const Vec3 b = border(k), m = contact(k);
@@ -103,6 +104,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
     for (const double t : {0.22, 0.44, 0.66, 0.84})
         ring([&](int k) { return across(k, t); }, Hold::kPinned, 0);
     const std::vector<int> margin = ring(contact, Hold::kPinned, 0);
+    mesh.adding = Region::kLining;
     for (int k = 0; k <= kCorner; ++k) {
         skin.lower_margin.push_back(margin[k]);
         skin.upper_margin.push_back(margin[kHalfLoop - k]);

@@ -77,6 +77,7 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
     const std::size_t inner = mesh.point.size() - kLoop;
+    mesh.adding = Region::kNostril;
     // The vestibule goes back and up from the rim, so that who looks in from the front looks into depth.
     Vec3 centre = Vec3::Zero();
     for (const Vec3& p : rim) centre += p / kLoop;
@@ -150,11 +151,12 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     };
     ring(
         [&](int k) {
-            return Vec3(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] +
-                               in_space(behind[k])));
+            return Vec3(0.5 *
+                        (mesh.point[static_cast<std::size_t>(block[k])] + in_space(behind[k])));
         },
         Hold::kSmooth);
     ring([&](int k) { return in_space(behind[k]); }, Hold::kPinned);
+    mesh.adding = Region::kEar;
     // The back of the auricle, up to the rounded edge of the helix
     const auto rear = [&](int k, double inwards, double deeper) {
         const Vec3 to_inner = (inner[k] - edge[k]).cwiseProduct(Vec3(1, 1, 0)).normalized();
@@ -180,7 +182,8 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         const int k = static_cast<int>((v - first) % kLoop);
         // Nothing is raised where the edge lies on the cheek.
         const double rise = ring_of > 2 ? 1.0 : 1 - attached(k) * (1 - share);
-        mesh.point[v] = in_space(mesh.point[v] + rise * ear_relief(tables.ear_relief, mesh.point[v]));
+        mesh.point[v] =
+            in_space(mesh.point[v] + rise * ear_relief(tables.ear_relief, mesh.point[v]));
     }
 }
 

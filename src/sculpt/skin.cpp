@@ -82,6 +82,26 @@ struct Block {
 constexpr Block kEyeBlock{21, 31, 4, 16}, kNoseBlock{34, 42, 1, 7}, kMouthBlock{43, 53, 0, 10},
     kEarBlock{22, 42, kEarColumn0, kEarColumn1};
 
+/// What the cell of the grid belongs to that has this corner.
+Region region_of_cell(int row, int column) {
+    if (row >= 63) return column < 34 ? Region::kNeck : Region::kNape;
+    if (row < 9) return Region::kScalp;
+    if (column >= kEarColumn1) return row < 42 ? Region::kScalp : Region::kNape;
+    if (column >= 24)
+        return row < 18   ? Region::kScalp
+               : row < 26 ? Region::kTemple
+               : row < 50 ? Region::kCheek
+                          : Region::kJaw;
+    if (row < 16) return column < 17 ? Region::kForehead : Region::kTemple;
+    if (row < 20 && column < 17) return Region::kBrow;
+    if (column >= 17 && row < 26) return Region::kTemple;
+    if (row < 33 && column >= 4 && column < 17) return Region::kOrbit;
+    if (row < 42 && column < 7) return Region::kNose;
+    if (row >= 54) return column < 11 ? Region::kChin : Region::kJaw;
+    if (row >= 42 && column < 11) return Region::kMouthSkin;
+    return Region::kCheek;
+}
+
 void add_crown(Skin& skin, const HeadSurface& head) {
     HalfMesh& mesh = skin.mesh;
     const std::vector<int>& ring = skin.grid[0];
@@ -146,8 +166,10 @@ void add_skirt(Skin& skin) {
         }
     }
     for (int k = 0; k < kSkirtRows; ++k)
-        for (int c = 0; c < kColumns; ++c)
+        for (int c = 0; c < kColumns; ++c) {
+            mesh.adding = k < kNeckBaseRows ? Region::kNeck : Region::kShoulder;
             mesh.quad(rows[k][c], rows[k + 1][c], rows[k + 1][c + 1], rows[k][c + 1]);
+        }
     skin.grid.insert(skin.grid.end(), rows.begin() + 1, rows.end());
 }
 
@@ -169,9 +191,10 @@ void carve_wing(Skin& skin) {
         double depth, width;  ///< mm; width where 1/e of the depth is left
     };
     constexpr int kPoints = 6;
-    const Point groove[kPoints] = {{Vec3(18.4, -27, 88.6), 0.5, 1.8}, {Vec3(18.3, -21.5, 89.5), 0.9, 1.8},
-                                   {Vec3(16.8, -16.6, 92), 1.1, 2},   {Vec3(14.4, -14, 96.5), 1.1, 2.2},
-                                   {Vec3(12.4, -14, 102), 0.9, 2.4},  {Vec3(11, -17, 108), 0.5, 2.6}};
+    const Point groove[kPoints] = {
+        {Vec3(18.4, -27, 88.6), 0.5, 1.8}, {Vec3(18.3, -21.5, 89.5), 0.9, 1.8},
+        {Vec3(16.8, -16.6, 92), 1.1, 2},   {Vec3(14.4, -14, 96.5), 1.1, 2.2},
+        {Vec3(12.4, -14, 102), 0.9, 2.4},  {Vec3(11, -17, 108), 0.5, 2.6}};
     const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
     HalfMesh& mesh = skin.mesh;
     const std::vector<Vec3> before = mesh.point;
@@ -260,22 +283,29 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     for (int r = 0; r < kNeckRow; ++r)
         for (int c = 0; c < kColumns; ++c)
             if (!cell_in(kEyeBlock, r, c) && !cell_in(kNoseBlock, r, c) &&
-                !cell_in(kMouthBlock, r, c) && !cell_in(kEarBlock, r, c))
+                !cell_in(kMouthBlock, r, c) && !cell_in(kEarBlock, r, c)) {
+                mesh.adding = region_of_cell(r, c);
                 mesh.quad(skin.grid[r][c], skin.grid[r + 1][c], skin.grid[r + 1][c + 1],
                           skin.grid[r][c + 1]);
+            }
 
     const auto loop = [&](const Block& b) {
         return block_loop(skin.grid, b.row0, b.row1, b.column0, b.column1);
     };
+    mesh.adding = Region::kScalp;
     add_crown(skin, head);
+    mesh.adding = Region::kOrbit;
     add_lids(skin, loop(kEyeBlock), tables, head, globe);
+    mesh.adding = Region::kMouthSkin;
     std::vector<int> mouth;  // the midline side of the block is open: bottom, right side, top
     for (int c = 0; c < kMouthBlock.column1; ++c) mouth.push_back(skin.grid[kMouthBlock.row1][c]);
     for (int r = kMouthBlock.row1; r > kMouthBlock.row0; --r)
         mouth.push_back(skin.grid[r][kMouthBlock.column1]);
     for (int c = kMouthBlock.column1; c >= 0; --c) mouth.push_back(skin.grid[kMouthBlock.row0][c]);
     add_mouth(skin, mouth, tables, head);
+    mesh.adding = Region::kWing;
     add_nasal_wing(skin, loop(kNoseBlock), tables);
+    mesh.adding = Region::kCheek;
     add_ear(skin, loop(kEarBlock), tables, head);
 
     const auto on_head = [&](const Vec3& p) {

@@ -79,7 +79,8 @@ std::map<std::string, std::vector<ReliefPoint>> read_relief(const std::filesyste
         const auto& row = cells[r];
         const double width = number(file, row[4]);
         if (!(width > 0))
-            throw Error(file.string() + ": row " + std::to_string(r + 1), "a width above 0", row[4]);
+            throw Error(file.string() + ": row " + std::to_string(r + 1), "a width above 0",
+                        row[4]);
         features[row[0]].push_back({Vec2(number(file, row[1]), number(file, row[2])),
                                     number(file, row[3]), width, number(file, row[5])});
     }
