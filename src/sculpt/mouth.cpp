@@ -25,13 +25,20 @@ std::vector<Vec3> even_curve(const std::vector<Vec3>& points, int count) {
 struct Section {
     double up, down;  ///< above and below the lip line
     double half_width;
-    double front, bend;  ///< z at the midline, and how far the sides lie behind it
+    double front,
+        front_below;  ///< z at the midline, at its top and its bottom, where the chin recedes
+    double bend;      ///< how far the sides lie behind it
 };
-constexpr Section kSections[] = {{2.6, 2.6, 23.6, 90.8, 13.5}, {8, 7.5, 26.4, 91, 16.5},
-                                 {15.5, 14.5, 29, 91, 20.5},   {20, 19.5, 31.5, 87.8, 24},
-                                 {21.5, 22, 32.5, 80, 23},     {22, 23, 33.5, 67, 15},
-                                 {22.5, 25, 34.5, 52, 6},      {20.5, 27, 31, 37, 3},
-                                 {13, 25, 22, 25, 0},          {5, 10, 10, 21, 0}};
+constexpr Section kSections[] = {{2.6, 2.6, 23.6, 90.8, 90.4, 13.5},
+                                 {8, 7.5, 26.4, 91, 89.6, 16.5},
+                                 {15.5, 14.5, 29, 91, 88, 20.5},
+                                 {20, 19.5, 31.5, 87.8, 83, 24},
+                                 {21.5, 22, 32.5, 80, 77, 23},
+                                 {22, 23, 33.5, 67, 67, 15},
+                                 {22.5, 25, 34.5, 52, 52, 6},
+                                 {20.5, 27, 31, 37, 37, 3},
+                                 {13, 25, 22, 25, 25, 0},
+                                 {5, 10, 10, 21, 21, 0}};
 
 }  // namespace
 
@@ -145,7 +152,8 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
                                              std::copysign(std::pow(std::abs(c), kSquareness), c);
                 const double w = x / section.half_width;
                 return Vec3(k == 0 || k == kHalfLoop ? 0 : x, y,
-                            section.front - section.bend * w * w);
+                            0.5 * (1 + c) * section.front + 0.5 * (1 - c) * section.front_below -
+                                section.bend * w * w);
             },
             Hold::kPinned, 1);
     // The throat closes with two rows of quads, from a vertex on the midline to the corners.

@@ -204,7 +204,7 @@ double beard_density(const SkinPlan& plan, const Vec3& rest) {
 
 Vec3 hair_tone_at(const Look& look) {
     const double grey = std::clamp(1.6 * look.age - 0.5, 0.0, 1.0);
-    return look.hair_tone + 0.85 * grey * (Vec3(0.66, 0.65, 0.63) - look.hair_tone);
+    return look.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - look.hair_tone);
 }
 
 double hairline_radius(const SkinPlan& plan, const Vec2& place) {
