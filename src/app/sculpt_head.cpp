@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char* kMeshFile = "head.obj";
 constexpr const char* kLandmarks = "landmarks.json";
+constexpr const char* kRegions = "regions.json";
 constexpr const char* kIdentityFile = "identity.json";
 constexpr const char* kRigFile = "rig.json";
 constexpr const char* kViews = "views.png";
@@ -43,6 +44,8 @@ Json look_json(const sculpt::Identity& identity, const sculpt::DesignTables& tab
     look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
     look["freckles"] = identity.freckles;
     look["scalp_hair"] = identity.scalp_hair;
+    look["hairline_mm"] = identity.hairline;
+    look["temples_mm"] = identity.temples;
     look["beard"] = identity.beard;
     look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
     return look;
@@ -128,7 +131,7 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
     const fs::path partial = folder.partial();
     sculpt::write_head(model, partial);
     write_text(partial / kIdentityFile, sculpt::identity_json(options.identity).dump(2) + "\n");
-    report.files = {kMeshFile, kLandmarks, kIdentityFile, kResults};
+    report.files = {kMeshFile, kLandmarks, kRegions, kIdentityFile, kResults};
 
     // Give it muscles, and colours of its own
     if (!options.mesh_only) {
@@ -168,6 +171,9 @@ Json SculptReport::json() const {
     json["aspect"] = {{"median", quality.aspect_median},
                       {"of_99", quality.aspect_99},
                       {"greatest", quality.aspect_worst}};
+    json["layout"] = {{"stretch_low", quality.stretch_low},
+                      {"stretch_high", quality.stretch_high},
+                      {"turned_over", quality.turned_over}};
     json["notes"] = notes;
     json[kFilesKey] = files;
     return json;
