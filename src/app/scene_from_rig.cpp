@@ -159,8 +159,6 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                   .iris_tone = rig.look.iris_tone,
                   .freckles = rig.look.freckles,
                   .scalp_hair = rig.look.scalp_hair,
-                  .hairline_mm = rig.look.hairline_mm,
-                  .temples_mm = rig.look.temples_mm,
                   .hair_length_mm = rig.look.hair_length_mm,
                   .beard_length_mm = rig.look.beard_length_mm,
                   .beard = rig.look.beard,

@@ -44,8 +44,6 @@ Json look_json(const sculpt::Identity& identity, const sculpt::DesignTables& tab
     look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
     look["freckles"] = identity.freckles;
     look["scalp_hair"] = identity.scalp_hair;
-    look["hairline_mm"] = identity.hairline;
-    look["temples_mm"] = identity.temples;
     look["beard"] = identity.beard;
     look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
     return look;

@@ -51,11 +51,9 @@ struct Look {
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
     Vec3 iris_tone{0.35, 0.50, 0.60};
-    double freckles = 0.15;       ///< 0..1
-    double scalp_hair = 0.6;      ///< 0..1, short hair painted above the hairline
-    double hairline_mm = 0.0;     ///< how much higher the hair of the forehead begins than its mark
-    double temples_mm = 0.0;      ///< how much farther it recedes at the temples than between
-    double hair_length_mm = 0.0;  ///< of the scalp, standing off the skin; 0: cropped, as painted
+    double freckles = 0.15;        ///< 0..1
+    double scalp_hair = 0.6;       ///< 0..1, short hair painted above the hairline
+    double hair_length_mm = 0.0;   ///< of the scalp, standing off the skin; 0: cropped, as painted
     double beard_length_mm = 0.0;  ///< likewise
     double beard = 0.0;            ///< 0..1, from none over a shadow to a few days' growth
     double age =
