@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/experiment_files.h"
 #include "app/luminance_match.h"
 #include "app/stimulus_set.h"
 #include "app/stopwatch.h"
@@ -92,6 +93,7 @@ BatchPlan plan_batch(const fs::path& file) {
     for (const stimuli::Condition& condition : stimuli::conditions_of(design))
         plan.clips.push_back(plan_clip(condition, design, rigs, sounds));
     share_takes(plan.clips);
+    check_experiment(plan);
     return plan;
 }
 

@@ -17,6 +17,7 @@
 #include "media/sha256.h"
 #include "media/sync_marks.h"
 #include "media/video_reader.h"
+#include "media/wav_file.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -233,9 +234,13 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
 }
 
 std::vector<fs::path> clip_files(const ClipPlan& plan) {
-    return {script_file(plan), fs::path("overview") / (plan.condition.clip + ".png"),
-            stem(plan) + suffix(plan) + "." + plan.clips.ending,
-            stem(plan) + "_annot-frames_events.tsv", stem(plan) + suffix(plan) + ".json"};
+    std::vector<fs::path> files{script_file(plan),
+                                fs::path("overview") / (plan.condition.clip + ".png"),
+                                stem(plan) + suffix(plan) + "." + plan.clips.ending,
+                                stem(plan) + "_annot-frames_events.tsv"};
+    if (plan.sound) files.push_back(stem(plan) + "_audio.wav");
+    files.push_back(stem(plan) + suffix(plan) + ".json");
+    return files;
 }
 
 Json clip_record(const ClipPlan& plan, const fs::path& folder) {
@@ -333,6 +338,9 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
     video.finish();
     write_text(folder / files[3], events_table(rows, order, pictures.measures(), plan));
     media::write_png(pictures.strip(), folder / files[1]);
+    if (plan.sound)
+        media::write_wav(heard_of(*plan.sound, static_cast<double>(shot.frames) / plan.fps),
+                         folder / files[4]);
     const auto shown_at = [&](int frame) {
         return static_cast<int>(std::find(order.begin(), order.end(), frame) - order.begin());
     };

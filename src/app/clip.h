@@ -1,6 +1,7 @@
 // One clip of a stimulus set: filmed, shown as its control wants it, and written with its ground truth.
 //
 //   stimuli/stim-NAME_video.mp4                  the pictures; with a recording it is stim-NAME_audiovideo.mp4
+//   stimuli/stim-NAME_audio.wav                  the recording by itself, as loud and as long as in the clip
 //   stimuli/stim-NAME_annot-frames_events.tsv    a row per frame as it is shown: onset and duration in s, source_frame, and what
 //                                                frame_table.h lists
 //   stimuli/stim-NAME_video.json                 how it was made; there when, and only when, the clip is complete

@@ -58,4 +58,9 @@ std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound) {
         media::amplified(media::read_recording(sound.file), sound.gain_db));
 }
 
+media::Sound heard_of(const ClipSound& sound, double duration_s) {
+    const std::shared_ptr<const media::Sound> whole = sound_of(sound);
+    return media::heard(*whole, sound.offset_samples, std::llround(duration_s * whole->rate_hz));
+}
+
 }  // namespace risorius::app

@@ -35,5 +35,7 @@ class SoundPlans {
 
 /// To be put beside the pictures.
 std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound);
+/// What is heard while the clip lasts, from its first frame on.
+media::Sound heard_of(const ClipSound& sound, double duration_s);
 
 }  // namespace risorius::app

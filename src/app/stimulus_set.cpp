@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/experiment_files.h"
 #include "app/html_writer.h"
 #include "app/luminance_match.h"
 #include "app/staged_file.h"
@@ -170,6 +171,10 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
 
 /// Files that this set does not have but `batch` may have written for an earlier design.
 void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
+    // Beside an experiment may be what participants answered
+    for (const char* program : {"conditions.csv", "settings.json", "experiment.py", "index.html"})
+        if (kept.count(fs::path("experiment") / program) == 0)
+            fs::remove(folder / "experiment" / program);
     for (const char* below : {"stimuli", "overview", "code/scripts", "luminance", "takes"}) {
         if (!fs::is_directory(folder / below)) continue;
         std::vector<fs::path> former;
@@ -214,6 +219,8 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
     if (plan.match.luminance)
         for (const fs::path& file : write_luminance_report(plan, records, folder))
             files.insert(file);
+    if (plan.experiment)
+        for (const fs::path& file : write_experiment(plan, records, folder)) files.insert(file);
     take_away_former(folder, files);
     std::string sums;
     for (const fs::path& file : files)
