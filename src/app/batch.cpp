@@ -45,10 +45,14 @@ void for_each(std::size_t count, int workers,
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Which takes are still needed when the clip itself is made.
+/// Which films there are, and which takes are still needed when the clip itself is made.
 void share_takes(std::vector<ClipPlan>& clips) {
     std::map<std::string, std::size_t> at;
-    for (std::size_t i = 0; i < clips.size(); ++i) at[clips[i].condition.clip] = i;
+    std::size_t films = 0;
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        at[clips[i].condition.clip] = i;
+        if (!clips[i].is_control()) clips[i].film = films++;
+    }
     for (std::size_t i = 0; i < clips.size(); ++i) {
         ClipPlan& of = clips[at.at(clips[i].condition.of)];
         if (clips[i].is_control() && clips[i].film_sha256 == of.film_sha256)
@@ -184,7 +188,7 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
     if (plan.match.luminance) {
         std::vector<const ClipPlan*> films;
         for (const std::size_t i : unmeasured(plan, options.out))
-            if (run.is_mine(i)) films.push_back(&plan.clips[i]);
+            if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
         run.work(films, "filmed",
                  [&](const ClipPlan& clip, int threads, const Watch& frames, Studio& studio) {
                      make_take(clip, options.out, threads, frames, studio);

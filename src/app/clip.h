@@ -37,6 +37,7 @@ struct ClipPlan {
     std::string
         content_sha256;  ///< of all that the clip hangs on; the same content, the same bytes
     bool take_is_shared = false;  ///< by controls of the clip
+    std::size_t film = 0;         ///< a condition's number among the conditions
     double seconds() const;       ///< to make it, about, on two cores
     double megabytes() const;     ///< about
     bool is_control() const { return condition.control.kind != stimuli::ControlKind::kNone; }

@@ -116,14 +116,16 @@ class Rounds {
     Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks, const Watch& watch)
         : batch_(batch), slurm_(slurm), tasks_(tasks), watch_(watch) {}
 
-    std::vector<std::size_t> run(const char* what, const Look& look) {
+    /// `number`: of a clip, by which the clips are dealt out.
+    std::vector<std::size_t> run(const char* what, const Look& look,
+                                 const std::function<std::size_t(std::size_t)>& number) {
         std::vector<std::size_t> missing = look();
         const auto all = static_cast<double>(missing.size());
         for (int round = 0; round <= slurm_.retries && !missing.empty(); ++round) {
             // As make_batch() deals them out
             std::set<int> parts;
             for (const std::size_t i : missing)
-                parts.insert(static_cast<int>(i % static_cast<std::size_t>(tasks_)) + 1);
+                parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
             const Job job(batch_, slurm_, {parts.begin(), parts.end()}, sent_++);
             try {
                 while (job.goes_on()) {
@@ -164,27 +166,31 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     Rounds rounds(batch, slurm, tasks, watch);
 
     // Pictures are matched by what all of them are: first the films. A task makes clips too when all films are there
-    std::vector<std::size_t> missing =
-        rounds.run("films", [&] { return unmeasured(plan, batch.out); });
+    std::vector<std::size_t> missing = rounds.run(
+        "films", [&] { return unmeasured(plan, batch.out); },
+        [&](std::size_t i) { return plan.clips[i].film; });
     if (missing.empty()) {
         match_luminance(batch.out, plan);
         std::vector<char> made(plan.clips.size(), 0);
         const char* state = "kept";
-        missing = rounds.run("clips", [&] {
-            std::vector<std::size_t> out;
-            for (std::size_t i = 0; i < plan.clips.size(); ++i) {
-                if (made[i]) continue;
-                if (!is_made(plan.clips[i], batch.out)) {
-                    out.push_back(i);
-                    continue;
+        missing = rounds.run(
+            "clips",
+            [&] {
+                std::vector<std::size_t> out;
+                for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+                    if (made[i]) continue;
+                    if (!is_made(plan.clips[i], batch.out)) {
+                        out.push_back(i);
+                        continue;
+                    }
+                    made[i] = 1;
+                    ++(std::string(state) == "kept" ? report.kept : report.made);
+                    if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
                 }
-                made[i] = 1;
-                ++(std::string(state) == "kept" ? report.kept : report.made);
-                if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
-            }
-            state = "made";
-            return out;
-        });
+                state = "made";
+                return out;
+            },
+            [](std::size_t i) { return i; });
     } else {
         report.unmeasured = static_cast<int>(missing.size());
     }
