@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kScene_s = 2;  // about, on two cores: face, scene and view built anew
+
 /// Calls make(i) for all i < count, on several threads when there are several workers.
 void for_each(std::size_t count, int workers,
               const std::function<void(std::size_t i, Studio&)>& make) {
@@ -73,7 +75,12 @@ void check_batch_folder(const fs::path& out) {
 
 double BatchPlan::seconds() const {
     double sum = 0;
-    for (const ClipPlan& clip : clips) sum += clip.seconds();
+    const ClipPlan* before = nullptr;
+    for (const ClipPlan& clip : clips) {
+        sum += clip.seconds();
+        if (!before || before->scene_sha256 != clip.scene_sha256) sum += kScene_s;
+        before = &clip;
+    }
     return sum;
 }
 
@@ -137,31 +144,33 @@ class BatchRun {
         for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
         const double all_s = left_s_;
         int count = 0;
-        for_each(clips.size(), std::min<int>(options_.workers, static_cast<int>(clips.size())),
-                 [&](std::size_t i, Studio& studio) {
-                     const ClipPlan& clip = *clips[i];
-                     std::string why;
-                     // Of its frames the batch tells nothing but that it goes on
-                     const Watch frames{.progress = {}, .stopped = watch_.stopped};
-                     try {
-                         {
-                             const std::lock_guard lock(telling_);
-                             watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
-                         }
-                         make(clip, options_.workers > 1 ? 1 : 2, frames, studio);
-                     } catch (const Error& error) {
-                         why = error.what();
-                     } catch (const RunError& error) {
-                         why = error.what();
-                     }
-                     const std::lock_guard lock(telling_);
-                     left_s_ -= clip.seconds();
-                     if (why.empty())
-                         ++count;
-                     else
-                         report_.failed.emplace_back(clip.condition.clip, why);
-                     tell(clip, why.empty() ? done : "failed", why);
-                 });
+        // One thread for each, so that a worker is one core of a cluster; more where there are too few clips
+        const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
+        const int threads = options_.workers / at_once;
+        for_each(clips.size(), at_once, [&](std::size_t i, Studio& studio) {
+            const ClipPlan& clip = *clips[i];
+            std::string why;
+            // Of its frames the batch tells nothing but that it goes on
+            const Watch frames{.progress = {}, .stopped = watch_.stopped};
+            try {
+                {
+                    const std::lock_guard lock(telling_);
+                    watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
+                }
+                make(clip, threads, frames, studio);
+            } catch (const Error& error) {
+                why = error.what();
+            } catch (const RunError& error) {
+                why = error.what();
+            }
+            const std::lock_guard lock(telling_);
+            left_s_ -= clip.seconds();
+            if (why.empty())
+                ++count;
+            else
+                report_.failed.emplace_back(clip.condition.clip, why);
+            tell(clip, why.empty() ? done : "failed", why);
+        });
         std::sort(report_.failed.begin(), report_.failed.end());
         return count;
     }

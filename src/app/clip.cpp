@@ -27,8 +27,9 @@ using stimuli::ControlKind;
 
 namespace {
 
-// About, on two cores: seconds for a frame and for its pixels, and bytes for a pixel
-constexpr double kFrame_s = 0.027, kPixel_s = 7e-8, kByte_px = 0.03, kLosslessByte_px = 1.2;
+// About, on two cores: seconds for a clip, a frame and for its pixels, and bytes for a pixel
+constexpr double kClip_s = 0.1, kFrame_s = 0.027, kPixel_s = 7e-8, kByte_px = 0.03,
+                 kLosslessByte_px = 1.2;
 constexpr double kMostHeld_bytes = 0.6e9;  // of frames that are shown in another order
 
 std::string sha256_of(const std::string& text) {
@@ -136,7 +137,9 @@ std::string text_of_file(const fs::path& file) {
     return out.str();
 }
 
-double ClipPlan::seconds() const { return frames * (kFrame_s + kPixel_s * width_px * height_px); }
+double ClipPlan::seconds() const {
+    return kClip_s + frames * (kFrame_s + kPixel_s * width_px * height_px);
+}
 double ClipPlan::megabytes() const {
     const double take = luminance ? kLosslessByte_px : 0;
     return 1e-6 * frames *
@@ -195,6 +198,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
     if (condition.audio)
         plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
                                design.match.loudness_lufs, json.place());
+
+    plan.scene_sha256 =
+        sha256_of(Json{rig.sha256, clips.quality, condition.script.value("view", Json())}.dump());
 
     // All that its pictures hang on
     Json film{{"toolkit", kVersion},

@@ -32,6 +32,7 @@ struct ClipPlan {
     std::optional<media::Tone> tone;                   ///< known when all films are measured
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    std::string scene_sha256;  ///< of face and view, which films after each other may share
     std::string
         film_sha256;  ///< of all that the pictures hang on before they are matched and shown
     std::string
