@@ -263,7 +263,8 @@ TEST_F(Designs, MatchingNeedsSomethingToMatchTo) {
         json["match"] = Json::parse(match);
         return complaint(json);
     };
-    EXPECT_EQ(with(R"({"luminance": {"within": "face", "mean": 0.3}, "loudness": {}})"), "no error");
+    EXPECT_EQ(with(R"({"luminance": {"within": "face", "mean": 0.3}, "loudness": {}})"),
+              "no error");
     EXPECT_EQ(read(json).match.loudness_lufs, -23);
     EXPECT_EQ(with(R"({"luminance": {"one_for": "clip"}})"), "no error");
     EXPECT_EQ(with(R"({"luminance": {"within": "face"}})"),
