@@ -55,16 +55,46 @@ class Experiment : public testing::Test {
                     "view": {"width_px": 64, "height_px": 64, "antialiasing": 1}}}]})j");
         design["sets"][0]["script"]["rig"] = (kRoot / "rigs/adult/rig.json").string();
         std::ofstream(*folder / "design.json") << design.dump();
+        // Ended as by a loss of power as soon as the first clip is told of
+        const std::string batch = "'" RISORIUS_BINARY_DIR
+                                  "/risorius' batch design.json -o set "
+                                  "--workers 1 --json";
+        first_event = new std::string(
+            run_program({"sh", "-c",
+                         "cd '" + folder->path().string() + "' && mkfifo events && { " + batch +
+                             " >events & pid=$!; head -n 1 events; kill -9 $pid; wait $pid; } "
+                             "2>/dev/null; ls set"})
+                .output);
         app::BatchOptions options;
         options.design = *folder / "design.json";
         options.out = *folder / "set";
         options.workers = 1;
-        ASSERT_TRUE(app::make_batch(options).complete);
+        report = new app::BatchReport(app::make_batch(options));
+        ASSERT_TRUE(report->complete);
     }
-    static void TearDownTestSuite() { delete folder; }
+    static void TearDownTestSuite() {
+        delete report;
+        delete first_event;
+        delete folder;
+    }
     static Folder* folder;
+    static std::string* first_event;
+    static app::BatchReport* report;
 };
 Folder* Experiment::folder = nullptr;
+std::string* Experiment::first_event = nullptr;
+app::BatchReport* Experiment::report = nullptr;
+
+TEST_F(Experiment, GoesOnAfterAKillWhereItWas) {
+    EXPECT_NE(first_event->find(R"({"event":"made","stim_id":"happiness"})"), std::string::npos)
+        << *first_event;
+    EXPECT_EQ(first_event->find("SHA256SUMS"), std::string::npos) << *first_event;
+    EXPECT_EQ(report->kept, 1);
+    EXPECT_EQ(report->made, 1);
+    for (const auto& entry : fs::recursive_directory_iterator(*folder / "set"))
+        EXPECT_EQ(entry.path().filename().string().find(".part-"), std::string::npos)
+            << entry.path();
+}
 
 TEST_F(Experiment, SoundIsAsLoudAsAskedForInTableClipAndFile) {
     const fs::path stimuli = *folder / "set/stimuli";
