@@ -28,7 +28,7 @@ using stimuli::ControlKind;
 namespace {
 
 // About, on two cores: seconds for a clip, a frame and for its pixels, and bytes for a pixel
-constexpr double kClip_s = 0.1, kFrame_s = 0.027, kPixel_s = 7e-8, kByte_px = 0.03,
+constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
 constexpr double kMostHeld_bytes = 0.6e9;  // of frames that are shown in another order
 
@@ -149,6 +149,8 @@ double ClipPlan::megabytes() const {
 
 void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
+    const media::ToneCurve curve(matched);
+    for (std::uint8_t& byte : background) byte = curve.of(byte);
     content_sha256 = sha256_of(
         Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
 }
@@ -182,6 +184,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
     plan.fps = header.fps;
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
+    for (std::size_t k = 0; k < 3; ++k)
+        plan.background[k] =
+            static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
     const ControlKind kind = condition.control.kind;
     if ((shows_other_order(kind) || shows_part(kind)) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMostHeld_bytes)
@@ -317,11 +322,8 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
         shot.video.sound = sound_of(*plan.sound);
         shot.video.sound_offset_samples = plan.sound->offset_samples;
     }
-    std::array<std::uint8_t, 3> background{};
-    for (std::size_t k = 0; k < 3; ++k)
-        background[k] = static_cast<std::uint8_t>(std::lround(255 * shot.view.background.rgb[k]));
     media::VideoWriter video(video_file, shot.video);
-    ClipPictures pictures(plan, video, background);
+    ClipPictures pictures(plan, video);
     FrameRows rows;
     Json run, luminance;
     if (take) {

@@ -8,6 +8,8 @@
 //   overview/NAME.png                            five of its frames side by side
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -32,6 +34,7 @@ struct ClipPlan {
     std::optional<media::Tone> tone;                   ///< known when all films are measured
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    std::array<std::uint8_t, 3> background{};  ///< as it is shown
     std::string scene_sha256;  ///< of face and view, which films after each other may share
     std::string
         film_sha256;  ///< of all that the pictures hang on before they are matched and shown

@@ -97,18 +97,13 @@ bool shows_part(ControlKind kind) {
     return kind == ControlKind::kEyesOnly || kind == ControlKind::kMouthOnly;
 }
 
-ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video,
-                           std::array<std::uint8_t, 3> background)
+ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
     : plan_(plan),
       kind_(plan.condition.control.kind),
-      background_(background),
       video_(video),
       later_(shows_other_order(kind_) || shows_part(kind_)),
       measured_(plan.tone || plan.condition.control.shows_otherwise()) {
-    if (plan.tone) {
-        tone_.emplace(*plan.tone);
-        for (std::uint8_t& byte : background_) byte = tone_->of(byte);
-    }
+    if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == ControlKind::kPhaseScrambled)
         phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
 }
@@ -127,7 +122,7 @@ void ClipPictures::finish(const FrameRows& rows, const std::vector<int>& order) 
     if (shows_part(kind_)) window = window_around(rows, kind_, plan_.condition.clip);
     for (const int frame : order) {
         Image image = held_[static_cast<std::size_t>(frame)];
-        if (window) window->show(background_, image);
+        if (window) window->show(plan_.background, image);
         write(std::move(image));
     }
 }

@@ -1,8 +1,6 @@
 // The pictures of a film on their way into a clip: matched, shown as the control wants it, measured, marked.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,8 +21,7 @@ bool shows_part(stimuli::ControlKind kind);
 
 class ClipPictures {
   public:
-    ClipPictures(const ClipPlan& plan, media::VideoWriter& video,
-                 std::array<std::uint8_t, 3> background);
+    ClipPictures(const ClipPlan& plan, media::VideoWriter& video);
 
     /// In the order of the film.
     void take(Image image);
@@ -44,7 +41,6 @@ class ClipPictures {
     const ClipPlan& plan_;
     stimuli::ControlKind kind_;
     std::optional<media::ToneCurve> tone_;
-    std::array<std::uint8_t, 3> background_;
     media::VideoWriter& video_;
     bool later_, measured_;
     std::optional<media::PhaseScrambler> phases_;

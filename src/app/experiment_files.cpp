@@ -1,6 +1,7 @@
 #include "app/experiment_files.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/experiment_programs.h"
@@ -13,13 +14,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kBackground = "#808080";
-
 bool is_shown(const stimuli::ExperimentOptions& experiment, const stimuli::Condition& condition) {
     const bool control = condition.control.kind != stimuli::ControlKind::kNone;
     return (experiment.controls || !control) &&
            (experiment.sets.empty() || std::find(experiment.sets.begin(), experiment.sets.end(),
                                                  condition.set) != experiment.sets.end());
+}
+
+/// As the first clip has it, so that nothing else is lighter or darker around it.
+std::string screen_colour(const BatchPlan& plan) {
+    for (const ClipPlan& clip : plan.clips)
+        if (is_shown(*plan.experiment, clip.condition)) {
+            char text[8];
+            std::snprintf(text, sizeof text, "#%02x%02x%02x", clip.background[0],
+                          clip.background[1], clip.background[2]);
+            return text;
+        }
+    return {};
 }
 
 std::string plain_text(const Json& value) {
@@ -131,7 +142,7 @@ std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<
                         {"answers", answers},
                         {"repetitions", experiment.repetitions},
                         {"fixation_s", experiment.fixation_s},
-                        {"background", kBackground}};
+                        {"background", screen_colour(plan)}};
     std::vector<fs::path> files;
     const auto write = [&](const char* name, const std::string& text) {
         const fs::path file = fs::path("experiment") / name;

@@ -55,6 +55,7 @@ const char* const kPage = R"js(
 // the data are sent there as JSON when all is done, and offered as a file otherwise.
 const asked = new URLSearchParams(location.search);
 const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+document.body.style.background = settings.background;
 const jsPsych = initJsPsych({on_finish: finish});
 if (asked.has('seed')) jsPsych.randomization.setSeed(asked.get('seed'));
 jsPsych.data.addProperties({participant: asked.get('participant') || ''});
