@@ -70,4 +70,28 @@ bool FaceOval::holds(const Vec2& point) const {
     return !border_.empty();
 }
 
+FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
+    // Every side of the border leaves what lies to one side of a place in the row, or all or nothing of it
+    double least = 0, most = width_px;
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        const Vec2 &a = border_[i], &b = border_[(i + 1) % border_.size()];
+        // turn(a, b, {x, y + 0.5}) = at_zero - x * rise
+        const double rise = b.y() - a.y(), at_zero = turn(a, b, {0.0, y + 0.5});
+        if (rise > 0)
+            most = std::min(most, at_zero / rise);
+        else if (rise < 0)
+            least = std::max(least, at_zero / rise);
+        else if (at_zero < 0)
+            return {};
+    }
+    // Where rounding decides, as holds() does
+    const auto pixel = [&](double x) {
+        return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(width_px)));
+    };
+    Span out{std::max(0, pixel(least) - 1), std::min(width_px, pixel(most) + 1)};
+    while (out.first < out.end && !holds({out.first + 0.5, y + 0.5})) ++out.first;
+    while (out.end > out.first && !holds({out.end - 0.5, y + 0.5})) --out.end;
+    return out;
+}
+
 }  // namespace risorius::app

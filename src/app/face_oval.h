@@ -17,6 +17,11 @@ class FaceOval {
     explicit FaceOval(std::vector<Vec2> points);
 
     bool holds(const Vec2& point) const;
+    /// The centres of so many pixels of a row that it holds: those from `first` up to but not `end`. It is convex.
+    struct Span {
+        int first = 0, end = 0;
+    };
+    Span pixels_of_row(int y, int width_px) const;
 
   private:
     std::vector<Vec2> border_;  ///< corners, all turning the same way

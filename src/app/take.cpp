@@ -65,9 +65,12 @@ std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const FrameRows& 
     const FaceOval oval(std::move(border));
     std::vector<std::uint16_t> out(static_cast<std::size_t>(plan.width_px) *
                                    static_cast<std::size_t>(plan.height_px));
-    std::size_t at = 0;
-    for (int y = 0; y < plan.height_px; ++y)
-        for (int x = 0; x < plan.width_px; ++x) out[at++] = oval.holds({x + 0.5, y + 0.5}) ? 1 : 0;
+    for (int y = 0; y < plan.height_px; ++y) {
+        const FaceOval::Span inside = oval.pixels_of_row(y, plan.width_px);
+        for (int x = inside.first; x < inside.end; ++x)
+            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plan.width_px) +
+                static_cast<std::size_t>(x)] = 1;
+    }
     return out;
 }
 
