@@ -50,7 +50,7 @@ struct AnimateOptions {
     std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
     std::optional<double> scale;         ///< where the colours of strain (ratio) or error (mm) end
     std::vector<double> times_s;         ///< ascending: these moments instead of every frame
-    std::optional<std::string> quality;  ///< sim::quality_named; "video", or "preview" for a draft
+    std::optional<std::string> quality;  ///< sim::quality_named; "video", or "draft" for a draft
     std::optional<int> antialiasing;     ///< samples per pixel and side, 1..4; 1 for a draft
     /// Everything goes down as far as it went up, and up where it went down: no face can do that. The head must keep still.
     bool flipped_motion = false;

@@ -35,7 +35,7 @@ media::VideoOptions video_options(const AnimateOptions& options, const Shot& sho
     video.alpha = shot.view.background.transparent;
     const bool is_h264 =
         options.out.extension() == ".mp4" || (options.out.extension() == ".mov" && !video.alpha);
-    if (options.draft && is_h264 && !video.preset) video.preset = "superfast";
+    if (options.draft && is_h264 && !video.preset) video.preset = "ultrafast";
     if (options.audio_offset && !options.audio)
         throw Error("--audio-offset", "a recording to place, by --audio", "none");
     if (!options.audio) return video;
@@ -98,7 +98,7 @@ void check_marks(const SyncMarks& marks, const Shot& shot) {
 }  // namespace
 
 std::string quality_of(const AnimateOptions& options) {
-    return options.quality.value_or(options.draft || options.shapes ? "preview" : "video");
+    return options.quality.value_or(options.draft ? "draft" : options.shapes ? "preview" : "video");
 }
 
 Shot plan_shot(const AnimateOptions& options) {

@@ -32,6 +32,9 @@
 namespace risorius::render {
 namespace {
 
+// What drawn skin may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
+constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3;
+
 ViewOptions checked(ViewOptions options) {
     check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
     check_range("height_px", options.height_px, kLeastSide_px, kMostSide_px);
@@ -137,7 +140,7 @@ struct OffscreenView::Impl {
             muscles = std::make_unique<MuscleLayer>(
                 scene, camera, options.height_px * options.supersampling,
                 picture.tile_width_samples(), picture.tile_height_samples());
-        buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre);
+        buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre, coarseness());
 
         baked = first ? first->baked : bake(scene, centre);
         sky_about_eyes = baked->sky_about_eyes;
@@ -181,6 +184,13 @@ struct OffscreenView::Impl {
     int shaded_per_side() const {
         if (options.deep || options.show == Show::kMuscles) return options.supersampling;
         return std::max(options.supersampling / 2, 1);
+    }
+
+    /// Of skin whose colours come from its shader, by the samples of the picture.
+    Coarseness coarseness() const {
+        if (options.deep || options.show == Show::kMuscles) return {};
+        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
+        return {kCoarseSamples * sample_m, kCoarseShadow_m, !options.draft};
     }
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
@@ -245,7 +255,7 @@ struct OffscreenView::Impl {
         glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
         glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
 
-        buffers->choose(clip);
+        buffers->choose(clip, pose.values.has_value());
         const bool looked_up = skin_layer && !pose.values;
         if (looked_up) {
             skin_layer->begin(tile.width, tile.height);

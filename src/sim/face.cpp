@@ -52,6 +52,12 @@ double exact_step(double t_s, double step_s) {
 }  // namespace
 
 Quality quality_named(const std::string& name) {
+    if (name == "draft")
+        return {.name = "draft",
+                .iterations = 8,
+                .mouth_iterations = 10,
+                .step_s = 2 * kStep_s,
+                .longest_piece_s = 2 * kStep_s};
     if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_iterations = 8};
     if (name == "video")
         return {.name = "video",
@@ -66,10 +72,10 @@ Quality quality_named(const std::string& name) {
                 .least_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
                 .longest_piece_s = kStep_s / 2};
-    throw Error(
-        "--quality",
-        "\"preview\", \"video\" or \"fine\"" + did_you_mean(name, {"preview", "video", "fine"}),
-        "\"" + name + "\"");
+    throw Error("--quality",
+                "\"draft\", \"preview\", \"video\" or \"fine\"" +
+                    did_you_mean(name, {"draft", "preview", "video", "fine"}),
+                "\"" + name + "\"");
 }
 
 struct Face::Impl {

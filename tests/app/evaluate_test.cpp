@@ -202,7 +202,7 @@ TEST_F(Evaluate, BadInputLeavesNothingBehind) {
     asked = options("bad");
     asked.quality = "best";
     EXPECT_EQ(complaint(asked),
-              "--quality: expected \"preview\", \"video\" or \"fine\", found \"best\"");
+              "--quality: expected \"draft\", \"preview\", \"video\" or \"fine\", found \"best\"");
     EXPECT_EQ(folder->listing(), before);
 }
 

@@ -69,7 +69,7 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
         "--camera", options.camera,
         "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
     command.add_option("--quality", options.quality,
-                       "How carefully to simulate: preview, video (when not given) or fine");
+                       "How carefully to simulate: draft, preview, video (when not given) or fine");
     command
         .add_option(
             "--antialiasing", options.antialiasing,
@@ -78,8 +78,8 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
         ->type_name("INT");
     command.add_flag(
         "--draft", options.draft,
-        "Quickly, to look at: skin lit at its vertices, and --quality preview, --antialiasing 1 "
-        "and --preset superfast unless given");
+        "Quickly, to look at: skin lit at its vertices, and --quality draft, --antialiasing 1 "
+        "and --preset ultrafast unless given");
     command
         .add_option_function<std::string>(
             "--gl", [](const std::string& name) { render::choose_gl(name, "--gl"); },

@@ -48,13 +48,14 @@ GLsizeiptr bytes(const std::vector<float>& values) {
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre)
+SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre,
+                           const Coarseness& coarseness)
     : smooth_(scene.rest, triangle_lists(scene)) {
     // Batches: near triangles first, so that hidden ones fail the depth test before they are shaded.
     for (const Material material : kDrawOrder)
         for (const int eye : {-1, 0, 1})
             for (int texture = -1; texture < static_cast<int>(scene.textures.size()); ++texture)
-                add_batch(scene, material, eye, texture, camera, paint_centre);
+                add_batch(scene, material, eye, texture, camera, paint_centre, coarseness);
     index_count_ = static_cast<int>(indices_.size());
 
     // The driver runs a vertex again for each of a few hundred triangles that use it, unless their numbers are near each other.
@@ -62,8 +63,9 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     constexpr unsigned kNone = ~0U;
     unsigned used = 0;
     number_.assign(vertices, kNone);
-    for (const unsigned v : indices_)
-        if (number_[v] == kNone) number_[v] = used++;
+    for (const auto* some : {&coarse_skin_[kSeen], &indices_})
+        for (const unsigned v : *some)
+            if (number_[v] == kNone) number_[v] = used++;
     for (unsigned& number : number_)
         if (number == kNone) number = used++;
 
@@ -115,7 +117,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
 }
 
 void SceneBuffers::add_batch(const Scene& scene, Material material, int eye, int texture,
-                             const Vec3& camera, const Vec3& paint_centre) {
+                             const Vec3& camera, const Vec3& paint_centre,
+                             const Coarseness& coarseness) {
     std::vector<Face> faces;
     const bool of_eye = material == Material::kEye || material == Material::kCornea;
     for (const Surface& surface : scene.surfaces) {
@@ -130,6 +133,18 @@ void SceneBuffers::add_batch(const Scene& scene, Material material, int eye, int
     bool cull = false;
     if (material == Material::kSkin) {
         cull = is_wound_outwards(scene.rest, faces, paint_centre);
+        const auto coarse = [&](double error_m, bool folds) {
+            std::vector<unsigned> corners;
+            if (error_m <= 0) return corners;
+            std::vector<Face> fewer =
+                coarser_faces(scene.rest, faces, error_m, much_moved(scene, folds));
+            order_for_drawing(scene.rest, camera, fewer);
+            for (const Face& face : fewer)
+                for (const int v : face) corners.push_back(static_cast<unsigned>(v));
+            return corners;
+        };
+        coarse_skin_ = {coarse(coarseness.seen_m, coarseness.keeps_folds),
+                        coarse(coarseness.shadow_m, false)};
     } else if (material == Material::kEye || material == Material::kTeeth) {
         wind_outwards(scene.rest, faces);
         cull = true;
@@ -201,6 +216,14 @@ void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
     glBufferData(GL_ARRAY_BUFFER, bytes(occlusion_), occlusion_.data(), GL_STREAM_DRAW);
 }
 
+std::span<const unsigned> SceneBuffers::corners_of(const Batch& batch, Purpose purpose,
+                                                   bool whole) const {
+    const std::vector<unsigned>& coarse = coarse_skin_[purpose];
+    if (batch.material == Material::kSkin && !coarse.empty() && !whole) return coarse;
+    return std::span(indices_).subspan(static_cast<std::size_t>(batch.first_index),
+                                       static_cast<std::size_t>(batch.index_count));
+}
+
 int SceneBuffers::skin_index_count() const {
     return batches_.front().material == Material::kSkin ? batches_.front().index_count : 0;
 }
@@ -232,7 +255,7 @@ bool SceneBuffers::is_seen(const unsigned* face, bool cull_back) const {
     return !cull_back || (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > -kRounding;
 }
 
-void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world) {
+void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world, bool whole) {
     look_from(clip_from_world);
     choice_.clear();
     std::vector<Chosen>& chosen = chosen_[kSeen];
@@ -242,8 +265,9 @@ void SceneBuffers::choose(const Eigen::Matrix4f& clip_from_world) {
         chosen[i].first = static_cast<int>(choice_.size());
         const bool apart = batch.material == Material::kSkin && !wrinkled_.empty();
         wrinkled_choice_.clear();
-        for (int k = 0; k < batch.index_count; k += 3) {
-            const unsigned* face = indices_.data() + batch.first_index + k;
+        const std::span<const unsigned> corners = corners_of(batch, kSeen, whole);
+        for (std::size_t k = 0; k < corners.size(); k += 3) {
+            const unsigned* face = corners.data() + k;
             // What has a texture is looked up by the number of its triangle.
             if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
             const bool wrinkled =
@@ -300,9 +324,10 @@ void SceneBuffers::choose_casters(const Eigen::Matrix4f& light_from_world,
     };
     if (clip_from_world) look_from(*clip_from_world);
     farthest_lit_.assign(static_cast<std::size_t>(kCells) * kCells, kNowhere);
-    for (const Batch& batch : batches_)
-        for (int k = 0; k < batch.index_count; k += 3) {
-            const unsigned* face = indices_.data() + batch.first_index + k;
+    for (const Batch& batch : batches_) {
+        const std::span<const unsigned> corners = corners_of(batch, kShadow, /*whole=*/false);
+        for (std::size_t k = 0; k < corners.size(); k += 3) {
+            const unsigned* face = corners.data() + k;
             if (clip_from_world && !is_seen(face, batch.cull_back)) continue;
             // A cell more on each side, a hundredth of a picture, for soft edges and for hairs
             const Cells cells = cells_of(face, 1);
@@ -312,6 +337,7 @@ void SceneBuffers::choose_casters(const Eigen::Matrix4f& light_from_world,
                     there = std::max(there, cells.farthest);
                 }
         }
+    }
 
     choice_.clear();
     std::vector<Chosen>& chosen = chosen_[kShadow];
@@ -320,8 +346,9 @@ void SceneBuffers::choose_casters(const Eigen::Matrix4f& light_from_world,
         const Batch& batch = batches_[i];
         chosen[i].first = static_cast<int>(choice_.size());
         if (batch.material != Material::kSkin) continue;
-        for (int k = 0; k < batch.index_count; k += 3) {
-            const unsigned* face = indices_.data() + batch.first_index + k;
+        const std::span<const unsigned> corners = corners_of(batch, kShadow, /*whole=*/false);
+        for (std::size_t k = 0; k < corners.size(); k += 3) {
+            const unsigned* face = corners.data() + k;
             const Cells cells = cells_of(face, 0);
             bool throws_any = false;
             for (int y = cells.from_y; y <= cells.to_y && !throws_any; ++y)

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
+#include "render/detail/coarser_faces.h"
 #include "render/detail/gl_context.h"
 #include "render/detail/lash_strands.h"
 #include "render/detail/skin_layer.h"
@@ -28,7 +30,8 @@ struct Batch {
 class SceneBuffers {
   public:
     /// Throws Error for triangles that name a vertex there is not. The context must be current from here on.
-    SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre);
+    SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre,
+                 const Coarseness& coarseness);
     ~SceneBuffers();
     SceneBuffers(const SceneBuffers&) = delete;
     SceneBuffers& operator=(const SceneBuffers&) = delete;
@@ -42,8 +45,9 @@ class SceneBuffers {
     /// What a choice of triangles is for.
     enum Purpose { kSeen, kShadow };
     /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
-    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest.
-    void choose(const Eigen::Matrix4f& clip_from_world);
+    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest. As coarse as may be unless
+    /// `whole`.
+    void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
     /// Which throw shadows: those of the skin, whichever side is lit (light that has come in at the mouth does not go out at the
     /// back of the head), that lie nearer to the lamp than something that is seen there. Without a clip space all is taken to be seen.
     void choose_casters(const Eigen::Matrix4f& light_from_world,
@@ -72,7 +76,9 @@ class SceneBuffers {
 
   private:
     void add_batch(const Scene& scene, Material material, int eye, int texture, const Vec3& camera,
-                   const Vec3& paint_centre);
+                   const Vec3& paint_centre, const Coarseness& coarseness);
+    /// Corners of its triangles, three each: fewer ones where it has them for the purpose.
+    std::span<const unsigned> corners_of(const Batch& batch, Purpose purpose, bool whole) const;
     /// In the elements of a purpose: first smooth triangles, then wrinkled ones, in indices.
     struct Chosen {
         int first = 0, smooth = 0, wrinkled = 0;
@@ -95,6 +101,7 @@ class SceneBuffers {
     SmoothNormals smooth_;
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
+    std::array<std::vector<unsigned>, 2> coarse_skin_;  ///< for each purpose; empty: as it is
     std::vector<unsigned> number_;  ///< of each vertex in the vertex array, in the order of drawing
     std::vector<float> paint_;
     std::vector<LashPlace> lashes_;

@@ -10,13 +10,26 @@ namespace {
 
 constexpr double kTip = 0.25;  ///< of the width at the root
 
-std::vector<unsigned> strand_ribbons(std::size_t strands) {
+constexpr double kBend = 0.5;  ///< of a sample, that a hair may lose
+
+// From a drawn point of a hair to the next: two, where leaving out those between hardly straightens it.
+std::size_t stride_of(const Strand& strand, double sample_m) {
+    for (std::size_t i = 1; i + 1 < kStrandPoints; i += 2) {
+        const Vec3 &before = strand.offset[i - 1], &after = strand.offset[i + 1];
+        if ((strand.offset[i] - 0.5 * (before + after)).norm() > kBend * sample_m) return 1;
+    }
+    return 2;
+}
+
+std::vector<unsigned> strand_ribbons(const std::vector<Strand>& strands, double sample_m) {
     std::vector<unsigned> indices;
-    for (std::size_t s = 0; s < strands; ++s)
-        for (std::size_t i = 0; i + 1 < kStrandPoints; ++i) {
-            const auto a = static_cast<unsigned>(2 * (s * kStrandPoints + i));
+    unsigned a = 0;
+    for (const Strand& strand : strands) {
+        const std::size_t stride = stride_of(strand, sample_m);
+        for (std::size_t i = stride; i < kStrandPoints; i += stride, a += 2)
             indices.insert(indices.end(), {a, a + 1, a + 3, a, a + 3, a + 2});
-        }
+        a += 2;
+    }
     return indices;
 }
 
@@ -29,7 +42,7 @@ StrandLayer::StrandLayer(const Scene& scene, std::vector<Strand> strands, const 
       camera_(camera.eye_point()),
       sample_m_(sample_m),
       program_("strand", strand_vertex_shader(), strand_shader()),
-      triangles_(strand_ribbons(strands_.size()),
+      triangles_(strand_ribbons(strands_, sample_m),
                  {3, 3, 2}) {  // place, direction, opacity and shade
     program_.use();
     const Eigen::Vector3f tone = linear_from_srgb(hair_tone_at(scene.look)).cast<float>();
@@ -65,7 +78,7 @@ void StrandLayer::upload(const Pose& pose, const PosedMarks& marks) {
         }
         std::array<Vec3, kStrandPoints> p;
         for (std::size_t i = 0; i < kStrandPoints; ++i) p[i] = root + frame * strand.offset[i];
-        for (std::size_t i = 0; i < kStrandPoints; ++i) {
+        for (std::size_t i = 0; i < kStrandPoints; i += stride_of(strand, sample_m_)) {
             const Vec3 along =
                 (p[std::min(i + 1, kStrandPoints - 1)] - p[i > 0 ? i - 1 : 0]).normalized();
             const Vec3 side = along.cross(camera_ - p[i]).normalized();
