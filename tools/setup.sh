@@ -53,6 +53,21 @@ missing_packages() {
     done
 }
 
+# jsPsych, which is in no Debian package, into a cache beside all projects, where there is npm; the test that plays a page with
+# it is skipped without.
+fetch_jspsych() {
+    local from=$root/tests/data/experiment/package.json
+    local to=${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/risorius/jspsych
+    if [[ $purpose != test ]] || ! command -v npm >/dev/null; then return 0; fi
+    if [[ -d $to/node_modules ]] && cmp -s "$from" "$to/package.json"; then return 0; fi
+    mkdir -p "$to" && cp "$from" "$to/package.json"
+    if ! timeout 120 npm install --prefix "$to" --ignore-scripts --no-audit --no-fund --no-package-lock >/dev/null 2>&1; then
+        say "npm could not fetch jsPsych; its test is skipped"
+        rm -rf "$to"
+    fi
+}
+fetch_jspsych
+
 missing_packages
 if [[ ${#missing[@]} == 0 ]]; then exit 0; fi
 

@@ -8,7 +8,7 @@
 set -euo pipefail
 
 # Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
-sanitized=(core geom signal track muscle solve tissue contact plot io media)
+sanitized=(core geom signal track muscle solve tissue contact stimuli plot io media)
 # Long runs of what the other suites of these folders run as well, ten times as long under sanitizers: in the release build.
 unsanitized=(contact.Cloth contact.StackedCubes tissue.AdaptiveSolid tissue.HangingCube)
 

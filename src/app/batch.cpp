@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/experiment_files.h"
+#include "app/luminance_match.h"
 #include "app/stimulus_set.h"
 #include "app/stopwatch.h"
+#include "app/take.h"
 #include "core/error.h"
 #include "stimuli/conditions.h"
 
@@ -17,6 +21,8 @@ namespace risorius::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kScene_s = 2;  // about, on two cores: face, scene and view built anew
 
 /// Calls make(i) for all i < count, on several threads when there are several workers.
 void for_each(std::size_t count, int workers,
@@ -41,6 +47,21 @@ void for_each(std::size_t count, int workers,
     if (failure) std::rethrow_exception(failure);
 }
 
+/// Which films there are, and which takes are still needed when the clip itself is made.
+void share_takes(std::vector<ClipPlan>& clips) {
+    std::map<std::string, std::size_t> at;
+    std::size_t films = 0;
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        at[clips[i].condition.clip] = i;
+        if (!clips[i].is_control()) clips[i].film = films++;
+    }
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        ClipPlan& of = clips[at.at(clips[i].condition.of)];
+        if (clips[i].is_control() && clips[i].film_sha256 == of.film_sha256)
+            of.take_is_shared = true;
+    }
+}
+
 }  // namespace
 
 void check_batch_folder(const fs::path& out) {
@@ -54,7 +75,12 @@ void check_batch_folder(const fs::path& out) {
 
 double BatchPlan::seconds() const {
     double sum = 0;
-    for (const ClipPlan& clip : clips) sum += clip.seconds();
+    const ClipPlan* before = nullptr;
+    for (const ClipPlan& clip : clips) {
+        sum += clip.seconds();
+        if (!before || before->scene_sha256 != clip.scene_sha256) sum += kScene_s;
+        before = &clip;
+    }
     return sum;
 }
 
@@ -68,9 +94,17 @@ BatchPlan plan_batch(const fs::path& file) {
     const stimuli::Design design = stimuli::read_design(file);
     BatchPlan plan;
     plan.name = design.name;
+    plan.match = design.match;
+    plan.experiment = design.experiment;
+    for (const stimuli::ConditionSet& set : design.sets)
+        if (!set.fraction.empty() || set.draw)
+            plan.balances.emplace_back(set.name, stimuli::balance_of(set, design.seed));
     RigDigests rigs;
+    SoundPlans sounds;
     for (const stimuli::Condition& condition : stimuli::conditions_of(design))
-        plan.clips.push_back(plan_clip(condition, design.clips, rigs));
+        plan.clips.push_back(plan_clip(condition, design, rigs, sounds));
+    share_takes(plan.clips);
+    check_experiment(plan);
     return plan;
 }
 
@@ -83,68 +117,119 @@ Json BatchReport::json() const {
             {"made", made},
             {"kept", kept},
             {"elsewhere", elsewhere},
+            {"unmeasured", unmeasured},
             {"failed", list},
             {"complete", complete},
             {"seconds", seconds}};
 }
 
+namespace {
+
+/// What a run does to one clip after another, and how it tells.
+class BatchRun {
+  public:
+    BatchRun(const BatchOptions& options, const Watch& watch, BatchReport& report)
+        : options_(options), watch_(watch), report_(report) {}
+
+    bool is_mine(std::size_t index) const {
+        return static_cast<int>(index % static_cast<std::size_t>(options_.parts)) + 1 ==
+               options_.part;
+    }
+    void tell(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
+        if (options_.told) options_.told(clip.condition.clip, state, why);
+    }
+    using Work = std::function<void(const ClipPlan&, int threads, const Watch&, Studio&)>;
+    /// Of each clip in turn; those that failed are noted. How many were done.
+    int work(const std::vector<const ClipPlan*>& clips, const char* done, const Work& make) {
+        for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
+        const double all_s = left_s_;
+        int count = 0;
+        // One thread for each, so that a worker is one core of a cluster; more where there are too few clips
+        const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
+        const int threads = options_.workers / at_once;
+        for_each(clips.size(), at_once, [&](std::size_t i, Studio& studio) {
+            const ClipPlan& clip = *clips[i];
+            std::string why;
+            // Of its frames the batch tells nothing but that it goes on
+            const Watch frames{.progress = {}, .stopped = watch_.stopped};
+            try {
+                {
+                    const std::lock_guard lock(telling_);
+                    watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
+                }
+                make(clip, threads, frames, studio);
+            } catch (const Error& error) {
+                why = error.what();
+            } catch (const RunError& error) {
+                why = error.what();
+            }
+            const std::lock_guard lock(telling_);
+            left_s_ -= clip.seconds();
+            if (why.empty())
+                ++count;
+            else
+                report_.failed.emplace_back(clip.condition.clip, why);
+            tell(clip, why.empty() ? done : "failed", why);
+        });
+        std::sort(report_.failed.begin(), report_.failed.end());
+        return count;
+    }
+
+  private:
+    const BatchOptions& options_;
+    const Watch& watch_;
+    BatchReport& report_;
+    std::mutex telling_;
+    double left_s_ = 0;  ///< about, of the work that is being done
+};
+
+}  // namespace
+
 BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
     const Stopwatch time;
-    const BatchPlan plan = plan_batch(options.design);
+    BatchPlan plan = plan_batch(options.design);
     check_batch_folder(options.out);
     BatchReport report;
     report.name = plan.name;
+    BatchRun run(options, watch, report);
 
-    // What is there already
+    // Pictures are matched by what all of them are: first the films, then the clips
+    if (plan.match.luminance) {
+        std::vector<const ClipPlan*> films;
+        for (const std::size_t i : unmeasured(plan, options.out))
+            if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
+        run.work(films, "filmed",
+                 [&](const ClipPlan& clip, int threads, const Watch& frames, Studio& studio) {
+                     make_take(clip, options.out, threads, frames, studio);
+                 });
+        report.unmeasured =
+            static_cast<int>(unmeasured(plan, options.out).size() - report.failed.size());
+        if (!report.failed.empty() || report.unmeasured > 0) {
+            report.elsewhere = static_cast<int>(plan.clips.size() - report.failed.size());
+            report.seconds = time.seconds();
+            return report;
+        }
+        match_luminance(options.out, plan);
+    }
+
+    // What is there already, and what is not
     std::vector<const ClipPlan*> wanted;
-    std::mutex telling;
-    const auto tell = [&](const ClipPlan& clip, const char* state, const std::string& why = {}) {
-        if (options.told) options.told(clip.condition.clip, state, why);
-    };
-    double left_s = 0;
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
         if (is_made(clip, options.out)) {
             ++report.kept;
-            tell(clip, "kept");
-        } else if (static_cast<int>(i % static_cast<std::size_t>(options.parts)) + 1 !=
-                   options.part) {
+            run.tell(clip, "kept");
+        } else if (!run.is_mine(i)) {
             ++report.elsewhere;
         } else {
             wanted.push_back(&clip);
-            left_s += clip.seconds();
         }
     }
-
-    // What is not
-    const double all_s = left_s;
-    for_each(wanted.size(), std::min<int>(options.workers, static_cast<int>(wanted.size())),
-             [&](std::size_t i, Studio& studio) {
-                 const ClipPlan& clip = *wanted[i];
-                 std::string why;
-                 // Of its frames the batch tells nothing but that it goes on
-                 const Watch frames{.progress = {}, .stopped = watch.stopped};
-                 const auto share = [&] { return 1 - left_s / std::max(all_s, 1e-9); };
-                 try {
-                     {
-                         const std::lock_guard lock(telling);
-                         watch.tell(share(), clip.condition.clip);
-                     }
-                     make_clip(clip, options.out, options.workers > 1 ? 1 : 2, frames, studio);
-                 } catch (const Error& error) {
-                     why = error.what();
-                 } catch (const RunError& error) {
-                     why = error.what();
-                 }
-                 const std::lock_guard lock(telling);
-                 left_s -= clip.seconds();
-                 if (why.empty())
-                     ++report.made;
-                 else
-                     report.failed.emplace_back(clip.condition.clip, why);
-                 tell(clip, why.empty() ? "made" : "failed", why);
-             });
-    std::sort(report.failed.begin(), report.failed.end());
+    report.made =
+        run.work(wanted, "made",
+                 [&](const ClipPlan& clip, int threads, const Watch& frames, Studio& studio) {
+                     make_clip(clip, options.out, threads, frames, studio);
+                 });
 
     // What is told of all of them
     if (report.failed.empty() && report.elsewhere == 0) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,17 @@ struct BatchOptions {
     int workers = 2;  ///< clips made at once
     int part = 1,
         parts = 1;  ///< of several machines: which share of the clips is made here, from 1
-    /// Of each clip as it is kept, made or failed; `why` is empty unless it failed. From several threads, one at a time.
+    /// Of each clip as it is kept, filmed (when luminance is matched), made or failed; `why` is empty unless it failed. From several threads, one at a time.
     std::function<void(const std::string& clip, const std::string& state, const std::string& why)>
         told{};
 };
 
 struct BatchPlan {
     std::string name;
+    stimuli::Match match;
+    std::optional<stimuli::ExperimentOptions> experiment;
+    std::vector<std::pair<std::string, stimuli::Balance>>
+        balances;  ///< of the sets that are only a part of their crossing
     std::vector<ClipPlan> clips;
     double seconds() const;  ///< to make all of them, about, on two cores
     double megabytes() const;
@@ -38,7 +43,8 @@ void check_batch_folder(const std::filesystem::path& out);
 
 struct BatchReport {
     std::string name;
-    int made = 0, kept = 0, elsewhere = 0;                    ///< of another part
+    int made = 0, kept = 0, elsewhere = 0;  ///< of another part
+    int unmeasured = 0;  ///< conditions of other parts without which luminance cannot be matched
     std::vector<std::pair<std::string, std::string>> failed;  ///< clip and why
     bool complete = false;  ///< all clips are there, and the set's files
     double seconds = 0;

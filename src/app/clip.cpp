@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "app/contact_sheet.h"
+#include "app/clip_pictures.h"
 #include "app/film.h"
 #include "app/frame_rows.h"
 #include "app/staged_file.h"
+#include "app/take.h"
 #include "app/version.h"
 #include "core/error.h"
 #include "media/image_file.h"
-#include "media/phase_scramble.h"
 #include "media/sha256.h"
 #include "media/sync_marks.h"
+#include "media/video_reader.h"
+#include "media/wav_file.h"
 #include "track/timeline.h"
 
 namespace risorius::app {
@@ -24,25 +27,15 @@ using stimuli::ControlKind;
 
 namespace {
 
-// About, on two cores: seconds for a frame and for its pixels, and bytes for a pixel
-constexpr double kFrame_s = 0.027, kPixel_s = 7e-8, kByte_px = 0.03, kLosslessByte_px = 1.2;
-constexpr double kMostHeld_bytes = 1.5e9;  // of frames that are shown in another order
-constexpr int kStrip = 5, kThumb_px = 120;
-constexpr int kPhotodiode_px = 64;
+// About, on two cores: seconds for a clip, a frame and for its pixels, and bytes for a pixel
+constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
+                 kLosslessByte_px = 1.2;
+constexpr double kMostHeld_bytes = 0.6e9;  // of frames that are shown in another order
 
 std::string sha256_of(const std::string& text) {
     media::Sha256 hash;
     hash.add(text.data(), text.size());
     return hash.finish();
-}
-
-bool shows_other_order(ControlKind kind) {
-    return kind == ControlKind::kReversed || kind == ControlKind::kScrambled ||
-           kind == ControlKind::kApex;
-}
-
-bool shows_part(ControlKind kind) {
-    return kind == ControlKind::kEyesOnly || kind == ControlKind::kMouthOnly;
 }
 
 /// The script's files, as keys in it: where each stands, relative to `folder` or not.
@@ -71,168 +64,15 @@ fs::path script_file(const ClipPlan& plan) {
 
 std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition.clip; }
 
-/// What of a picture a window leaves, soft at its edge; the rest is background.
-struct Window {
-    double left = 0, top = 0, right = 0, bottom = 0;
+/// As BIDS names what can be seen, and seen and heard.
+std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
 
-    void show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
-        const double soft = 0.08 * (right - left);
-        for (int y = 0; y < image.height_px; ++y)
-            for (int x = 0; x < image.width_px; ++x) {
-                const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
-                const double share =
-                    away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
-                std::uint8_t* pixel = image.pixel(x, y);
-                for (int k = 0; k < 3; ++k)
-                    pixel[k] = static_cast<std::uint8_t>(std::lround(
-                        share * pixel[k] + (1 - share) * outside[static_cast<std::size_t>(k)]));
-            }
-    }
-};
-
-/// Around the landmarks of eyes or mouth, wherever they are in any frame: a window that stands still.
-Window window_around(const FrameRows& rows, ControlKind kind, const std::string& place) {
-    const std::vector<std::string> ids =
-        kind == ControlKind::kEyesOnly
-            ? std::vector<std::string>{"en_l", "en_r", "ex_l", "ex_r",
-                                       "ps_l", "ps_r", "pi_l", "pi_r"}
-            : std::vector<std::string>{"ch_l", "ch_r", "ls", "li", "sto", "stos", "stoi"};
-    double width = 0;
-    Window out{1e9, 1e9, -1e9, -1e9};
-    for (const std::string& id : ids) {
-        const int u = rows.column(id + ".u_px"), v = rows.column(id + ".v_px");
-        if (u < 0 || v < 0) continue;
-        for (int r = 0; r < rows.rows(); ++r) {
-            out.left = std::min(out.left, rows.number(r, u));
-            out.right = std::max(out.right, rows.number(r, u));
-            out.top = std::min(out.top, rows.number(r, v));
-            out.bottom = std::max(out.bottom, rows.number(r, v));
-        }
-    }
-    width = out.right - out.left;
-    if (!(width > 0))
-        throw Error(place, "a rig with landmarks of eyes and mouth", "none to put a window around");
-    const double beside = 0.12 * width,
-                 above = (kind == ControlKind::kEyesOnly ? 0.16 : 0.2) * width;
-    return {out.left - beside, out.top - above, out.right + beside, out.bottom + above};
+/// Whether the table tells where the landmarks are, by wish or because the clip is made with it.
+bool films_landmarks(const ClipPlan& plan) {
+    const ControlKind kind = plan.condition.control.kind;
+    return plan.clips.landmarks || shows_part(kind) || kind == ControlKind::kApex ||
+           (plan.luminance && plan.luminance->within_face);
 }
-
-void turn_upside_down(Image& image) {
-    std::vector<std::uint8_t> turned(image.rgba.size());
-    const std::size_t pixels = image.rgba.size() / 4;
-    for (std::size_t i = 0; i < pixels; ++i)
-        std::copy_n(&image.rgba[4 * i], 4, &turned[4 * (pixels - 1 - i)]);
-    image.rgba = std::move(turned);
-}
-
-std::string text_of(double value, int decimals) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
-
-/// A row for every frame as it is shown.
-std::string events_table(const FrameRows& rows, const std::vector<int>& order,
-                         const ClipPlan& plan) {
-    std::string out = "onset\tduration\tframe\tsource_frame";
-    for (std::size_t c = 2; c < rows.names.size(); ++c) out += "\t" + rows.names[c];
-    if (plan.clips.photodiode) out += "\tphotodiode";
-    out += "\n";
-    const bool turned = plan.condition.control.kind == ControlKind::kUpsideDown;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const auto& cells = rows.cells[static_cast<std::size_t>(order[i])];
-        out += text_of(static_cast<double>(i) / plan.fps, 6) + "\t" + text_of(1.0 / plan.fps, 6) +
-               "\t" + std::to_string(i) + "\t" + std::to_string(order[i]);
-        for (std::size_t c = 2; c < rows.names.size(); ++c) {
-            const std::string& name = rows.names[c];
-            const auto ends = [&](const char* end) {
-                return name.size() > 5 && name.compare(name.size() - 5, 5, end) == 0;
-            };
-            if (turned && (ends(".u_px") || ends(".v_px")))
-                out += "\t" + text_of((ends(".u_px") ? plan.width_px : plan.height_px) -
-                                          rows.number(order[i], static_cast<int>(c)),
-                                      3);
-            else
-                out += "\t" + cells[c];
-        }
-        if (plan.clips.photodiode) out += i % 2 == 0 ? "\t1" : "\t0";
-        out += "\n";
-    }
-    return out;
-}
-
-/// The pictures of a film on their way into a video.
-class ClipPictures {
-  public:
-    ClipPictures(const ClipPlan& plan, media::VideoWriter& video,
-                 const std::array<std::uint8_t, 3>& background)
-        : plan_(plan),
-          kind_(plan.condition.control.kind),
-          background_(background),
-          video_(video),
-          later_(shows_other_order(kind_) || shows_part(kind_)) {
-        if (kind_ == ControlKind::kPhaseScrambled)
-            phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
-    }
-
-    void take(Image image) {
-        if (later_)
-            held_.push_back(std::move(image));
-        else
-            write(std::move(image));
-    }
-    /// What had to wait for all that is known in the end.
-    void finish(const FrameRows& rows, const std::vector<int>& order) {
-        if (!later_) return;
-        std::optional<Window> window;
-        if (shows_part(kind_)) window = window_around(rows, kind_, plan_.condition.clip);
-        for (const int frame : order) {
-            Image image = held_[static_cast<std::size_t>(frame)];
-            if (window) window->show(background_, image);
-            write(std::move(image));
-        }
-    }
-    /// A few frames over the length of the clip, side by side.
-    Image strip() const {
-        const Image& first = thumbs_.front();
-        Image out(kStrip * first.width_px, first.height_px);
-        for (int i = 0; i < kStrip; ++i) {
-            const std::size_t at =
-                (2 * static_cast<std::size_t>(i) + 1) * thumbs_.size() / (2 * kStrip);
-            for (int y = 0; y < first.height_px; ++y)
-                std::copy_n(thumbs_[at].pixel(0, y), 4 * first.width_px,
-                            out.pixel(i * first.width_px, y));
-        }
-        return out;
-    }
-    std::string sha256() { return hash_.finish(); }
-
-  private:
-    void write(Image image) {
-        if (kind_ == ControlKind::kUpsideDown) turn_upside_down(image);
-        if (phases_) phases_->scramble(image);
-        const int height = std::min(kThumb_px, image.height_px);
-        thumbs_.push_back(
-            shrunk(image, std::max(1, image.width_px * height / image.height_px), height));
-        if (plan_.clips.photodiode)
-            media::draw_photodiode(media::corner_named(*plan_.clips.photodiode, "photodiode"),
-                                   std::min(kPhotodiode_px, image.width_px / 8), written_ % 2 == 0,
-                                   image);
-        ++written_;
-        hash_.add(image.rgba.data(), image.rgba.size());
-        video_.append(image);
-    }
-
-    const ClipPlan& plan_;
-    ControlKind kind_;
-    std::array<std::uint8_t, 3> background_;
-    media::VideoWriter& video_;
-    bool later_;
-    std::optional<media::PhaseScrambler> phases_;
-    int written_ = 0;
-    std::vector<Image> held_, thumbs_;
-    media::Sha256 hash_;
-};
 
 /// In any frame.
 bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
@@ -247,7 +87,37 @@ bool moves_the_head(const track::ScriptDescription& script, const track::Channel
     return false;
 }
 
-/// How it was made, without what differs from one making to the next and from one folder to another.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+/// The pictures of a take, matched, and how light they were and are.
+Json show_take(const ClipPlan& plan, const Take& take, const FrameRows& rows, const Watch& watch,
+               ClipPictures& pictures) {
+    const media::Tone tone = plan.tone.value_or(media::Tone{});
+    const media::ToneCurve curve(tone);
+    media::VideoReader reader(take.video);
+    media::LuminanceSums after;
+    double cut_off = 0;
+    for (int frame = 0; frame < reader.frames(); ++frame) {
+        watch.tell(static_cast<double>(frame) / reader.frames(), kRendering);
+        Image image = reader.frame(frame);
+        const std::vector<std::uint16_t> part = measured_part(plan, rows, frame);
+        cut_off += curve.cut_off(image, part) / reader.frames();
+        Image matched = image;
+        curve.apply(matched);
+        after.add(matched, part);
+        pictures.take(std::move(image));
+    }
+    return {{"film_sha256", plan.film_sha256},
+            {"within", plan.luminance->within_face ? "face" : "picture"},
+            {"gain", tone.gain},
+            {"offset", tone.offset},
+            {"before", json_of(take.luminance)},
+            {"after", json_of(after)},
+            {"cut_off", cut_off}};
+}
+
+}  // namespace
+
 Json run_without_places(const RunRecord& record) {
     Json json = record.json();
     for (const char* key : {"out", "timing", "script"}) json.erase(key);
@@ -260,12 +130,29 @@ Json run_without_places(const RunRecord& record) {
     return json;
 }
 
-}  // namespace
+std::string text_of_file(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
 
-double ClipPlan::seconds() const { return frames * (kFrame_s + kPixel_s * width_px * height_px); }
+double ClipPlan::seconds() const {
+    return kClip_s + frames * (kFrame_s + kPixel_s * width_px * height_px);
+}
 double ClipPlan::megabytes() const {
-    return 1e-6 * frames * (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px) *
+    const double take = luminance ? kLosslessByte_px : 0;
+    return 1e-6 * frames *
+           (take + (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px)) *
            width_px * height_px;
+}
+
+void ClipPlan::match(const media::Tone& matched) {
+    tone = matched;
+    const media::ToneCurve curve(matched);
+    for (std::uint8_t& byte : background) byte = curve.of(byte);
+    content_sha256 = sha256_of(
+        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
 }
 
 const RigDigests::Known& RigDigests::at(const fs::path& rig) {
@@ -279,11 +166,13 @@ const RigDigests::Known& RigDigests::at(const fs::path& rig) {
     return known_.emplace(key, Known{std::move(files), sha256_of(digests)}).first->second;
 }
 
-ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptions& clips,
-                   RigDigests& rigs) {
+ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& design,
+                   RigDigests& rigs, SoundPlans& sounds) {
+    const stimuli::ClipOptions& clips = design.clips;
     ClipPlan plan;
     plan.condition = condition;
     plan.clips = clips;
+    plan.luminance = design.match.luminance;
     // As if it were a file beside the template, so that messages and relative paths are right
     const JsonCursor json = JsonCursor::from_json(
         condition.script, (condition.folder / ("clip " + condition.clip)).string());
@@ -295,6 +184,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptio
     plan.fps = header.fps;
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
+    for (std::size_t k = 0; k < 3; ++k)
+        plan.background[k] =
+            static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
     const ControlKind kind = condition.control.kind;
     if ((shows_other_order(kind) || shows_part(kind)) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMostHeld_bytes)
@@ -308,36 +200,58 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::ClipOptio
                     "one that the script moves");
     if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
 
-    // All that the clip hangs on
-    Json content{{"toolkit", kVersion},
-                 {"compiler", __VERSION__},
-                 {"script", condition.script},
-                 {"rig", rig.sha256},
+    if (condition.audio)
+        plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
+                               design.match.loudness_lufs, json.place());
+
+    plan.scene_sha256 =
+        sha256_of(Json{rig.sha256, clips.quality, condition.script.value("view", Json())}.dump());
+
+    // All that its pictures hang on
+    Json film{{"toolkit", kVersion},
+              {"compiler", __VERSION__},
+              {"script", condition.script},
+              {"rig", rig.sha256},
+              {"quality", clips.quality},
+              {"landmarks", films_landmarks(plan)},
+              {"flipped", kind == ControlKind::kFlipped},
+              {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
+    for (const Json::json_pointer& key : file_keys(condition.script)) {
+        film["script"][key] = "";
+        const fs::path file = condition.script.at(key).get<std::string>();
+        if (key.to_string() != "/rig")
+            film["files"].push_back(
+                media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
+    }
+    plan.film_sha256 = sha256_of(film.dump());
+
+    // And the clip
+    Json content{{"film", plan.film_sha256},
                  {"control", condition.control.name()},
                  {"seed", kind == ControlKind::kScrambled || kind == ControlKind::kPhaseScrambled
                               ? condition.seed
                               : 0u},
                  {"ending", clips.ending},
-                 {"quality", clips.quality},
                  {"crf", clips.crf ? Json(*clips.crf) : Json()},
                  {"lossless", clips.lossless},
                  {"landmarks", clips.landmarks},
                  {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
-    for (const Json::json_pointer& key : file_keys(condition.script)) {
-        content["script"][key] = "";
-        const fs::path file = condition.script.at(key).get<std::string>();
-        if (key.to_string() != "/rig")
-            content["files"].push_back(
-                media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
-    }
+    if (plan.sound)
+        content["sound"] = {{"file", plan.sound->sha256},
+                            {"offset_samples", plan.sound->offset_samples},
+                            {"gain_db", plan.sound->gain_db}};
     plan.content_sha256 = sha256_of(content.dump());
     return plan;
 }
 
 std::vector<fs::path> clip_files(const ClipPlan& plan) {
-    return {script_file(plan), fs::path("overview") / (plan.condition.clip + ".png"),
-            stem(plan) + "_video." + plan.clips.ending, stem(plan) + "_annot-frames_events.tsv",
-            stem(plan) + "_video.json"};
+    std::vector<fs::path> files{script_file(plan),
+                                fs::path("overview") / (plan.condition.clip + ".png"),
+                                stem(plan) + suffix(plan) + "." + plan.clips.ending,
+                                stem(plan) + "_annot-frames_events.tsv"};
+    if (plan.sound) files.push_back(stem(plan) + "_audio.wav");
+    files.push_back(stem(plan) + suffix(plan) + ".json");
+    return files;
 }
 
 Json clip_record(const ClipPlan& plan, const fs::path& folder) {
@@ -361,39 +275,68 @@ bool is_made(const ClipPlan& plan, const fs::path& folder) {
     }
 }
 
-void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const Watch& watch,
-               Studio& studio) {
-    const std::vector<fs::path> files = clip_files(plan);
-    for (const fs::path& file : files) fs::create_directories((folder / file).parent_path());
-    // Not complete from here on
-    fs::remove(folder / files.back());
-    const fs::path script = folder / script_file(plan), video_file = folder / files[2];
+void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
+    const fs::path script = folder / script_file(plan);
+    fs::create_directories(script.parent_path());
     write_text(
         script,
         relocated(plan.condition.script, plan.condition.folder, script.parent_path()).dump(2) +
             "\n");
+}
 
+AnimateOptions film_options(const ClipPlan& plan, const fs::path& folder, const fs::path& out,
+                            int threads) {
     AnimateOptions options;
-    options.script = script;
-    options.out = video_file;
+    options.script = folder / script_file(plan);
+    options.out = out;
     options.quality = plan.clips.quality;
-    options.video.crf = plan.clips.crf;
-    options.video.lossless = plan.clips.lossless;
-    options.landmarks = plan.clips.landmarks || shows_part(plan.condition.control.kind) ||
-                        plan.condition.control.kind == ControlKind::kApex;
+    options.landmarks = films_landmarks(plan);
     options.threads = threads;
     options.flipped_motion = plan.condition.control.kind == ControlKind::kFlipped;
-    const Shot shot = plan_shot(options);
-    std::array<std::uint8_t, 3> background{};
-    for (std::size_t k = 0; k < 3; ++k)
-        background[k] = static_cast<std::uint8_t>(std::lround(255 * shot.view.background.rgb[k]));
+    return options;
+}
+
+void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const Watch& watch,
+               Studio& studio) {
+    const std::vector<fs::path> files = clip_files(plan);
+    for (const fs::path& file : files) fs::create_directories((folder / file).parent_path());
+    std::optional<Take> take;
+    if (plan.luminance) {
+        take = find_take(plan, folder);
+        if (!take) {
+            make_take(plan, folder, threads, watch, studio);
+            take = find_take(plan, folder);
+            if (!take) throw RunError(plan.condition.clip + ": its take has gone");
+        }
+    }
+    // Not complete from here on
+    fs::remove(folder / files.back());
+    write_clip_script(plan, folder);
+
+    const fs::path video_file = folder / files[2];
+    AnimateOptions options = film_options(plan, folder, video_file, threads);
+    options.video.crf = plan.clips.crf;
+    options.video.lossless = plan.clips.lossless;
+    Shot shot = plan_shot(options);
+    if (plan.sound) {
+        shot.video.sound = sound_of(*plan.sound);
+        shot.video.sound_offset_samples = plan.sound->offset_samples;
+    }
     media::VideoWriter video(video_file, shot.video);
-    ClipPictures pictures(plan, video, background);
-    FilmExtras extras;
-    const RunRecord run = film(
-        options, shot, [&](Image image) { pictures.take(std::move(image)); }, extras, watch,
-        studio);
-    const FrameRows rows = frame_rows(extras.table);
+    ClipPictures pictures(plan, video);
+    FrameRows rows;
+    Json run, luminance;
+    if (take) {
+        run = take->run;
+        rows = frame_rows(take->table);
+        luminance = show_take(plan, *take, rows, watch, pictures);
+    } else {
+        FilmExtras extras;
+        run = run_without_places(film(
+            options, shot, [&](Image image) { pictures.take(std::move(image)); }, extras, watch,
+            studio));
+        rows = frame_rows(extras.table);
+    }
     const Moments moments = moments_of(landmark_ways(rows));
     const std::vector<int> order = stimuli::frame_order(plan.condition.control, shot.frames,
                                                         moments.apex, plan.condition.seed);
@@ -401,8 +344,11 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
 
     // Each whole or not at all, the sidecar last
     video.finish();
-    write_text(folder / files[3], events_table(rows, order, plan));
+    write_text(folder / files[3], events_table(rows, order, pictures.measures(), plan));
     media::write_png(pictures.strip(), folder / files[1]);
+    if (plan.sound)
+        media::write_wav(heard_of(*plan.sound, static_cast<double>(shot.frames) / plan.fps),
+                         folder / files[4]);
     const auto shown_at = [&](int frame) {
         return static_cast<int>(std::find(order.begin(), order.end(), frame) - order.begin());
     };
@@ -421,11 +367,20 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
                 {"pictures_sha256", pictures.sha256()},
                 {"content_sha256", plan.content_sha256},
                 {"files", Json::object()},
-                {"run", run_without_places(run)}};
+                {"run", std::move(run)}};
     for (const auto& [name, value] : plan.condition.values) record["values"][name] = value;
+    if (plan.sound)
+        record["audio"] = {{"file", plan.sound->file.filename().generic_string()},
+                           {"sha256", plan.sound->sha256},
+                           {"offset_samples", plan.sound->offset_samples},
+                           {"gain_db", plan.sound->gain_db},
+                           {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
+                           {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
+    if (take) record["luminance"] = std::move(luminance);
     for (std::size_t i = 0; i + 1 < files.size(); ++i)
         record["files"][files[i].generic_string()] = media::sha256_of_file(folder / files[i]);
     write_text(folder / files.back(), record.dump(2) + "\n");
+    if (take && !plan.take_is_shared) remove_take(plan, folder);
 }
 
 }  // namespace risorius::app

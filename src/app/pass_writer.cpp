@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/face_oval.h"
 #include "app/staged_file.h"
 #include "media/float_image.h"
 #include "media/image_file.h"
@@ -14,62 +15,6 @@ namespace risorius::app {
 namespace {
 
 using render::Part;
-
-/// Around the face, in no order: their hull counts.
-constexpr const char* kOval[] = {"tr",   "fml_l", "fml_r", "fht_l", "fht_r", "ft_l", "ft_r", "zy_l",
-                                 "zy_r", "go_l",  "go_r",  "mmb_l", "mmb_r", "gn",   "me"};
-
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Andrew's monotone chain.
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-    if (points.size() < 3) return {};
-    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-    });
-    std::vector<Vec2> hull;
-    for (int pass = 0; pass < 2; ++pass) {
-        const std::size_t begin = hull.size();
-        for (const Vec2& point : points) {
-            while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0)
-                hull.pop_back();
-            hull.push_back(point);
-        }
-        hull.pop_back();
-        std::reverse(points.begin(), points.end());
-    }
-    return hull;
-}
-
-/// A smooth curve through the corners (centripetal Catmull-Rom: no loops where two are close), as a hull.
-std::vector<Vec2> rounded(const std::vector<Vec2>& hull) {
-    constexpr int kPieces = 8;
-    const std::size_t n = hull.size();
-    std::vector<Vec2> curve;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vec2 &a = hull[(i + n - 1) % n], &b = hull[i], &c = hull[(i + 1) % n],
-                   &d = hull[(i + 2) % n];
-        const double ab = std::sqrt((b - a).norm()), bc = std::sqrt((c - b).norm()),
-                     cd = std::sqrt((d - c).norm());
-        if (ab == 0 || bc == 0 || cd == 0) continue;
-        const Vec2 slope_b = bc * ((b - a) / ab - (c - a) / (ab + bc)) + (c - b),
-                   slope_c = bc * ((d - c) / cd - (d - b) / (bc + cd)) + (c - b);
-        for (int piece = 0; piece < kPieces; ++piece) {
-            const double t = static_cast<double>(piece) / kPieces, u = 1 - t;
-            curve.push_back(u * u * (1 + 2 * t) * b + t * t * (3 - 2 * t) * c +
-                            t * u * (u * slope_b - t * slope_c));
-        }
-    }
-    return hull_of(std::move(curve));
-}
-
-bool is_inside(const std::vector<Vec2>& hull, const Vec2& point) {
-    for (std::size_t i = 0; i < hull.size(); ++i)
-        if (turn(hull[i], hull[(i + 1) % hull.size()], point) < 0) return false;
-    return !hull.empty();
-}
 
 bool is_of_eye(std::uint16_t part) {
     return part >= static_cast<std::uint16_t>(Part::kScleraLeft) &&
@@ -136,21 +81,21 @@ void PassWriter::write_masks(int frame, const render::SeenSurface& seen,
     const int width = surface_.width_px(), height = surface_.height_px();
     const std::vector<std::string> known = landmarks_.ids();
     std::vector<Vec2> border;
-    for (const char* id : kOval) {
+    for (const std::string& id : FaceOval::landmarks()) {
         if (std::find(known.begin(), known.end(), id) == known.end()) continue;
         const Eigen::Vector4d clip =
             clip_from_world_ * landmarks_.at(id, seen.positions).homogeneous();
         border.emplace_back((clip.x() / clip.w() * 0.5 + 0.5) * width,
                             (0.5 - clip.y() / clip.w() * 0.5) * height);
     }
-    const std::vector<Vec2> oval = rounded(hull_of(std::move(border)));
+    const FaceOval oval(std::move(border));
     auto& [face, eyes, mouth] = masks_;
     for (std::vector<std::uint16_t>* mask : {&face, &eyes, &mouth}) mask->assign(parts.size(), 0);
     for (int y = 0, i = 0; y < height; ++y)
         for (int x = 0; x < width; ++x, ++i) {
             const auto at = static_cast<std::size_t>(i);
             if (parts[at] == 0) continue;
-            if (is_inside(oval, {x + 0.5, y + 0.5})) face[at] = 255;
+            if (oval.holds({x + 0.5, y + 0.5})) face[at] = 255;
             if (is_of_eye(parts[at])) eyes[at] = 255;
             if (is_of_mouth(parts[at])) mouth[at] = 255;
         }

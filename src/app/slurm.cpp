@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
+#include "app/luminance_match.h"
 #include "app/run_program.h"
 #include "app/staged_file.h"
 #include "app/stimulus_set.h"
@@ -103,52 +105,94 @@ std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, i
            std::to_string(tasks) + "\" --json\n";
 }
 
+namespace {
+
+/// Job arrays one after the other, until nothing is missing or nothing more is to be tried.
+class Rounds {
+  public:
+    /// What is missing of the plan's clips, by place.
+    using Look = std::function<std::vector<std::size_t>()>;
+
+    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks, const Watch& watch)
+        : batch_(batch), slurm_(slurm), tasks_(tasks), watch_(watch) {}
+
+    /// `number`: of a clip, by which the clips are dealt out.
+    std::vector<std::size_t> run(const char* what, const Look& look,
+                                 const std::function<std::size_t(std::size_t)>& number) {
+        std::vector<std::size_t> missing = look();
+        const auto all = static_cast<double>(missing.size());
+        for (int round = 0; round <= slurm_.retries && !missing.empty(); ++round) {
+            // As make_batch() deals them out
+            std::set<int> parts;
+            for (const std::size_t i : missing)
+                parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
+            const Job job(batch_, slurm_, {parts.begin(), parts.end()}, sent_++);
+            try {
+                while (job.goes_on()) {
+                    watch_.tell(1 - static_cast<double>(missing.size()) / all,
+                                std::to_string(missing.size()) + " " + what + " left");
+                    std::this_thread::sleep_for(kBetweenLooks);
+                    missing = look();
+                }
+            } catch (const Interrupted&) {
+                job.cancel();
+                throw;
+            }
+            missing = look();
+        }
+        return missing;
+    }
+
+  private:
+    const BatchOptions& batch_;
+    const SlurmOptions& slurm_;
+    int tasks_;
+    const Watch& watch_;
+    int sent_ = 0;
+};
+
+}  // namespace
+
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
                                 const Watch& watch) {
     const Stopwatch time;
-    const BatchPlan plan = plan_batch(batch.design);
+    BatchPlan plan = plan_batch(batch.design);
     check_batch_folder(batch.out);
     BatchReport report;
     report.name = plan.name;
-    std::vector<char> made(plan.clips.size(), 0);
-    const auto look = [&](const char* state) {
-        std::vector<std::size_t> missing;
-        for (std::size_t i = 0; i < plan.clips.size(); ++i) {
-            if (made[i]) continue;
-            if (!is_made(plan.clips[i], batch.out)) {
-                missing.push_back(i);
-                continue;
-            }
-            made[i] = 1;
-            ++(std::string(state) == "kept" ? report.kept : report.made);
-            if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
-        }
-        return missing;
-    };
-    std::vector<std::size_t> missing = look("kept");
-    const auto all = static_cast<double>(missing.size());
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
     fs::create_directories(batch.out / "code");
     write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
+    Rounds rounds(batch, slurm, tasks, watch);
 
-    for (int round = 0; round <= slurm.retries && !missing.empty(); ++round) {
-        // As make_batch() deals them out
-        std::set<int> parts;
-        for (const std::size_t i : missing)
-            parts.insert(static_cast<int>(i % static_cast<std::size_t>(tasks)) + 1);
-        const Job job(batch, slurm, {parts.begin(), parts.end()}, round);
-        try {
-            while (job.goes_on()) {
-                watch.tell(1 - static_cast<double>(missing.size()) / all,
-                           std::to_string(missing.size()) + " clips left");
-                std::this_thread::sleep_for(kBetweenLooks);
-                missing = look("made");
-            }
-        } catch (const Interrupted&) {
-            job.cancel();
-            throw;
-        }
-        missing = look("made");
+    // Pictures are matched by what all of them are: first the films. A task makes clips too when all films are there
+    std::vector<std::size_t> missing = rounds.run(
+        "films", [&] { return unmeasured(plan, batch.out); },
+        [&](std::size_t i) { return plan.clips[i].film; });
+    if (missing.empty()) {
+        match_luminance(batch.out, plan);
+        std::vector<char> made(plan.clips.size(), 0);
+        const char* state = "kept";
+        missing = rounds.run(
+            "clips",
+            [&] {
+                std::vector<std::size_t> out;
+                for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+                    if (made[i]) continue;
+                    if (!is_made(plan.clips[i], batch.out)) {
+                        out.push_back(i);
+                        continue;
+                    }
+                    made[i] = 1;
+                    ++(std::string(state) == "kept" ? report.kept : report.made);
+                    if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
+                }
+                state = "made";
+                return out;
+            },
+            [](std::size_t i) { return i; });
+    } else {
+        report.unmeasured = static_cast<int>(missing.size());
     }
 
     for (const std::size_t i : missing)

@@ -1,12 +1,12 @@
 #include "app/stimulus_set.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
+#include "app/experiment_files.h"
 #include "app/html_writer.h"
+#include "app/luminance_match.h"
 #include "app/staged_file.h"
 #include "app/version.h"
 #include "media/sha256.h"
@@ -29,13 +29,6 @@ std::string cell(const Json& value) {
     return text.empty() ? kMissing : text;
 }
 
-std::string file_text(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-}
-
 /// Of all clips, in the order in which they first come.
 std::vector<std::string> value_names(const std::vector<Json>& records) {
     std::vector<std::string> out;
@@ -46,11 +39,18 @@ std::vector<std::string> value_names(const std::vector<Json>& records) {
     return out;
 }
 
+bool has_sound(const std::vector<ClipPlan>& clips) {
+    return std::any_of(clips.begin(), clips.end(),
+                       [](const ClipPlan& clip) { return clip.sound.has_value(); });
+}
+
 std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
     const std::vector<std::string> names = value_names(records);
     std::string out =
         "stim_id\tstim_file\tset\tcontrol\tcontrol_of\tframes\tfps\tduration_s\t"
         "movement_onset_s\tapex_s\tpictures_sha256";
+    const bool heard = has_sound(clips);
+    if (heard) out += "\tloudness_lufs\ttrue_peak_dbtp";
     for (const std::string& name : names) out += "\t" + name;
     out += "\n";
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -66,6 +66,9 @@ std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPl
                format_number(one.at("movement_onset_frame").get<double>() / fps) + "\t" +
                format_number(one.at("apex_frame").get<double>() / fps) + "\t" +
                one.at("pictures_sha256").get<std::string>();
+        for (const char* key : {"loudness_lufs", "true_peak_dbtp"})
+            if (heard)
+                out += "\t" + (one.contains("audio") ? cell(one.at("audio").at(key)) : kMissing);
         for (const std::string& name : names) {
             const auto value = one.at("values").find(name);
             out += "\t" + (value == one.at("values").end() ? kMissing : cell(*value));
@@ -75,7 +78,7 @@ std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPl
     return out;
 }
 
-Json catalogue_columns(const std::vector<Json>& records) {
+Json catalogue_columns(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
     Json out{
         {"stim_id", {{"Description", "Name of the clip"}}},
         {"stim_file", {{"Description", "The video, in this folder"}}},
@@ -96,6 +99,13 @@ Json catalogue_columns(const std::vector<Json>& records) {
           {"Units", "s"}}},
         {"pictures_sha256",
          {{"Description", "Of the RGBA bytes of all frames before they were encoded"}}}};
+    if (has_sound(clips)) {
+        out["loudness_lufs"] = {
+            {"Description", "Integrated loudness of the clip's sound by EBU R 128"},
+            {"Units", "LUFS"}};
+        out["true_peak_dbtp"] = {{"Description", "Highest peak of the clip's sound by EBU R 128"},
+                                 {"Units", "dBTP"}};
+    }
     for (const std::string& name : value_names(records))
         out[name] = {{"Description", "Parameter of the design, see code/design.json"}};
     return out;
@@ -128,6 +138,12 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
                      " clips. Faces are synthetic. Values, frames and times: "
                      "stimuli/stimuli.tsv; triggers: triggers.tsv; ground truth of every frame "
                      "beside each clip.");
+    if (clips.front().luminance) {
+        html.element("h2", "Luminance");
+        html.element("p", luminance_text(records));
+        for (const char* chart : {"luminance/mean.svg", "luminance/sd.svg"})
+            html.single("img", {{"src", chart}, {"alt", "Every clip before and after"}});
+    }
     std::string set;
     for (std::size_t i = 0; i < records.size(); ++i) {
         const Json& one = records[i];
@@ -155,13 +171,18 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
 
 /// Files that this set does not have but `batch` may have written for an earlier design.
 void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
-    for (const char* below : {"stimuli", "overview", "code/scripts"}) {
+    // Beside an experiment may be what participants answered
+    for (const char* program : {"conditions.csv", "settings.json", "experiment.py", "index.html"})
+        if (kept.count(fs::path("experiment") / program) == 0)
+            fs::remove(folder / "experiment" / program);
+    for (const char* below : {"stimuli", "overview", "code/scripts", "luminance", "takes"}) {
         if (!fs::is_directory(folder / below)) continue;
         std::vector<fs::path> former;
         for (const auto& entry : fs::directory_iterator(folder / below))
             if (kept.count(fs::path(below) / entry.path().filename()) == 0)
                 former.push_back(entry.path());
         for (const fs::path& file : former) fs::remove_all(file);
+        if (fs::is_empty(folder / below)) fs::remove(folder / below);
     }
 }
 
@@ -191,10 +212,15 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
                 .dump(2) +
             "\n");
     write("stimuli/stimuli.tsv", catalogue(records, plan.clips));
-    write("stimuli/stimuli.json", catalogue_columns(records).dump(2) + "\n");
+    write("stimuli/stimuli.json", catalogue_columns(records, plan.clips).dump(2) + "\n");
     write("triggers.tsv", triggers(records));
-    write("code/design.json", file_text(design));
+    write("code/design.json", text_of_file(design));
     write("index.html", overview(plan.name, records, plan.clips));
+    if (plan.match.luminance)
+        for (const fs::path& file : write_luminance_report(plan, records, folder))
+            files.insert(file);
+    if (plan.experiment)
+        for (const fs::path& file : write_experiment(plan, records, folder)) files.insert(file);
     take_away_former(folder, files);
     std::string sums;
     for (const fs::path& file : files)

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/place_chance.h"
+
 namespace risorius::sim {
 
 namespace {
@@ -29,17 +31,12 @@ constexpr Goal kGoals[] = {
 
 // One number of a place in the run, the same whatever was asked before
 double chance(int seed, unsigned stream, long row, long column) {
-    // splitmix64 (Steele, Lea & Flood 2014), once per part of the place
-    std::uint64_t x = 0;
-    for (const std::uint64_t part :
-         {static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(stream),
-          static_cast<std::uint64_t>(row), static_cast<std::uint64_t>(column)}) {
-        x += part + 0x9e3779b97f4a7c15;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-        x ^= x >> 31;
-    }
-    return (static_cast<double>(x >> 11) + 0.5) * 0x1p-53;
+    return PlaceChance()
+        .at(static_cast<std::uint64_t>(seed))
+        .at(stream)
+        .at(static_cast<std::uint64_t>(row))
+        .at(static_cast<std::uint64_t>(column))
+        .inside();
 }
 
 // The least of the values that so large a share of them does not exceed; 0 of none.

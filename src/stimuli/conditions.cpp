@@ -33,34 +33,6 @@ bool holds(const std::map<std::string, Json>& when, const Parameters& values) {
     });
 }
 
-/// How many a set asks for before its controls. Throws Error when they are too many.
-long crossing(const ConditionSet& set) {
-    long count = static_cast<long>(set.rows.size());
-    for (const Factor& factor : set.factors) {
-        count *= static_cast<long>(factor.levels.size());
-        if (count > kMostConditions)
-            throw Error(set.place + "/factors",
-                        std::to_string(kMostConditions) + " conditions at most", "more");
-    }
-    return count;
-}
-
-/// Which of the crossing are wanted, ascending.
-std::vector<long> drawn(const ConditionSet& set, long count, int seed) {
-    std::vector<long> out(static_cast<std::size_t>(count));
-    for (long i = 0; i < count; ++i) out[static_cast<std::size_t>(i)] = i;
-    if (!set.draw) return out;
-    if (*set.draw > count)
-        throw Error(set.place + "/draw",
-                    "no more than the " + std::to_string(count) + " conditions there are",
-                    std::to_string(*set.draw));
-    std::mt19937 random(static_cast<unsigned>(seed));
-    for (std::size_t i = out.size(); i > 1; --i) std::swap(out[i - 1], out[random() % i]);
-    out.resize(static_cast<std::size_t>(*set.draw));
-    std::sort(out.begin(), out.end());
-    return out;
-}
-
 void append_word(std::string word, std::string& name) {
     if (!name.empty() && !word.empty())
         word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
@@ -90,6 +62,19 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
         throw Error(place, "a name of " + std::to_string(kLongestClip) + " letters at most",
                     risorius::quoted(out));
     return out;
+}
+
+/// A recording may be none for some of the conditions: null, or no text.
+void add_sound(const ConditionSet& set, const Parameters& values, Condition& condition) {
+    if (!set.audio) return;
+    const Json file = values.filled(*set.audio);
+    if (file.is_null() || file == "") return;
+    if (!file.is_string()) set.audio->fail("the name of a file", file.dump());
+    condition.audio = set.audio->folder() / file.get<std::string>();
+    if (!set.audio_start_s) return;
+    const Json start = values.filled(*set.audio_start_s);
+    if (!start.is_number()) set.audio_start_s->fail("a number", start.dump());
+    condition.audio_start_s = start.get<double>();
 }
 
 /// A clip that may not be named like another one, also where file names know no case.
@@ -134,32 +119,28 @@ std::string clip_word(const std::string& text) {
 
 std::vector<Condition> conditions_of(const Design& design) {
     long all = 0;
+    std::vector<std::vector<long>> wanted;
     for (const ConditionSet& set : design.sets) {
-        const long wanted = set.draw ? *set.draw : crossing(set);
-        all += wanted * static_cast<long>(1 + set.controls.size());
+        wanted.push_back(wanted_conditions(set, design.seed));
+        all += static_cast<long>(wanted.back().size() * (1 + set.controls.size()));
         if (all > kMostConditions)
             throw Error(design.file.string() + ":/sets",
                         std::to_string(kMostConditions) + " clips at most", "more");
     }
     std::vector<Condition> out;
     Names names;
-    for (const ConditionSet& set : design.sets) {
-        for (const long index : drawn(set, crossing(set), design.seed)) {
+    for (std::size_t s = 0; s < design.sets.size(); ++s) {
+        const ConditionSet& set = design.sets[s];
+        for (const long index : wanted[s]) {
             std::vector<Given> given = design.parameters;
             given.push_back({"set", JsonCursor::from_json(set.name, set.place)});
             given.insert(given.end(), set.parameters.begin(), set.parameters.end());
-            // The last factor changes fastest, the rows slowest
-            long rest = index;
-            std::vector<Given> levels;
-            for (auto factor = set.factors.rbegin(); factor != set.factors.rend(); ++factor) {
-                const auto count = static_cast<long>(factor->levels.size());
-                levels.push_back(
-                    {factor->name, factor->levels[static_cast<std::size_t>(rest % count)]});
-                rest /= count;
-            }
-            const std::vector<Given>& row = set.rows[static_cast<std::size_t>(rest)];
+            const std::vector<int> levels = levels_of(set, index);
+            const std::vector<Given>& row = set.rows[static_cast<std::size_t>(levels[0])];
             given.insert(given.end(), row.begin(), row.end());
-            given.insert(given.end(), levels.rbegin(), levels.rend());
+            for (std::size_t f = 0; f < set.factors.size(); ++f)
+                given.push_back({set.factors[f].name,
+                                 set.factors[f].levels[static_cast<std::size_t>(levels[f + 1])]});
             const Parameters before(given);
             for (const Override& one : set.overrides)
                 if (holds(one.when, before))
@@ -174,6 +155,7 @@ std::vector<Condition> conditions_of(const Design& design) {
             const Json script = values.filled(set.script);
             condition.script = script;
             condition.folder = set.script.folder();
+            add_sound(set, values, condition);
             const std::string place = set.place + ", condition " + std::to_string(index + 1) +
                                       " (" + condition.clip + ")";
             names.add(condition.clip, place);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ struct Condition {
     Json script;                                       ///< filled in, as the control wants it
     std::filesystem::path folder;                      ///< where its relative paths start
     unsigned seed = 0;                                 ///< of what the control draws
+    std::optional<std::filesystem::path> audio;        ///< a recording to be heard
+    double audio_start_s = 0;                          ///< when its first sample is
 };
 
 /// Throws Error for names that are no file names or taken twice, unknown parameters, and too many.

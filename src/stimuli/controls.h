@@ -39,6 +39,10 @@ struct Control {
     double late_s = 0.1;               ///< kLateSide
     std::map<std::string, Json> when;  ///< for conditions with these values only
 
+    /// Another way to show the pictures of the condition, rather than another face.
+    bool shows_otherwise() const {
+        return kind >= ControlKind::kReversed && kind <= ControlKind::kMouthOnly;
+    }
     std::string name() const;  ///< for the file: "reversed", "withoutZygomaticusMajorL"
 };
 

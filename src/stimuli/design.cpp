@@ -1,11 +1,14 @@
 #include "stimuli/design.h"
 
+#include <cctype>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
 #include "core/existing_file.h"
+#include "core/known_names.h"
+#include "core/place_chance.h"
 #include "stimuli/conditions.h"
 #include "stimuli/table.h"
 
@@ -32,21 +35,15 @@ std::vector<JsonCursor> made_levels(const std::vector<double>& values, const Jso
     return out;
 }
 
-// The same number for the same design whatever else is drawn: splitmix64 (Steele, Lea & Flood 2014) over seed and name.
+// The same number for the same design whatever else is drawn
 double chance(int seed, const std::string& name, int index) {
-    std::uint64_t x = static_cast<std::uint64_t>(seed);
-    const auto mix = [&](std::uint64_t part) {
-        x += part + 0x9e3779b97f4a7c15;
-        x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-        x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-        x ^= x >> 31;
-    };
-    for (const char c : name) mix(static_cast<unsigned char>(c));
-    mix(static_cast<std::uint64_t>(index));
-    return static_cast<double>(x >> 11) * 0x1p-53;
+    PlaceChance place(static_cast<std::uint64_t>(seed));
+    for (const char c : name) place.at(static_cast<unsigned char>(c));
+    return place.at(static_cast<std::uint64_t>(index)).from_zero();
 }
 
 constexpr int kMostLevels = 100000;
+constexpr double kBroadcastLufs = -23;  // EBU R 128
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     Factor factor{name, {}};
@@ -85,8 +82,8 @@ std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
 }
 
 ConditionSet read_set(const JsonCursor& json, int seed) {
-    json.allow_keys({"name", "script", "parameters", "factors", "conditions", "draw", "overrides",
-                     "clip", "controls"});
+    json.allow_keys({"name", "script", "parameters", "factors", "conditions", "fraction", "draw",
+                     "overrides", "clip", "controls", "audio", "audio_start_s"});
     const JsonCursor script = json.at("script");
     ConditionSet set{
         .name = json.at("name").string(),
@@ -94,10 +91,13 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
         .parameters = {},
         .factors = {},
         .rows = {{}},
+        .fraction = {},
         .draw = {},
         .overrides = {},
         .clip = json.at("clip").string(),
         .controls = {},
+        .audio = json.find("audio"),
+        .audio_start_s = json.find("audio_start_s"),
         .place = json.place()};
     if (clip_word(set.name).empty()) json.at("name").fail("a name with letters or digits");
     if (!set.script.is_object()) script.fail("a script, or the file of one");
@@ -110,6 +110,12 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
             set.factors.push_back(read_factor(v->at(name), name, seed));
         }
     if (const auto v = json.find("conditions")) set.rows = read_rows(*v);
+    if (const auto v = json.find("fraction")) {
+        std::vector<std::string> names;
+        for (const Factor& factor : set.factors) names.push_back(factor.name);
+        set.fraction = read_fraction(*v, names);
+    }
+    if (set.audio_start_s && !set.audio) set.audio_start_s->fail("\"audio\" beside it", "none");
     if (const auto v = json.find("draw"))
         set.draw = v->integer(1, static_cast<int>(kMostConditions));
     if (const auto v = json.find("overrides"))
@@ -135,6 +141,65 @@ ClipOptions read_clips(const JsonCursor& json) {
     return clips;
 }
 
+Match read_match(const JsonCursor& json) {
+    json.allow_keys({"luminance", "loudness"});
+    Match match;
+    if (const auto luminance = json.find("luminance")) {
+        luminance->allow_keys({"within", "one_for", "mean", "sd"});
+        LuminanceMatch& out = match.luminance.emplace();
+        if (const auto v = luminance->find("within"))
+            out.within_face = v->one_of({"picture", "face"}) == "face";
+        if (const auto v = luminance->find("one_for"))
+            out.per_clip = v->one_of({"all", "clip"}) == "clip";
+        if (const auto v = luminance->find("mean")) out.mean = v->number({0.001, 0.999});
+        if (const auto v = luminance->find("sd")) out.sd = v->number({0.001, 0.5});
+        if (!out.per_clip && !out.mean && !out.sd)
+            luminance->fail("\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"clip\"",
+                            "none of them");
+    }
+    if (const auto loudness = json.find("loudness")) {
+        loudness->allow_keys({"lufs"});
+        match.loudness_lufs = kBroadcastLufs;
+        if (const auto v = loudness->find("lufs")) match.loudness_lufs = v->number({-70, 0});
+    }
+    return match;
+}
+
+ExperimentOptions read_experiment(const JsonCursor& json) {
+    json.allow_keys({"programs", "question", "answers", "correct", "sets", "controls",
+                     "repetitions", "fixation_s", "jspsych_from"});
+    ExperimentOptions out;
+    for (const JsonCursor& one : json.at("programs").items())
+        out.programs.push_back(one.one_of({"psychopy", "jspsych"}));
+    if (out.programs.empty()) json.at("programs").fail("a program at least", "none");
+    if (const auto v = json.find("question")) out.question = v->string();
+    const JsonCursor answers = json.at("answers");
+    for (const std::string& key : answers.keys()) {
+        // What both programs and every keyboard call the same
+        if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
+                                 std::isdigit(static_cast<unsigned char>(key[0]))))
+            answers.at(key).fail("a key from a to z or 0 to 9", risorius::quoted(key));
+        out.answers.emplace_back(key, answers.at(key).string());
+    }
+    if (out.answers.empty()) answers.fail("a key to answer with at least", "none");
+    if (const auto v = json.find("correct")) out.correct = v->string();
+    if (const auto v = json.find("sets"))
+        for (const JsonCursor& one : v->items()) out.sets.push_back(one.string());
+    if (const auto v = json.find("controls")) out.controls = v->boolean();
+    if (const auto v = json.find("repetitions")) out.repetitions = v->integer(1, 1000);
+    if (const auto v = json.find("fixation_s")) out.fixation_s = v->number({0, 60});
+    if (const auto v = json.find("jspsych_from")) out.jspsych_from = v->string();
+    return out;
+}
+
+/// What the experiment names must be in the design.
+void check_experiment(const JsonCursor& json, const Design& design) {
+    std::vector<std::string> names;
+    for (const ConditionSet& set : design.sets) names.push_back(set.name);
+    for (std::size_t i = 0; i < design.experiment->sets.size(); ++i)
+        index_of_name(json.at("sets").items()[i].place(), design.experiment->sets[i], names);
+}
+
 }  // namespace
 
 Design read_design(const std::filesystem::path& file) {
@@ -142,12 +207,15 @@ Design read_design(const std::filesystem::path& file) {
     json.at("format").one_of({"risorius-design"});
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
-    json.allow_keys({"format", "version", "name", "seed", "clips", "parameters", "sets"});
+    json.allow_keys({"format", "version", "name", "seed", "clips", "match", "experiment",
+                     "parameters", "sets"});
     Design design;
     design.file = file;
     design.name = json.at("name").string();
     if (const auto v = json.find("seed")) design.seed = v->integer(0, 2147483647);
     if (const auto v = json.find("clips")) design.clips = read_clips(*v);
+    if (const auto v = json.find("match")) design.match = read_match(*v);
+    if (const auto v = json.find("experiment")) design.experiment = read_experiment(*v);
     if (const auto v = json.find("parameters")) design.parameters = read_values(*v);
     std::set<std::string> names;
     for (const JsonCursor& set : json.at("sets").items()) {
@@ -157,6 +225,7 @@ Design read_design(const std::filesystem::path& file) {
                                 risorius::quoted(design.sets.back().name) + " again");
     }
     if (design.sets.empty()) json.at("sets").fail("a set of conditions at least", "none");
+    if (design.experiment) check_experiment(json.at("experiment"), design);
     return design;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/frame_rows.h"
+#include "media/tone.h"
 #include "media/video_reader.h"
 #include "message_of.h"
 #include "paths.h"
@@ -134,6 +135,50 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     EXPECT_GT(up, 2);
     EXPECT_NEAR(corner("smile1Flipped", 4) - corner("smile1Flipped", 0), -up, 1e-3);
     EXPECT_EQ(rows.number(1, rows.column("onset")), 0.1);
+}
+
+TEST_F(Batch, MatchesLuminanceOverTheSetAlsoInParts) {
+    Json json = Json::parse(text_of(design("match.json", {0.2, 1}, R"(["reversed"])")));
+    json["match"] = {{"luminance", {{"within", "face"}, {"mean", 0.2}, {"sd", 0.08}}}};
+    json["clips"].erase("landmarks");
+    std::ofstream(folder().path() / "match.json") << json.dump();
+    BatchOptions options{
+        .design = folder().path() / "match.json", .out = folder().path() / "matched", .workers = 1};
+    EXPECT_EQ(make_batch(options).made, 4);
+    const Json report = Json::parse(text_of(options.out / "luminance/luminance.json"));
+    EXPECT_GT(std::abs(report["before"]["mean"].get<double>() - 0.2), 0.03);
+    // What rounding to bytes leaves
+    EXPECT_NEAR(report["after"]["mean"].get<double>(), 0.2, 2e-3);
+    EXPECT_NEAR(report["after"]["sd"].get<double>(), 0.08, 2e-3);
+    EXPECT_EQ(report["greatest_cut_off"], 0);
+    EXPECT_TRUE(fs::exists(options.out / "luminance/mean.svg"));
+    EXPECT_FALSE(fs::exists(options.out / "takes"));
+
+    // The table tells of the pictures as they are shown; the photodiode stays black and white
+    media::VideoReader video(options.out / "stimuli/stim-smile1_video.mkv");
+    const FrameRows rows =
+        frame_rows(text_of(options.out / "stimuli/stim-smile1_annot-frames_events.tsv"));
+    Image second = video.frame(1);
+    EXPECT_EQ(second.pixel(1, 62)[0], 0);
+    EXPECT_EQ(video.frame(0).pixel(1, 62)[0], 255);
+    media::LuminanceSums sums;
+    for (int y = 0; y < 8; ++y)  // the square is 6 pixels wide
+        for (int x = 0; x < 8; ++x) std::fill_n(second.pixel(x, 56 + y), 3, second.pixel(40, 5)[0]);
+    sums.add(second);
+    EXPECT_NEAR(rows.number(1, rows.column("luminance_mean")), sums.mean(), 2e-3);
+
+    // In parts nothing is made before all is measured; the bytes are the same
+    BatchOptions parts = options;
+    parts.out = folder().path() / "matched in parts";
+    parts.parts = parts.part = 2;
+    const BatchReport half = make_batch(parts);
+    EXPECT_EQ(half.made, 0);
+    EXPECT_EQ(half.unmeasured, 1) << "of two films";
+    EXPECT_FALSE(half.complete);
+    parts.parts = parts.part = 1;
+    EXPECT_TRUE(make_batch(parts).complete);
+    EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), text_of(options.out / "SHA256SUMS"));
+    EXPECT_EQ(make_batch(parts).kept, 4);
 }
 
 TEST_F(Batch, RefusesBeforeAnythingIsMade) {

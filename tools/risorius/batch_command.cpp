@@ -33,6 +33,18 @@ std::string time_text(double seconds) {
     return text;
 }
 
+Json balance_json(const std::string& set, const stimuli::Balance& balance) {
+    Json factors = Json::object();
+    for (const auto& factor : balance.factors)
+        factors[factor.name] = {{"least", factor.least}, {"most", factor.most}};
+    return {{"set", set},
+            {"conditions", balance.wanted},
+            {"of", balance.all},
+            {"times_of_a_level", factors},
+            {"times_of_a_pair", {{"least", balance.pair_least}, {"most", balance.pair_most}}},
+            {"strength", balance.strength}};
+}
+
 void tell_plan(const BatchArguments& arguments) {
     const app::BatchPlan plan = app::plan_batch(arguments.options.design);
     long frames = 0;
@@ -48,7 +60,11 @@ void tell_plan(const BatchArguments& arguments) {
                              {"control", clip.condition.control.name()},
                              {"frames", clip.frames},
                              {"fps", clip.fps}});
+        Json parts = Json::array();
+        for (const auto& [set, balance] : plan.balances)
+            parts.push_back(balance_json(set, balance));
         std::printf("%s\n", Json{{"name", plan.name},
+                                 {"parts_of_crossings", parts},
                                  {"clips", clips},
                                  {"frames", frames},
                                  {"seconds_about", plan.seconds()},
@@ -59,6 +75,8 @@ void tell_plan(const BatchArguments& arguments) {
         std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.0f MB\n",
                     plan.name.c_str(), plan.clips.size(), frames, time_text(plan.seconds()).c_str(),
                     plan.megabytes());
+        for (const auto& [set, balance] : plan.balances)
+            std::printf("%s: %s\n", set.c_str(), balance.text().c_str());
     }
 }
 
@@ -109,6 +127,11 @@ void run(BatchArguments& arguments) {
                     time_text(report.seconds).c_str());
         if (report.complete)
             std::printf("look at %s\n", (options.out / "index.html").string().c_str());
+        else if (report.unmeasured > 0)
+            std::printf(
+                "%d conditions of other parts are not filmed yet; luminance is matched when all "
+                "are: then the same command again\n",
+                report.unmeasured);
         else if (report.elsewhere > 0)
             std::printf(
                 "%d clips belong to other parts; the same command without --part finishes "

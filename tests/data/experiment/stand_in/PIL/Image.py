@@ -1,0 +1,2 @@
+def fromarray(frame):
+    return frame

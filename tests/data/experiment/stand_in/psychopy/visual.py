@@ -1,0 +1,50 @@
+from . import core
+
+REFRESH_S = 1 / 60
+
+
+class Window:
+    size = (800, 600)
+
+    def __init__(self, **_):
+        self.calls, self.drawn, self.seen = [], [], []
+        self.frameIntervals, self.recordFrameIntervals, self.mouseVisible = [], False, True
+
+    def getActualFrameRate(self):
+        return 1 / REFRESH_S
+
+    def getFutureFlipTime(self, clock):
+        return core.now_s + REFRESH_S
+
+    def callOnFlip(self, function, *arguments):
+        self.calls.append((function, arguments))
+
+    def flip(self):
+        core.now_s += REFRESH_S
+        if self.recordFrameIntervals:
+            self.frameIntervals.append(REFRESH_S)
+        for function, arguments in self.calls:
+            function(*arguments)
+        self.calls = []
+
+    def close(self):
+        pass
+
+
+class Stimulus:
+    def __init__(self, window, **known):
+        self.window = window
+        for name in known:
+            if name not in ("image", "width", "height", "lineWidth", "fillColor", "pos", "text"):
+                raise TypeError(name)
+
+    def draw(self):
+        pass
+
+
+ImageStim = Rect = Stimulus
+
+
+class TextStim(Stimulus):
+    def __init__(self, window, text, height=20):
+        super().__init__(window, text=text)

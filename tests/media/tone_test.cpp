@@ -1,0 +1,86 @@
+#include "media/tone.h"
+
+#include <gtest/gtest.h>
+
+#include "media/luminance.h"
+
+namespace risorius::media {
+namespace {
+
+/// Every grey once, and some colours.
+Image ramp() {
+    Image image(256, 2);
+    for (int x = 0; x < 256; ++x)
+        for (int y = 0; y < 2; ++y) {
+            std::uint8_t* pixel = image.pixel(x, y);
+            pixel[0] = static_cast<std::uint8_t>(x);
+            pixel[1] = static_cast<std::uint8_t>(y == 0 ? x : 255 - x);
+            pixel[2] = static_cast<std::uint8_t>(x);
+            pixel[3] = 255;
+        }
+    return image;
+}
+
+TEST(Tone, WithoutChangeIsThePictureItself) {
+    Image image = ramp();
+    ToneCurve({}).apply(image);
+    EXPECT_EQ(image.rgba, ramp().rgba);
+    EXPECT_EQ(ToneCurve({}).cut_off(image), 0);
+}
+
+TEST(Tone, GivesPicturesTheMeanAndDeviationAskedFor) {
+    Image image = ramp();
+    LuminanceSums before;
+    before.add(image);
+    const Tone tone = tone_between(before, 0.4, 0.1);
+    ToneCurve curve(tone);
+    EXPECT_EQ(curve.cut_off(image), 0);
+    curve.apply(image);
+    LuminanceSums after;
+    after.add(image);
+    // A byte is half a step of 1/255 wrong at most, which is 0.004 of Y where it is steepest, and at random
+    EXPECT_NEAR(after.mean(), 0.4, 5e-4);
+    EXPECT_NEAR(after.sd(), 0.1, 5e-4);
+}
+
+TEST(Tone, TellsHowMuchItCutsOff) {
+    const Image image = ramp();
+    // Light doubled: what was more than half of it is too much, that is bytes above 187
+    const ToneCurve curve(Tone{.gain = 2, .offset = 0});
+    EXPECT_EQ(curve.of(188), 255);
+    EXPECT_LT(curve.of(187), 255);
+    EXPECT_NEAR(curve.cut_off(image), 68.0 / 256, 1e-12);
+    std::vector<std::uint16_t> mask(512, 0);
+    mask[10] = 1;
+    EXPECT_EQ(curve.cut_off(image, mask), 0);
+}
+
+TEST(LuminanceSums, AreThoseOfTheMeterAndOfTheirParts) {
+    const Image image = ramp();
+    LuminanceSums all, left, right;
+    all.add(image);
+    std::vector<std::uint16_t> mask(512, 0);
+    for (std::size_t i = 0; i < 100; ++i) mask[i] = 1;
+    left.add(image, mask);
+    for (std::uint16_t& one : mask) one = one ? 0 : 1;
+    right.add(image, mask);
+    left.add(right);
+    EXPECT_NEAR(left.mean(), all.mean(), 1e-14);
+    EXPECT_NEAR(left.sd(), all.sd(), 1e-14);
+    LuminanceMeter meter;
+    const PictureMeasures measured = meter.measure(image);
+    EXPECT_NEAR(all.mean(), measured.luminance_mean, 1e-12);
+    EXPECT_NEAR(all.sd(), measured.luminance_sd, 1e-12);
+}
+
+TEST(LuminanceSums, CountPixelsByTheirOpacity) {
+    Image image(2, 1);
+    for (int k = 0; k < 4; ++k) image.pixel(0, 0)[k] = 255;
+    LuminanceSums sums;
+    sums.add(image);
+    EXPECT_EQ(sums.mean(), 1);
+    EXPECT_EQ(sums.sd(), 0);
+}
+
+}  // namespace
+}  // namespace risorius::media

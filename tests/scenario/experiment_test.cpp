@@ -1,0 +1,209 @@
+// The experiments that come with a stimulus set: PsychoPy's program is run with a stand-in for PsychoPy, jsPsych's page is
+// played by the real jsPsych in a real browser.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/batch.h"
+#include "app/run_program.h"
+#include "media/loudness.h"
+#include "media/wav_file.h"
+#include "scenario/run_program.h"
+
+namespace risorius::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using app::run_program;
+
+const fs::path kStandIns = kRoot / "tests/data/experiment";
+
+/// Where tools/setup.sh has put jsPsych, or nothing.
+fs::path jspsych() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const fs::path folder = cache ? fs::path(cache) : home ? fs::path(home) / ".cache" : fs::path();
+    const fs::path modules = folder / "risorius/jspsych/node_modules";
+    return fs::exists(modules / "jspsych/package.json") ? modules : fs::path();
+}
+
+/// A set of two clips, one of them with sound, for all tests of this suite.
+class Experiment : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        folder = new Folder;
+        media::Sound voice;
+        voice.rate_hz = 16000;
+        for (int i = 0; i < 8000; ++i)
+            voice.samples.push_back(0.2f * static_cast<float>(std::sin(0.17 * i)));
+        media::write_wav(voice, *folder / "voice.wav");
+        Json design = Json::parse(R"j({"format": "risorius-design", "version": 1,
+            "name": "Which <one>?", "clips": {"quality": "preview", "ending": "mp4"},
+            "match": {"loudness": {"lufs": -30}},
+            "experiment": {"programs": ["psychopy", "jspsych"], "question": "\"Happy\" & <so>?",
+                "answers": {"a": "happiness", "f": "fear"}, "correct": "expression",
+                "fixation_s": 0.05, "jspsych_from": "../../node_modules"},
+            "sets": [{"name": "two", "clip": "${expression}", "audio": "${voice}",
+                "audio_start_s": 0.1, "parameters": {"voice": null},
+                "factors": {"expression": ["happiness", "fear"]},
+                "overrides": [{"when": {"expression": "fear"}, "set": {"voice": "voice.wav"}}],
+                "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.6,
+                    "events": [{"expression": "${expression}", "start_s": 0.05, "onset_s": 0.3,
+                                "hold_s": 0.1, "offset_s": 0.3}],
+                    "view": {"width_px": 64, "height_px": 64, "antialiasing": 1}}}]})j");
+        design["sets"][0]["script"]["rig"] = (kRoot / "rigs/adult/rig.json").string();
+        std::ofstream(*folder / "design.json") << design.dump();
+        // Ended as by a loss of power as soon as the first clip is told of
+        const std::string batch = "'" RISORIUS_BINARY_DIR
+                                  "/risorius' batch design.json -o set "
+                                  "--workers 1 --json";
+        first_event = new std::string(
+            run_program({"sh", "-c",
+                         "cd '" + folder->path().string() + "' && mkfifo events && { " + batch +
+                             " >events & pid=$!; head -n 1 events; kill -9 $pid; wait $pid; } "
+                             "2>/dev/null; ls set"})
+                .output);
+        app::BatchOptions options;
+        options.design = *folder / "design.json";
+        options.out = *folder / "set";
+        options.workers = 1;
+        report = new app::BatchReport(app::make_batch(options));
+        ASSERT_TRUE(report->complete);
+    }
+    static void TearDownTestSuite() {
+        delete report;
+        delete first_event;
+        delete folder;
+    }
+    static Folder* folder;
+    static std::string* first_event;
+    static app::BatchReport* report;
+};
+Folder* Experiment::folder = nullptr;
+std::string* Experiment::first_event = nullptr;
+app::BatchReport* Experiment::report = nullptr;
+
+TEST_F(Experiment, GoesOnAfterAKillWhereItWas) {
+    EXPECT_NE(first_event->find(R"({"event":"made","stim_id":"happiness"})"), std::string::npos)
+        << *first_event;
+    EXPECT_EQ(first_event->find("SHA256SUMS"), std::string::npos) << *first_event;
+    EXPECT_EQ(report->kept, 1);
+    EXPECT_EQ(report->made, 1);
+    for (const auto& entry : fs::recursive_directory_iterator(*folder / "set"))
+        EXPECT_EQ(entry.path().filename().string().find(".part-"), std::string::npos)
+            << entry.path();
+}
+
+TEST_F(Experiment, SoundIsAsLoudAsAskedForInTableClipAndFile) {
+    const fs::path stimuli = *folder / "set/stimuli";
+    const media::Sound alone = media::read_recording(stimuli / "stim-fear_audio.wav");
+    EXPECT_EQ(alone.length(), 9600);
+    EXPECT_EQ(alone.samples[1599], 0);
+    EXPECT_NE(alone.samples[1601], 0);
+    // Samples of 16 bits
+    EXPECT_NEAR(media::loudness_of(alone).integrated_lufs, -30, 0.01);
+    const media::Sound coded = media::read_sound(stimuli / "stim-fear_audiovideo.mp4");
+    EXPECT_NEAR(media::loudness_of(coded).integrated_lufs, -30, 0.5) << "AAC";
+    EXPECT_NE(text_of(stimuli / "stimuli.tsv").find("\t-30\t"), std::string::npos);
+    EXPECT_TRUE(fs::exists(stimuli / "stim-happiness_video.mp4"));
+}
+
+TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsItsCodes) {
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    const fs::path here = *folder / "set/experiment";
+    app::ProgramResult result = run_program(
+        {"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(), "PYTHONDONTWRITEBYTECODE=1",
+         "python3", (here / "experiment.py").string(), "--participant", "7", "--window"});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    std::istringstream data(text_of(here / "data/7.csv"));
+    std::string line;
+    std::getline(data, line);
+    int trials = 0;
+    for (; std::getline(data, line); ++trials) {
+        // Begin, onset in frame 2, apex in frame 5, end after 6 frames of 0.1 s
+        EXPECT_NE(line.find(",1@0.0000 2@0.2000 3@0.5000 4@0.6000,0"), std::string::npos) << line;
+        EXPECT_NE(line.find(line.find("happiness,stim") != std::string::npos ? ",a,happiness,1,"
+                                                                             : ",a,happiness,0,"),
+                  std::string::npos)
+            << line;
+    }
+    EXPECT_EQ(trials, 2);
+    // A clip of another length than the table says
+    std::string table = text_of(here / "conditions.csv");
+    for (std::size_t at; (at = table.find(",6,10,")) != std::string::npos;)
+        table.replace(at, 6, ",7,10,");
+    std::ofstream(here / "conditions.csv") << table;
+    result = run_program({"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(),
+                          "PYTHONDONTWRITEBYTECODE=1", "python3", (here / "experiment.py").string(),
+                          "--window"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.output.find("expected 7 frames, found 6"), std::string::npos) << result.output;
+}
+
+TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
+    const fs::path modules = jspsych();
+    if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
+    if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    fs::create_directory_symlink(modules, *folder / "node_modules");
+    const app::ProgramResult played =
+        run_program({"python3", (kStandIns / "play.py").string(), folder->path().string(),
+                     "set/experiment/index.html", (*folder / "data.json").string(), "chromium"});
+    ASSERT_EQ(played.exit_code, 0) << played.output;
+    const std::string said = text_of(*folder / "data.json");
+    const Json data = Json::parse(said, nullptr, false);
+    ASSERT_TRUE(data.is_array()) << said;
+    std::set<std::string> shown;
+    int answered = 0;
+    for (const Json& trial : data) {
+        const std::string task = trial.value("task", "");
+        if (task == "clip") {
+            shown.insert(trial.at("stim_id").get<std::string>());
+            EXPECT_GT(trial.at("frames_seen").get<int>(), 0);
+            EXPECT_EQ(trial.at("participant"), "7");
+        }
+        if (task != "answer") continue;
+        ++answered;
+        EXPECT_EQ(trial.at("answer"), "happiness");
+        EXPECT_EQ(trial.at("correct"), trial.at("stim_id") == "happiness");
+    }
+    EXPECT_EQ(shown, (std::set<std::string>{"fear", "happiness"}));
+    EXPECT_EQ(answered, 2);
+    EXPECT_NE(said.find("&#34;Happy&#34; &#38; &#60;so&#62;?"), std::string::npos);
+}
+
+TEST_F(Experiment, PageNamesTheVersionsAndHashesOfWhatItLoads) {
+    const fs::path modules = jspsych();
+    if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
+    if (run_program({"openssl", "version"}).exit_code != 0) GTEST_SKIP() << "no openssl here";
+    Json design = Json::parse(text_of(*folder / "design.json"));
+    design["experiment"].erase("jspsych_from");
+    std::ofstream(*folder / "design.json") << design.dump();
+    app::BatchOptions options;
+    options.design = *folder / "design.json";
+    options.out = *folder / "set";
+    options.workers = 1;
+    EXPECT_EQ(app::make_batch(options).kept, 2);
+    const std::string page = text_of(options.out / "experiment/index.html");
+    const Json wanted = Json::parse(text_of(kStandIns / "package.json")).at("dependencies");
+    int found = 0;
+    for (std::size_t at = 0;
+         (at = page.find("https://cdn.jsdelivr.net/npm/", at)) != std::string::npos;
+         ++at, ++found) {
+        const std::string address = page.substr(at + 29, page.find('"', at) - at - 29);
+        const std::size_t version = address.rfind('@'), slash = address.find('/', version);
+        const std::string package = address.substr(0, version);
+        EXPECT_EQ(wanted.at(package), address.substr(version + 1, slash - version - 1));
+        const app::ProgramResult hash =
+            run_program({"sh", "-c", "openssl dgst -sha384 -binary \"$0\" | openssl base64 -A",
+                         (modules / package).string() + address.substr(slash)});
+        EXPECT_NE(page.find("integrity=\"sha384-" + hash.output + "\"", at), std::string::npos)
+            << address;
+    }
+    EXPECT_EQ(found, 5);
+}
+
+}  // namespace
+}  // namespace risorius::scenario
