@@ -118,7 +118,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         drives.push_back(one.a == one.b
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
@@ -226,7 +226,7 @@ TrackError track_error(const std::string& name, const shapes::LinearRig& rig,
                        const std::vector<Eigen::VectorXd>& weights, const Watch& watch) {
     const rig::Head& head = solver.face().head();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
     shapes::LinearRig plain{rig.shapes, {}};
     TrackError out;
     out.name = name;
