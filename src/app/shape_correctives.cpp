@@ -14,6 +14,8 @@ namespace {
 constexpr double kSharedStrip_mm = 15;  // of the middle of the face, as of halves
 constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves by more is shared
 
+constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
+
 /// What is tried together: a shape, or both its halves.
 struct Unit {
     std::string name;
@@ -96,12 +98,18 @@ struct Found {
     std::size_t tried;
 };
 
-// Positions, normals and an index each.
+// A position of 16-bit numbers and a normal of floats with an index each; every other normal turns too little to be written.
 long bytes_of(const shapes::SparseShape& shape) {
-    return static_cast<long>(shape.vertex.size()) * 28;
+    return static_cast<long>(shape.vertex.size()) * 15;
 }
 
 }  // namespace
+
+std::string weight_rule(const shapes::Corrective& corrective) {
+    if (corrective.drivers.size() > 1) return "product";
+    return corrective.fades_with.empty() ? "4 w (1 - w)"
+                                         : "4 w (1 - w) product of (1 - fades_with)";
+}
 
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
@@ -120,6 +128,18 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
     const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
 
+    // Which others move skin that this one moves
+    std::vector<Eigen::VectorXd> moved;
+    for (const Unit& unit : units) moved.push_back(unit.field.rowwise().norm());
+    const auto sharing = [&](std::size_t unit) {
+        std::vector<std::size_t> others;
+        for (std::size_t other = 0; other < units.size(); ++other)
+            if (other != unit &&
+                area.dot(moved[unit].cwiseMin(moved[other])) > kFadesWith * area.dot(moved[unit]))
+                others.push_back(other);
+        return others;
+    };
+
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
     std::vector<Found> found;
@@ -135,7 +155,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         tried.rms_m = error.rms_m;
         if (!poses[c].figures.converged || error.greatest_m < options.tolerance_m) continue;
         shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
-        const auto add = [&](const Points& field, std::vector<int> drivers) {
+        const auto add = [&](const Points& field, std::vector<int> drivers,
+                             std::vector<int> fades_with = {}, const std::string& ending = "") {
             Found one;
             one.corrective.shape = shapes::sparse(field);
             if (one.corrective.shape.empty()) return;
@@ -143,16 +164,25 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             for (const int driver : drivers)
                 one.corrective.name += (one.corrective.name.empty() ? "" : "*") +
                                        shapes.list[static_cast<std::size_t>(driver)].goal.name;
-            if (half) one.corrective.name += "~half";
+            if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
+            one.corrective.fades_with = std::move(fades_with);
             one.use = (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
             one.tried = c;
             found.push_back(std::move(one));
         };
-        if (a.parts.size() == 1 && b.parts.size() == 1) {
+        const std::vector<std::size_t> others =
+            half ? sharing(candidates[c].a) : std::vector<std::size_t>{};
+        const bool sided = std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+            return units[other].parts.size() > 1;
+        });
+        if (a.parts.size() == 1 && b.parts.size() == 1 && !sided) {
+            std::vector<int> fades_with;
+            for (const std::size_t other : others) fades_with.push_back(units[other].parts[0]);
             add(missing,
-                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]});
+                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]},
+                std::move(fades_with));
             continue;
         }
         const auto [left, right] =
@@ -162,8 +192,14 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         };
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             const Points& field = side == 0 ? left : right;
-            add(field, half ? std::vector<int>{driver(a, side)}
-                            : std::vector<int>{driver(a, side), driver(b, side)});
+            if (!half) {
+                add(field, {driver(a, side), driver(b, side)});
+                continue;
+            }
+            std::vector<int> fades_with;
+            for (const std::size_t other : others) fades_with.push_back(driver(units[other], side));
+            const char* ending = side == 0 ? "~left" : "~right";
+            add(field, {driver(a, side)}, std::move(fades_with), a.parts.size() > 1 ? "" : ending);
         }
     }
     // The most useful ones by size until the budget is spent
