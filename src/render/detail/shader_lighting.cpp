@@ -41,6 +41,9 @@ float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
     return nl * fresnel * a2 / (4.0 * d * d * max(lh * lh, 0.05));
 }
 
+// The key lamp is a soft box that subtends some 9 degrees: a lobe of the surface is so much wider, in squares of roughness.
+const float kLampSize = 0.04;
+
 // Two lobes of one lamp, each with its roughness and share.
 float two_glints(vec3 n, vec3 v, vec3 l, vec2 roughness, vec2 share, float f0) {
     vec3 h = normalize(v + l);
@@ -142,7 +145,7 @@ out float key_gloss;   // and what of a lamp of 1 it mirrors
 out vec3 lit_at;       // in the shadow map
 void pass_key(vec3 p, vec3 n, vec3 v, vec3 w, float kept) {
     key_light = kept * key_card.rgb * scattered(dot(n, key_direction.xyz), w);
-    key_gloss = two_glints(n, v, key_direction.xyz, vec2(0.464, 0.260), vec2(0.76, 0.24), 0.028);
+    key_gloss = two_glints(n, v, key_direction.xyz, sqrt(vec2(0.2153, 0.0676) + kLampSize), vec2(0.76, 0.24), 0.028);
     lit_at = (shadow_from_world * vec4(p + n * (2.5 * mouth_axis.w), 1.0)).xyz;
 }
 )";
