@@ -11,7 +11,8 @@ constexpr int kSmallSteps = 6;
 
 // Of an equilibrium. Asked of shapes is a tenth of a millimetre, and on the adult no vertex is off by more than .05 mm with
 // these where contact lets the pose come to rest at all; a hundred times less takes half as many iterations again.
-constexpr int kIterations = 400;  // hardly any pose that has not come to rest then ever will
+constexpr int kIterations = 400;      // hardly any pose that has not come to rest then ever will
+constexpr int kIterationsOnce = 250;  // of poses that are not tried again
 constexpr double kTolerance_m = 0.05e-3, kPlanes_m = 0.1e-3;
 
 track::Drive at_rest(const track::ChannelTable& channels) {
@@ -64,7 +65,7 @@ SolvedPose ShapeSolver::pose(sim::Face& face, const track::Drive& drive, const A
         for (int step = 1; step <= so_many; ++step) {
             const track::Drive part = scaled(drive, static_cast<double>(step) / so_many);
             out.figures = face.settle(part.excitation, part,
-                                      {.iterations = kIterations,
+                                      {.iterations = how.again ? kIterations : kIterationsOnce,
                                        .tolerance_m = kTolerance_m,
                                        .planes_m = kPlanes_m,
                                        .stopped = stopped});
