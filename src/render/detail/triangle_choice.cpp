@@ -116,8 +116,8 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
         for (std::size_t k = 0; k < corners.size(); k += 3) {
             const unsigned* face = corners.data() + k;
             if (clip_from_world && !is_seen(face, batch.cull_back)) continue;
-            // A cell more on each side, a hundredth of a picture, for soft edges and for hairs
-            const Cells cells = cells_of(face, 1);
+            // Two cells more on each side, a thirtieth of a picture, for soft edges and for hairs
+            const Cells cells = cells_of(face, 2);
             for (int y = cells.from_y; y <= cells.to_y; ++y)
                 for (int x = cells.from_x; x <= cells.to_x; ++x) {
                     float& there = farthest_lit_[static_cast<std::size_t>(y * kCells + x)];
