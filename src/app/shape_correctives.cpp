@@ -16,6 +16,9 @@ constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves 
 
 constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 
+// Mean squares of the weights of correctives, 4 w (1 - w) and w_a w_b, where those of shapes are anything from 0 to 1.
+constexpr double kSquareOfHalf = 8.0 / 15.0, kSquareOfProduct = 1.0 / 9.0;
+
 /// What is tried together: a shape, or both its halves.
 struct Unit {
     std::string name;
@@ -93,7 +96,7 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
 /// A corrective with what it is good for.
 struct Found {
     shapes::Corrective corrective;
-    double use = 0;  ///< squares it removes, m^4
+    double use = 0;  ///< squares it removes on average, m^4
     long bytes = 0;
     std::size_t tried;
 };
@@ -167,7 +170,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
             one.corrective.fades_with = std::move(fades_with);
-            one.use = (area.asDiagonal() * field).cwiseProduct(field).sum();
+            one.use = (half ? kSquareOfHalf : kSquareOfProduct) *
+                      (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
             one.tried = c;
             found.push_back(std::move(one));
