@@ -259,8 +259,7 @@ struct Face::Impl {
     StepFigures settle_with_jaw(const Eigen::VectorXd& activation, const track::Drive& drive,
                                 const StaticOptions& options, Points& x) {
         StepFigures figures;
-        while (figures.iterations < options.iterations &&
-               !(options.stopped && options.stopped())) {
+        while (figures.iterations < options.iterations && !(options.stopped && options.stopped())) {
             tissue.find_contacts(x);
             const Points start = x;
             now.jaw.velocity = JawDynamics::still();
