@@ -504,6 +504,7 @@ struct Face::Impl {
         FacePose out;
         const JawVector& q = state.jaw.q;
         const Rigid moved = mandible(q, drive);
+        out.mandible = moved;
         out.jaw = jaw_joint.place(moved);
         if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
         out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
@@ -646,7 +647,8 @@ FacePose Face::pose() const { return impl_->pose(1.0); }
 FacePose Face::posed(Points vertices, const track::Drive& drive) const {
     FacePose out;
     const std::array<Mat3, 2> turned = impl_->gaze(drive);
-    out.jaw = impl_->jaw_joint.place(impl_->mandible(drive));
+    out.mandible = impl_->mandible(drive);
+    out.jaw = impl_->jaw_joint.place(out.mandible);
     out.jaw_open = drive.at(track::Kinematic::kJawOpen);
     out.head = head_motion(impl_->head, drive);
     for (std::size_t side = 0; side < 2; ++side)

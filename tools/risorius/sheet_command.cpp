@@ -47,7 +47,7 @@ void add_sheet(CLI::App& app) {
         ->required();
     command->add_option("--rig", options.rigs,
                         "Another rig than the scripts'; given several times: a row each");
-    command->add_option("--show", options.view.show, "skin, muscles, wire, strain or landmarks");
+    command->add_option("--show", options.view.show, "skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options.view, arguments->size);
     command->get_option("--size")->description("Of one picture")->capture_default_str();
     add_common(*command, arguments->common);
