@@ -24,7 +24,8 @@ struct Skull {
     BoneSurface mandible;  ///< at rest, where the mandible's motion starts from
 };
 
-/// Some seconds. Works on any placed head; teeth are those of its mesh, if it has some.
-Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig);
+/// Of a grid of `step_mm`, at atlas size; the usual one takes some seconds. Works on any placed head; teeth are those of its mesh, if
+/// it has some.
+Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, double step_mm = 1.5);
 
 }  // namespace risorius::sim

@@ -83,18 +83,18 @@ constexpr std::array<Knot, 6> kZygomaticArch{{{48, -4, 64, 8},
                                               {61, 1, 28, 4},
                                               {59, 3, 14, 4.5},
                                               {56, 6, 2, 5}}};
-constexpr std::array<Knot, 6> kUpperArch{{{0, 0, 80, 6},
-                                          {9, 0, 78, 6},
-                                          {16.5, 0, 72.5, 6},
+constexpr std::array<Knot, 6> kUpperArch{{{0, 0, 81.5, 6.2},
+                                          {9, 0, 79.5, 6.2},
+                                          {17, 0, 73.5, 6.2},
                                           {21, 0, 62, 6.5},
                                           {24, 0, 50, 7},
                                           {25, 0, 38, 6.5}}};
-constexpr std::array<Knot, 6> kLowerArch{{{0, 0, 77.5, 4.6},
-                                          {8, 0, 75.5, 4.6},
-                                          {15, 0, 69.5, 4.8},
-                                          {20, 0, 60, 5},
-                                          {24.5, 0, 47, 5.5},
-                                          {28, 0, 36, 5.5}}};
+constexpr std::array<Knot, 6> kLowerArch{{{0, 0, 77, 4.2},
+                                          {8, 0, 75, 4.2},
+                                          {14.5, 0, 68.5, 4.4},
+                                          {19, 0, 58, 4.6},
+                                          {23.5, 0, 46, 5},
+                                          {27.5, 0, 36, 5.5}}};
 constexpr std::array<Knot, 5> kLowerBorder{{{0, -84, 70.5, 6.5},
                                             {13, -84, 67, 6.5},
                                             {27, -77, 55, 6},
@@ -106,8 +106,8 @@ double orbit(const Vec3& p) {
     const Vec3 front(31.5, 17.5, 82), back(19, 18, 40);
     const double h = std::clamp((p.z() - back.z()) / (front.z() - back.z()), 0.0, 1.6);
     const Vec3 axis = back + std::min(h, 1.15) * (front - back);
-    const double half_width = 5 + 14.2 * std::min(h, 1.1),
-                 half_height = 5 + 12.2 * std::min(h, 1.1);
+    const double half_width = 1.5 + 17.4 * std::min(h, 1.1),
+                 half_height = 1.5 + 15.5 * std::min(h, 1.1);
     const double u = std::abs(p.x() - axis.x()) / half_width,
                  v = std::abs(p.y() - axis.y() + 0.10 * (p.x() - axis.x())) / half_height;
     const double round = std::pow(std::pow(u, 2.6) + std::pow(v, 2.6), 1 / 2.6);
@@ -116,7 +116,7 @@ double orbit(const Vec3& p) {
 
 /// A pear: the width of the opening between the wings, narrow under the nasal bones.
 double nose_opening(const Vec3& p) {
-    const Knot low{4.6, -18.5, 0, 7.6}, high{0, 1, 0, 5};
+    const Knot low{4.6, -18.5, 0, 7.6}, high{0, -3, 0, 4.5};
     Vec3 q = p;
     q.z() = 0;
     return std::max(rod(q, low, high), 48 - p.z());
@@ -128,16 +128,17 @@ BoneFields skull_fields(const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
     // The braincase, hollowed at the temples
     double braincase = ellipsoid(p, {0, 50, 0}, {78, 80, 97});
-    braincase = smooth_cut(braincase, -ellipsoid(p, {68, 12, 46}, {22, 37, 24}), 8);
-    braincase = smooth_cut(braincase, -(p.y() + 26), 10);
+
+    braincase = smooth_cut(braincase, -(p.y() + 26), 24);
     const double base = ellipsoid(p, {0, -6, 22}, {26, 22, 34});
     const double mastoid = smooth_union(ellipsoid(p, {54, -12, -13}, {9, 19, 12}),
                                         ellipsoid(p, {50, 2, 0}, {14, 11, 20}), 6);
-    double out = smooth_union(smooth_union(braincase, base, 6), mastoid, 8);
+    BoneFields fields{};
+    fields.vault = smooth_union(smooth_union(braincase, base, 6), mastoid, 8);
+    fields.temple = ellipsoid(p, {74, 8, 44}, {29, 46, 31});
 
     // The middle face
-    const double rims = std::min(rods(p, kUpperRim), rods(p, kLowerRim));
-    out = smooth_union(out, rims, 5);
+    double out = std::min(rods(p, kUpperRim), rods(p, kLowerRim));
     double maxilla = ellipsoid(p, {14, -14, 56}, {22, 24, 26});
     maxilla = smooth_union(maxilla, rods(p, kNasalProcess), 6);
     maxilla = smooth_union(maxilla, ellipsoid(p, {0, -33, 62}, {23, 10, 24}), 6);
@@ -147,12 +148,11 @@ BoneFields skull_fields(const Vec3& p_mm) {
     out = smooth_union(out, maxilla, 6);
     out = smooth_union(out, rods(p, kZygomaticArch), 4);
 
-    BoneFields fields{};
     fields.outer = out;
     const double ear = rod(p, {38, 3, 4, 3.2}, {80, 3, 0, 4});
     fields.carved = std::min({orbit(p), nose_opening(p), ear});
     // Sockets of the teeth with the roof of the mouth, plates behind them, the partition of the nose and its spine
-    double inner = wall(p, kUpperArch, -42, -26);
+    double inner = wall(p, kUpperArch, -42, -29);
     inner = smooth_union(inner, ellipsoid(p, {0, -30, 58}, {24, 5, 24}), 4);
     inner = smooth_union(inner, plate(p, {18, -42, 32}, {14, -8, 34}, {20, -8, 22}, 2.5), 5);
     const double partition = plate(p, {0, -26, 78}, {0, 14, 76}, {0, 14, 50}, {0, -28, 50}, 1.1);
@@ -178,7 +178,7 @@ BoneFields mandible_fields(const Vec3& p_mm) {
             out, plate(p, kLowerBorder[i].at(), kLowerBorder[i + 1].at(), top(i + 1), top(i), 4.6),
             3);
     }
-    out = smooth_union(out, ellipsoid(p, {0, -80, 71}, {17, 11, 10}), 5);
+    out = smooth_union(out, ellipsoid(p, {0, -80, 71}, {20, 12, 11}), 5);
     // The ramus, its two processes, the condyle
     const Vec3 front_low(36, -52, 32), angle(44.5, -57, 14), neck(47, -20, 12),
         notch(46.5, -19, 23), front_high(45.5, -20, 33);
@@ -187,8 +187,16 @@ BoneFields mandible_fields(const Vec3& p_mm) {
     ramus = smooth_union(ramus, rod(p, {45.5, -20, 31, 4}, {47, -3, 34, 2}), 4);
     ramus = smooth_union(ramus, rod(p, {47, -20, 12.5, 4}, {49, -7, 12.5, 4}), 4);
     ramus = smooth_union(ramus, rod(p, {43.5, -4.5, 13.5, 4.2}, {54.5, -4.5, 12, 4.2}), 4);
-    out = smooth_union(out, ramus, 5);
-    return {out, 1e9, wall(p, kLowerArch, -74, -62.5)};
+    out = smooth_union(out, ramus, 8);
+    return {.vault = 1e9,
+            .temple = 1e9,
+            .outer = out,
+            .carved = 1e9,
+            .inner = wall(p, kLowerArch, -67, -61.5)};
+}
+
+bool near_nasal_bone(const Vec3& p_mm) {
+    return std::abs(p_mm.x()) < 20 && p_mm.y() > -16 && p_mm.y() < 38 && p_mm.z() > 74;
 }
 
 double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm) {
@@ -196,7 +204,7 @@ double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm) {
     const Vec3 p = one_side(p_mm);
     const double slab = std::abs(depth_under_tissue_mm - 0.5 * kThickness) - 0.5 * kThickness;
     // From the forehead down to where cartilage begins, wider below; the free edge runs backwards to the side
-    const double edge = -3.0 + 0.9 * p.x();
+    const double edge = -3.5 + 0.5 * p.x();
     const double bounds = std::max({edge - p.y(), p.y() - 30, p.x() - 11, 80 - p.z()});
     return smooth_cut(slab, bounds, 1.5);
 }

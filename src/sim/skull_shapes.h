@@ -9,7 +9,9 @@ namespace risorius::sim {
 
 /// Of one bone; negative inside. Its outer side is where the tissue over it is as thick as measured, so `outer` reaches beyond.
 struct BoneFields {
-    double outer;   ///< to be cut off by the tissue's thickness
+    double vault;   ///< the braincase; like the next to be cut off by the tissue's thickness
+    double temple;  ///< hollow of the temples in it, positive outside of that
+    double outer;   ///< all else that lies under the skin
     double carved;  ///< what is hollow: orbits, nose, ear canals; positive outside of the hollows
     double inner;   ///< what the skin over it does not bound: tooth sockets, partition of the nose
 };
@@ -18,6 +20,7 @@ BoneFields skull_fields(const Vec3& p_mm);
 BoneFields mandible_fields(const Vec3& p_mm);
 
 /// Of the thin roof of the nose, by depth under the tissue: none elsewhere.
+bool near_nasal_bone(const Vec3& p_mm);
 double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm);
 
 /// The smooth union, and intersection, of two: like min and max, rounded within `round`.

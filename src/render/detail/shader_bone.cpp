@@ -31,14 +31,14 @@ uniform bool closed_in;    // whether `open` is known
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
-    float sky = closed_in ? smoothstep(0.05, 0.80, open) : 0.9;
+    float sky = closed_in ? smoothstep(0.12, 0.85, open) : 0.9;
     // Lamps reach into a hollow too, but less far than they would with nothing around it
     vec3 key = key_card.rgb * scattered(dot(n, key_direction.xyz), vec3(0.10)) * mix(0.12, 0.80, sky);
     vec3 fill = fill_card.rgb * scattered(dot(n, fill_direction.xyz), vec3(0.10)) * mix(0.10, 0.80, sky);
     vec3 light = key + fill + ambient(n) * 0.9 * sky * sky;
     // What comes out of a hollow has met bone before
     vec3 seen = albedo * mix(vec3(0.80, 0.62, 0.48), vec3(1.0), sky);
-    float gloss = glint(n, v, key_direction.xyz, 0.55, 0.03) * sky;
+    float gloss = glint(n, v, key_direction.xyz, 0.60, 0.018) * sky;
     colour = vec4(shown(seen * light + key_card.rgb * gloss), 1.0);
 }
 )";
@@ -56,7 +56,7 @@ void main() {
     float edge = 1.0 - clamp(dot(n, v), 0.0, 1.0);
     vec3 light = key_card.rgb * scattered(dot(n, key_direction.xyz), vec3(0.3)) * 0.7 + ambient(n);
     float gloss = glint(n, v, key_direction.xyz, 0.35, 0.04);
-    float veil = clamp(0.10 + 0.62 * edge * edge * sqrt(edge) + 1.5 * gloss, 0.0, 1.0);
+    float veil = clamp(0.10 + 0.62 * edge * edge * sqrt(edge) + gloss, 0.0, 1.0);
     colour = vec4(shown(tone * light + key_card.rgb * gloss), veil);
 }
 )";
