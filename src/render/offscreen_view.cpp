@@ -203,7 +203,7 @@ struct OffscreenView::Impl {
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
         auto out = std::make_shared<Baked>();
-        const double reach = 0.75 * camera.frame_height_m;
+        const double reach = 0.75 * camera.portrait_height_m;
         const auto sky_over = [&](const Points& positions) {
             return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
         };

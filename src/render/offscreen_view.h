@@ -52,7 +52,7 @@ struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
     std::string camera =
-        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
+        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors, "top", and close-ups; see camera_names()
     Show show = Show::kSkin;
     bool deep = false;  ///< pictures with 16 bits besides, without the scale of values
     Background background{};

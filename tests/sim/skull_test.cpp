@@ -13,13 +13,13 @@
 namespace risorius::sim {
 namespace {
 
-constexpr double kStep_mm = 2.5;  // coarser than what is shown
+constexpr double kSkullStep_mm = 2.5;  // coarser than what is shown
 
-struct Placed {
-    explicit Placed(const rig::Head& placed, const rig::RigDescription& rig)
+struct PlacedSkull {
+    explicit PlacedSkull(const rig::Head& placed, const rig::RigDescription& rig)
         : head(placed),
           anatomy(rig),
-          skull(estimate_skull(placed, rig, kStep_mm)),
+          skull(estimate_skull(placed, rig, kSkullStep_mm)),
           skin(placed.vertices, placed.skin),
           cranium(skull.cranium.vertices, skull.cranium.triangles),
           mandible(skull.mandible.vertices, skull.mandible.triangles) {}
@@ -40,7 +40,7 @@ struct Placed {
     }
 };
 
-void expect_measured_depth(const Placed& one) {
+void expect_measured_depth(const PlacedSkull& one) {
     for (const char* landmark : {"v", "op", "g", "n", "mef", "bc_l", "bc_r", "or_l", "or_r", "zy_l",
                                  "zy_r", "lor_l", "ft_r", "fml_l"})
         EXPECT_NEAR(one.depth_mm(one.cranium, landmark), one.thickness_mm(landmark), 1.0)
@@ -50,24 +50,25 @@ void expect_measured_depth(const Placed& one) {
             << landmark;
 }
 
-const Placed& adult() {
-    static const Placed one(rig::adult_placed(), rig::adult().rig);
+const PlacedSkull& the_adult() {
+    static const PlacedSkull one(rig::adult_placed(), rig::adult().rig);
     return one;
 }
 
-TEST(Skull, LiesAsDeepUnderTheSkinAsMeasured) { expect_measured_depth(adult()); }
+TEST(Skull, LiesAsDeepUnderTheSkinAsMeasured) { expect_measured_depth(the_adult()); }
 
 TEST(Skull, FitsAMeasuredHeadToo) {
     const auto head = rig::makehuman_head();
     if (!head) GTEST_SKIP() << "the measured head is not beside the project";
-    expect_measured_depth(Placed(rig::place_head(head->rig, head->mesh, "makehuman"), head->rig));
+    expect_measured_depth(
+        PlacedSkull(rig::place_head(head->rig, head->mesh, "makehuman"), head->rig));
 }
 
 TEST(Skull, OrbitsNoseAndTemplesAreHollow) {
-    const rig::Head& head = adult().head;
+    const rig::Head& head = the_adult().head;
     // From in front one looks past the rims a long way into orbits and nose, but not beside them
     const auto first_z = [&](const Vec3& from) {
-        const auto hit = adult().cranium.cast(Vec3(from.x(), from.y(), 0.2), -Vec3::UnitZ());
+        const auto hit = the_adult().cranium.cast(Vec3(from.x(), from.y(), 0.2), -Vec3::UnitZ());
         return hit ? hit->point.z() : -1;
     };
     for (const rig::EyeGeometry& eye : head.eyes) {
@@ -78,13 +79,14 @@ TEST(Skull, OrbitsNoseAndTemplesAreHollow) {
     EXPECT_GT(first_z(head.landmark("sn") - head.mm(6) * Vec3::UnitY()), head.mm(80));
     // Between the arch of the cheek and the temple there is room for a muscle
     const Vec3 arch = head.mm(1) * Vec3(0, 0, 36);
-    const auto through = adult().cranium.cast(arch + head.mm(1) * Vec3(80, 8, 0), -Vec3::UnitX());
+    const auto through =
+        the_adult().cranium.cast(arch + head.mm(1) * Vec3(80, 8, 0), -Vec3::UnitX());
     ASSERT_TRUE(through);
     EXPECT_LT(through->point.x(), head.mm(55));
 }
 
 TEST(Skull, TheMandibleIsABoneOfItsOwn) {
-    for (const BoneSurface* bone : {&adult().skull.cranium, &adult().skull.mandible}) {
+    for (const BoneSurface* bone : {&the_adult().skull.cranium, &the_adult().skull.mandible}) {
         const geom::SurfaceEdges edges = geom::surface_edges(bone->triangles);
         int open = 0;
         for (int e = 0; e < edges.count(); ++e) open += edges.triangle_count(e) == 1;
@@ -92,13 +94,14 @@ TEST(Skull, TheMandibleIsABoneOfItsOwn) {
         EXPECT_EQ(bone->open.size(), static_cast<std::size_t>(bone->vertices.rows()));
     }
     // Its condyles lie at the hinge of the jaw, under the skull; its chin is far from that
-    const rig::Head& head = adult().head;
-    const Vec3 hinge = head.mm(1) * adult().anatomy.jaw.hinge_mm;
+    const rig::Head& head = the_adult().head;
+    const Vec3 hinge = head.mm(1) * the_adult().anatomy.jaw.hinge_mm;
     for (const double side : {1.0, -1.0})
-        EXPECT_LT(
-            adult().mandible.closest(hinge + head.mm(50) * side * Vec3::UnitX())->squared_distance,
-            std::pow(head.mm(5), 2));
-    EXPECT_GT(adult().depth_mm(adult().cranium, "me"), 35);
+        EXPECT_LT(the_adult()
+                      .mandible.closest(hinge + head.mm(50) * side * Vec3::UnitX())
+                      ->squared_distance,
+                  std::pow(head.mm(5), 2));
+    EXPECT_GT(the_adult().depth_mm(the_adult().cranium, "me"), 35);
 }
 
 }  // namespace
