@@ -244,30 +244,34 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
     return plan;
 }
 
-std::vector<fs::path> clip_files(const ClipPlan& plan) {
-    std::vector<fs::path> files{script_file(plan),
-                                fs::path("overview") / (plan.condition.clip + ".png"),
-                                stem(plan) + suffix(plan) + "." + plan.clips.ending,
-                                stem(plan) + "_annot-frames_events.tsv"};
-    if (plan.sound) files.push_back(stem(plan) + "_audio.wav");
-    files.push_back(stem(plan) + suffix(plan) + ".json");
+std::vector<fs::path> ClipFiles::told() const {
+    std::vector<fs::path> files{script, strip, video, events};
+    if (!sound.empty()) files.push_back(sound);
     return files;
 }
 
+ClipFiles clip_files(const ClipPlan& plan) {
+    return {script_file(plan),
+            fs::path("overview") / (plan.condition.clip + ".png"),
+            stem(plan) + suffix(plan) + "." + plan.clips.ending,
+            stem(plan) + "_annot-frames_events.tsv",
+            plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
+            stem(plan) + suffix(plan) + ".json"};
+}
+
 Json clip_record(const ClipPlan& plan, const fs::path& folder) {
-    return JsonCursor::read_file(folder / clip_files(plan).back()).json();
+    return JsonCursor::read_file(folder / clip_files(plan).sidecar).json();
 }
 
 bool is_made(const ClipPlan& plan, const fs::path& folder) {
-    const std::vector<fs::path> files = clip_files(plan);
-    if (!fs::exists(folder / files.back())) return false;
+    const ClipFiles files = clip_files(plan);
+    if (!fs::exists(folder / files.sidecar)) return false;
     try {
         const Json record = clip_record(plan, folder);
         if (record.value("content_sha256", "") != plan.content_sha256) return false;
-        for (std::size_t i = 0; i + 1 < files.size(); ++i)
-            if (!fs::exists(folder / files[i]) ||
-                record.at("files").value(files[i].generic_string(), "") !=
-                    media::sha256_of_file(folder / files[i]))
+        for (const fs::path& file : files.told())
+            if (!fs::exists(folder / file) || record.at("files").value(file.generic_string(), "") !=
+                                                  media::sha256_of_file(folder / file))
                 return false;
         return true;
     } catch (const std::exception&) {
@@ -298,8 +302,9 @@ AnimateOptions film_options(const ClipPlan& plan, const fs::path& folder, const 
 
 void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const Watch& watch,
                Studio& studio) {
-    const std::vector<fs::path> files = clip_files(plan);
-    for (const fs::path& file : files) fs::create_directories((folder / file).parent_path());
+    const ClipFiles files = clip_files(plan);
+    for (const fs::path& file : {files.strip, files.video})
+        fs::create_directories((folder / file).parent_path());
     std::optional<Take> take;
     if (plan.luminance) {
         take = find_take(plan, folder);
@@ -310,10 +315,10 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
         }
     }
     // Not complete from here on
-    fs::remove(folder / files.back());
+    fs::remove(folder / files.sidecar);
     write_clip_script(plan, folder);
 
-    const fs::path video_file = folder / files[2];
+    const fs::path video_file = folder / files.video;
     AnimateOptions options = film_options(plan, folder, video_file, threads);
     options.video.crf = plan.clips.crf;
     options.video.lossless = plan.clips.lossless;
@@ -344,11 +349,11 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
 
     // Each whole or not at all, the sidecar last
     video.finish();
-    write_text(folder / files[3], events_table(rows, order, pictures.measures(), plan));
-    media::write_png(pictures.strip(), folder / files[1]);
+    write_text(folder / files.events, events_table(rows, order, pictures.measures(), plan));
+    media::write_png(pictures.strip(), folder / files.strip);
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(shot.frames) / plan.fps),
-                         folder / files[4]);
+                         folder / files.sound);
     const auto shown_at = [&](int frame) {
         return static_cast<int>(std::find(order.begin(), order.end(), frame) - order.begin());
     };
@@ -377,9 +382,9 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
                            {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                            {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
     if (take) record["luminance"] = std::move(luminance);
-    for (std::size_t i = 0; i + 1 < files.size(); ++i)
-        record["files"][files[i].generic_string()] = media::sha256_of_file(folder / files[i]);
-    write_text(folder / files.back(), record.dump(2) + "\n");
+    for (const fs::path& file : files.told())
+        record["files"][file.generic_string()] = media::sha256_of_file(folder / file);
+    write_text(folder / files.sidecar, record.dump(2) + "\n");
     if (take && !plan.take_is_shared) remove_take(plan, folder);
 }
 

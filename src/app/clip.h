@@ -68,8 +68,15 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
 /// Whether `folder` holds this very clip, whole.
 bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 
-/// The names of a clip's files below `folder`, the sidecar last.
-std::vector<std::filesystem::path> clip_files(const ClipPlan& plan);
+/// The names of a clip's files below its folder.
+struct ClipFiles {
+    std::filesystem::path script, strip, video, events;
+    std::filesystem::path sound;    ///< empty when there is none
+    std::filesystem::path sidecar;  ///< written last: a clip that has it is whole
+    /// All but the sidecar, which tells of them.
+    std::vector<std::filesystem::path> told() const;
+};
+ClipFiles clip_files(const ClipPlan& plan);
 
 /// The script as it is played, into code/scripts.
 void write_clip_script(const ClipPlan& plan, const std::filesystem::path& folder);

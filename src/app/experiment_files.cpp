@@ -71,7 +71,7 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
         const ClipPlan& clip = plan.clips[i];
         if (!is_shown(*plan.experiment, clip.condition)) continue;
         Json row{{"stim_id", clip.condition.clip},
-                 {"stim_file", clip_files(clip)[2].filename().generic_string()},
+                 {"stim_file", clip_files(clip).video.filename().generic_string()},
                  {"set", clip.condition.set},
                  {"control", clip.condition.control.name()},
                  {"frames", records[i].at("frames")},

@@ -66,7 +66,8 @@ std::vector<ContactRow> rows_beside(const std::vector<std::filesystem::path>& fi
         row.numbers += (row.numbers.empty() ? "" : ", ") + files[i].stem().string();
         row.pictures.push_back(fitted(media::read_png(files[i]), width_px, height_px));
     }
-    const Image blank = fitted(Image(1, 1), width_px, height_px);
+    Image blank(width_px, height_px);
+    std::fill(blank.rgba.begin(), blank.rgba.end(), std::uint8_t{255});
     while (!rows.empty() && rows.back().pictures.size() < columns)
         rows.back().pictures.push_back(blank);
     return rows;
@@ -106,8 +107,10 @@ Json make_sheet(const SheetOptions& options, const Watch& watch) {
     if (cameras.empty()) cameras = {shots.front().view.camera};
     for (const std::string& camera : cameras)
         for (const double time_s : options.times_s)
-            sheet.columns.push_back((options.cameras.empty() ? "" : camera + ", ") +
-                                    format_number(time_s) + " s");
+            sheet.columns.push_back(options.cameras.empty() ? format_number(time_s) + " s"
+                                    : options.times_s.size() > 1
+                                        ? camera + ", " + format_number(time_s) + " s"
+                                        : camera);
     const std::vector<ContactRow> others =
         rows_beside(options.beside, sheet.columns.size(), shots.front().view.width_px,
                     shots.front().view.height_px);

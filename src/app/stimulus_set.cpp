@@ -58,7 +58,7 @@ std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPl
         const double fps = one.at("fps").get<double>();
         const std::string control = one.at("control").get<std::string>();
         out += one.at("stim_id").get<std::string>() + "\t" +
-               clip_files(clips[i])[2].filename().string() + "\t" + cell(one.at("set")) + "\t" +
+               clip_files(clips[i]).video.filename().string() + "\t" + cell(one.at("set")) + "\t" +
                (control.empty() ? kMissing : control) + "\t" +
                (control.empty() ? kMissing : one.at("of").get<std::string>()) + "\t" +
                cell(one.at("frames")) + "\t" + cell(one.at("fps")) + "\t" +
@@ -152,9 +152,9 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
             html.element("h2", set);
         }
         html.open("figure");
-        const std::vector<fs::path> files = clip_files(clips[i]);
-        html.open("a", {{"href", files[2].generic_string()}});
-        html.single("img", {{"src", files[1].generic_string()},
+        const ClipFiles files = clip_files(clips[i]);
+        html.open("a", {{"href", files.video.generic_string()}});
+        html.single("img", {{"src", files.strip.generic_string()},
                             {"loading", "lazy"},
                             {"alt", "Five frames of " + clips[i].condition.clip}});
         html.close();
@@ -192,7 +192,9 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
     std::set<fs::path> files;
     std::vector<Json> records;
     for (const ClipPlan& clip : plan.clips) {
-        for (const fs::path& file : clip_files(clip)) files.insert(file);
+        const ClipFiles its = clip_files(clip);
+        files.insert(its.sidecar);
+        for (const fs::path& file : its.told()) files.insert(file);
         records.push_back(clip_record(clip, folder));
     }
     const auto write = [&](const char* name, const std::string& text) {

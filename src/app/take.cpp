@@ -122,7 +122,7 @@ std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
             if (record.at("film_sha256") == plan.film_sha256)
                 return sums_of(record.at("luminance"));
         }
-        if (fs::exists(folder / clip_files(plan).back())) {
+        if (fs::exists(folder / clip_files(plan).sidecar)) {
             const Json record = clip_record(plan, folder);
             if (record.at("luminance").at("film_sha256") == plan.film_sha256)
                 return sums_of(record.at("luminance").at("before"));

@@ -9,19 +9,16 @@
 
 #include "core/known_names.h"
 #include "muscle/activation.h"
+#include "sim/face_poser.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
-#include "sim/follow.h"
 #include "sim/head_motion.h"
 #include "sim/jaw.h"
 #include "sim/jaw_dynamics.h"
 #include "sim/jaw_synergies.h"
 #include "sim/lids.h"
-#include "sim/lining.h"
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
-#include "sim/skin_binding.h"
-#include "sim/skin_layer.h"
 #include "sim/tissue_mesh.h"
 #include "sim/tissue_motion.h"
 #include "track/channels.h"
@@ -34,13 +31,6 @@ constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equil
 constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
 constexpr int kContactRefresh = 20;  // iterations between searches while settling
-
-Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
-    constexpr double kDegree = 3.14159265358979323846 / 180.0;
-    return (Eigen::AngleAxisd(yaw_deg * kDegree, Vec3::UnitY()) *
-            Eigen::AngleAxisd(-pitch_deg * kDegree, Vec3::UnitX()))
-        .toRotationMatrix();
-}
 
 // A frame that falls on a step shows that step, whatever rounding made of its time.
 double exact_step(double t_s, double step_s) {
@@ -90,11 +80,7 @@ struct Face::Impl {
     Shell shell;
     TissueMesh mesh;
     FaceTissue tissue;
-    std::optional<SkinBinding> binding;
-    std::optional<SkinLayer> skin;
-    Lining lining;
-    std::optional<Follow>
-        follow;  // what rides on the face: lids, eyes, teeth, tongue, lashes, neck
+    std::optional<FacePoser> poser;
 
     // State: now and one step before, for frames between steps
     struct State {
@@ -134,7 +120,6 @@ struct Face::Impl {
           shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
-          lining(head),
           jaw_joint(head, rig.jaw),
           neck(head),
           motion(neck, tissue.rest(), piece_s),
@@ -142,9 +127,7 @@ struct Face::Impl {
         tissue.prepare(motion.effective_step_s());
         tissue.step_in(quality.precision);
         tissue.refine_mouth(quality.mouth_iterations);
-        binding.emplace(head, jaw, shell);
-        follow.emplace(head, rig, lids, *binding);
-        skin.emplace(head, rig, jaw, lids, shell, mesh, *binding);
+        poser.emplace(head, rig, jaw, jaw_joint, lids, shell, mesh);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),
             muscle::ActivationLaw{.form = rig.activation.law == "smooth"
@@ -161,50 +144,6 @@ struct Face::Impl {
                 return pose_of({x, a, d, {}}).vertices;
             },
             channels.column_min());
-    }
-
-    LidPose lid_pose(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const {
-        const Side s = side == 0 ? Side::kLeft : Side::kRight;
-        const auto of = [&](const char* id) {
-            const int column = channels.column(id, s);
-            return column < 0 ? 0.0 : activation[column];
-        };
-        // A lid falls when the levator lets go, is pressed shut by orbicularis, and opens wide with levator and tarsal muscle.
-        const double levator = of("levator_palpebrae_superioris");
-        const double upper = of("orbicularis_oculi_palpebral_upper");
-        const double lower = of("orbicularis_oculi_palpebral_lower");
-        LidPose pose;
-        pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
-        pose.lower_closure = pose.upper_closure;
-        pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
-        // Orbicularis draws both lids towards the inner canthus it springs from.
-        pose.inward = pose.upper_closure * (0.5 + std::min(0.5, upper));
-        constexpr double kDegree = 3.14159265358979323846 / 180.0;
-        const double pitch = drive.at(side == 0 ? track::Kinematic::kGazePitchLeft
-                                                : track::Kinematic::kGazePitchRight);
-        const double open = 1.0 - pose.upper_closure;
-        pose.upper_gaze_rad =
-            -open * kDegree *
-            (pitch > 0 ? rig.eyes.upper_lid_per_gaze_up : rig.eyes.upper_lid_per_gaze_down) * pitch;
-        pose.lower_gaze_rad =
-            -open * kDegree *
-            (pitch > 0 ? rig.eyes.lower_lid_per_gaze_up : rig.eyes.lower_lid_per_gaze_down) * pitch;
-        pose.aside_rad =
-            open * kDegree * rig.eyes.lids_per_gaze_aside *
-            drive.at(side == 0 ? track::Kinematic::kGazeYawLeft : track::Kinematic::kGazeYawRight);
-        pose.upper_gaze_rad -= kDegree * rig.eyes.wide_deg *
-                               (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
-        return pose;
-    }
-
-    std::array<Mat3, 2> gaze(const track::Drive& drive) const {
-        const auto of = [&](track::Kinematic channel) {
-            return std::clamp(drive.at(channel), -rig.eyes.gaze_limit_deg, rig.eyes.gaze_limit_deg);
-        };
-        return {
-            gaze_rotation(of(track::Kinematic::kGazeYawLeft), of(track::Kinematic::kGazePitchLeft)),
-            gaze_rotation(of(track::Kinematic::kGazeYawRight),
-                          of(track::Kinematic::kGazePitchRight))};
     }
 
     Rigid mandible(const track::Drive& drive) const {
@@ -287,11 +226,8 @@ struct Face::Impl {
     }
 
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
-        return {mandible(now.jaw.q, drive),
-                {lid_pose(0, activation, drive), lid_pose(1, activation, drive)},
-                drive.at(track::Kinematic::kMouthPressure),
-                gaze(drive),
-                weight_at(drive)};
+        return {mandible(now.jaw.q, drive), poser->lids(activation, drive),
+                drive.at(track::Kinematic::kMouthPressure), poser->gaze(drive), weight_at(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
@@ -429,7 +365,7 @@ struct Face::Impl {
             x, {mandible(q, state.drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
             vertices);
         tissue.solids().place_surfaces(x, vertices);
-        follow->turn_with_head(head_motion(head, state.drive), surfaces.rest, vertices);
+        poser->turn_with_head(head_motion(head, state.drive), surfaces.rest, vertices);
         return vertices;
     }
 
@@ -442,9 +378,9 @@ struct Face::Impl {
 
     // Nodes as they are shown: steps leave surfaces in each other, equilibria hardly.
     Points shown(const State& state) const {
-        return in_step
-                   ? tissue.apart(state.x, mandible(state.jaw.q, state.drive), gaze(state.drive))
-                   : state.x;
+        return in_step ? tissue.apart(state.x, mandible(state.jaw.q, state.drive),
+                                      poser->gaze(state.drive))
+                       : state.x;
     }
 
     FacePose pose(double share) const {
@@ -453,39 +389,9 @@ struct Face::Impl {
         return pose_of(state);
     }
 
-    Points skin_displacement(const Points& x) const {
-        Points displacement(static_cast<long>(shell.vertex.size()), 3);
-        for (long v = 0; v < displacement.rows(); ++v) {
-            const int node = node_of(static_cast<int>(v), kSkin);
-            displacement.row(v) = x.row(node) - mesh.nodes.row(node);
-        }
-        return displacement;
-    }
-
-    // The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
-    Points pull_through(const FollowDrive& drive, const Points& surface,
-                        const Points& slope) const {
-        constexpr double kDifference_m = 1e-6;
-        Points out(slope.rows(), 3);
-        for (int k = 0; k < 3; ++k) {
-            Points above = surface, below = surface;
-            above.col(k).array() += kDifference_m;
-            below.col(k).array() -= kDifference_m;
-            follow->apply(drive, above);
-            follow->apply(drive, below);
-            out.col(k) = (above - below).cwiseProduct(slope).rowwise().sum() / (2 * kDifference_m);
-        }
-        return out;
-    }
-
     Points pull_back(const Points& slope) const {
-        Points by_skin = slope;
-        pose_of(now, Folds::kLeftOut, &by_skin);
-        const Points by_shell = binding->pull_back(by_skin, static_cast<long>(shell.vertex.size()));
-        Points out = Points::Zero(now.x.rows(), 3);
-        for (long v = 0; v < by_shell.rows(); ++v)
-            out.row(node_of(static_cast<int>(v), kSkin)) = by_shell.row(v);
-        return out;
+        return poser->pull_back({now.x, now.activation, now.drive, mandible(now.jaw.q, now.drive)},
+                                slope);
     }
 
     FaceStatics::Pose at_rest() const {
@@ -494,41 +400,14 @@ struct Face::Impl {
         return {now.x, now.activation, now.drive};
     }
 
-    /// What the skin's own layer adds to what the tissue does: no part of what is pulled back.
-    enum class Folds { kFormed, kLeftOut };
-    /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
-    FacePose pose_of(const State& state, Folds folds = Folds::kFormed,
-                     Points* pulled = nullptr) const {
-        const track::Drive& drive = state.drive;
-        const Points displacement = skin_displacement(state.x);
-        FacePose out;
+    FacePose pose_of(const State& state) const {
         const JawVector& q = state.jaw.q;
-        const Rigid moved = mandible(q, drive);
-        out.mandible = moved;
-        out.jaw = jaw_joint.place(moved);
-        if (jaw_dynamics) out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
-        out.jaw_open = jaw_dynamics ? out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m
-                                    : drive.at(track::Kinematic::kJawOpen);
-        const std::array<Mat3, 2> turned = gaze(drive);
-        const std::array<LidPose, 2> lid{lid_pose(0, state.activation, drive),
-                                         lid_pose(1, state.activation, drive)};
-        out.vertices = head.vertices;
-        binding->apply(displacement, moved, out.vertices);
-        if (folds == Folds::kFormed) {
-            out.fold_depth = skin->apply(state.activation, out.vertices);
-            lining.stay_behind(out.vertices);
+        FacePose out =
+            poser->pose({state.x, state.activation, state.drive, mandible(q, state.drive)});
+        if (jaw_dynamics) {
+            out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
+            out.jaw_open = out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m;
         }
-        out.head = head_motion(head, drive);
-        const FollowDrive follow_drive{moved,
-                                       turned,
-                                       lid,
-                                       drive.at(track::Kinematic::kTongueOut),
-                                       drive.at(track::Kinematic::kTongueUp),
-                                       out.head};
-        if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
-        follow->apply(follow_drive, out.vertices);
-        for (int side = 0; side < 2; ++side)
-            out.eye_rotation[side] = out.head.linear() * turned[side];
         return out;
     }
 };
@@ -645,19 +524,9 @@ Points Face::pull_back(const Points& vertex_gradient) const {
 FacePose Face::pose() const { return impl_->pose(1.0); }
 
 FacePose Face::posed(Points vertices, const track::Drive& drive) const {
-    FacePose out;
-    const std::array<Mat3, 2> turned = impl_->gaze(drive);
-    out.mandible = impl_->mandible(drive);
-    out.jaw = impl_->jaw_joint.place(out.mandible);
-    out.jaw_open = drive.at(track::Kinematic::kJawOpen);
-    out.head = head_motion(impl_->head, drive);
-    for (std::size_t side = 0; side < 2; ++side)
-        out.eye_rotation[side] = out.head.linear() * turned[side];
-    out.vertices = std::move(vertices);
-    impl_->follow->turn_eyes(turned, out.vertices);
-    impl_->follow->turn_head(out.head, out.vertices);
-    return out;
+    return impl_->poser->posed(std::move(vertices), drive, impl_->mandible(drive));
 }
+
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
@@ -670,7 +539,7 @@ int Face::inverted_tets() const { return impl_->tissue.tets().inverted_count(imp
 int Face::dropped_tets() const { return impl_->mesh.dropped_tets; }
 int Face::fibre_count() const { return static_cast<int>(impl_->tissue.fibres().fibres().size()); }
 double Face::build_s() const { return impl_->build_s; }
-const WrinkleLines& Face::wrinkle_lines() const { return impl_->skin->lines(); }
+const WrinkleLines& Face::wrinkle_lines() const { return impl_->poser->lines(); }
 const rig::Head& Face::head() const { return impl_->head; }
 const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const Shell& Face::shell() const { return impl_->shell; }

@@ -15,6 +15,7 @@
 #include "geom/polygon_mesh.h"
 #include "rig/head.h"
 #include "rig/rig_description.h"
+#include "sim/face_pose.h"
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
 #include "sim/shell.h"
@@ -53,18 +54,6 @@ enum class Motion { kDynamic, kQuasiStatic };
 
 /// The drive at any time, s.
 using DriveAt = std::function<track::Drive(double t_s)>;
-
-/// Where everything is, in the head frame; the head's own turn is already applied to the vertices.
-struct FacePose {
-    Points vertices;                   ///< V x 3, m, the mesh's own order
-    std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
-    Points fold_depth;  ///< V x 3 or no rows, m: of wrinkles finer than the mesh, see skin_layer.h
-    Rigid head = Rigid::Identity();
-    double jaw_open = 0;                 ///< opening / that of the channel jaw_open at 1
-    Rigid mandible = Rigid::Identity();  ///< from rest, before the head's turn
-    JawPlace jaw;
-    double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
-};
 
 class Face {
   public:

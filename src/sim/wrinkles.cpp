@@ -14,9 +14,7 @@ namespace {
 
 constexpr double kRounding = 0.2;  // of the valleys; shader_skin.cpp draws the same profile
 constexpr double kUnlike = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
-constexpr double kOnset = 0.05;  // compression that thickens the skin without a fold
-constexpr double kSoftness = 0.04;
-constexpr double kSteepest = 0.45;  // depth / span: folds steeper than this close
+constexpr double kSteepest = 0.45;                  // depth / span: folds steeper than this close
 // Edges per wave from which on vertices carry the fold, and all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
 constexpr int kSamples = 64;
@@ -82,13 +80,13 @@ double fold_depth_ratio(double excess) {
            (place - static_cast<double>(i)) * (table.ratio[i + 1] - table.ratio[i]);
 }
 
-double folded_share(double compression) {
-    const double over = compression - kOnset;
-    if (over <= -kSoftness) return 0;
-    if (over >= kSoftness) return over;
+double folded_share(double compression, const FoldOnset& onset) {
+    const double over = compression - onset.at, softness = onset.softness;
+    if (over <= -softness) return 0;
+    if (over >= softness) return over;
     // As the depth goes with its root, it has to begin with a fourth power for wrinkles to come without a jerk
-    const double t = (over + kSoftness) / (2 * kSoftness);
-    return kSoftness * t * t * t * t * (3 - 2 * t);
+    const double t = (over + softness) / (2 * softness);
+    return softness * t * t * t * t * (3 - 2 * t);
 }
 
 Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Points& rest,
@@ -171,6 +169,7 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
     for (long i = 0; i < count; ++i) mean.add_diagonal(static_cast<int>(i), area_[i] + 1e-15);
     mean_.emplace(mean.build({}));
 
+    creased_.setZero(count, kWrinkleSlots);
     for (const Crease& crease : lines.creases) mean_along(crease, own);
 
     resolved_ = Points::Zero(count, 3);
@@ -193,6 +192,7 @@ void Wrinkles::mean_along(const Crease& crease, const std::vector<int>& own) {
         const int row = own[static_cast<std::size_t>(crease.vertex[i])];
         if (row < 0) continue;
         strip.row.push_back(row);
+        creased_(row, crease.slot) = 1;
         strip.place.push_back(crease.place_m[i] / piece);
         last = std::max(last, strip.place.back());
     }
@@ -266,7 +266,7 @@ void Wrinkles::fold(Points& vertices, Points& depth) const {
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
             const double c = std::min(compression_(row, slot), 0.6);
             if (window_(row, slot) == 0) continue;
-            const double share = folded_share(c);
+            const double share = folded_share(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
             if (share == 0) continue;
             const double ratio =
                 std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepest);

@@ -8,10 +8,11 @@
 // Skin hardly shortens: beyond an onset, what it is compressed by goes into the length of its profile,
 //   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
 // c is the mean over some 3 mm (a screened Poisson equation over the surface), so that it does not depend on the mesh; a
-// crease folds as a whole, by the mean over 9 mm along it and over the strip beside it.
+// crease folds as a whole, by the mean over 9 mm along it and over the strip beside it, and sooner, as its line is there at rest.
 // Where the mesh is fine enough folds displace its vertices; the rest of their depth is for the renderer to show.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <vector>
@@ -26,8 +27,14 @@ double fold_profile(double phase);  ///< P
 double fold_height(double phase);   ///< h / A over the skin without folds
 double fold_excess(
     double depth_ratio);  ///< length of the profile / its span - 1, for A / span of a wave
-double fold_depth_ratio(double excess);   ///< the inverse
-double folded_share(double compression);  ///< e of c: share of the rest length that folds take up
+double fold_depth_ratio(double excess);  ///< the inverse
+/// Compression that thickens skin without a fold; over as much to either side folds set in; at rest none may.
+struct FoldOnset {
+    double at, softness;
+};
+inline constexpr FoldOnset kSmoothSkin{0.05, 0.04}, kCreasedSkin{0.025, 0.02};
+/// e of c: share of the rest length that folds take up
+double folded_share(double compression, const FoldOnset& onset = kSmoothSkin);
 
 struct WrinkleOptions {
     double strength = 1.0;      ///< of what could fold, how much does; 0: none
@@ -69,6 +76,7 @@ class Wrinkles {
     Points inverse_area_;  // per vertex and slot
     Eigen::VectorXd area_;
     Points phase_, window_, wavelength_, resolved_;
+    Eigen::Matrix<char, Eigen::Dynamic, kWrinkleSlots> creased_;
     bool any_resolved_ = false;
     Triangles triangles_;  // over vertex_
     WrinkleOptions options_;

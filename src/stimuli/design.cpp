@@ -133,7 +133,7 @@ ClipOptions read_clips(const JsonCursor& json) {
     ClipOptions clips;
     if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
     if (const auto v = json.find("quality"))
-        clips.quality = v->one_of({"preview", "video", "fine"});
+        clips.quality = v->one_of({"draft", "preview", "video", "fine"});
     if (const auto v = json.find("crf")) clips.crf = v->integer(0, 63);
     if (const auto v = json.find("lossless")) clips.lossless = v->boolean();
     if (const auto v = json.find("landmarks")) clips.landmarks = v->boolean();

@@ -174,17 +174,24 @@ TEST(Wrinkles, AreLeftToTheRendererWhereTheMeshIsCoarse) {
 }
 
 TEST(Wrinkles, BeginSmoothly) {
-    EXPECT_EQ(folded_share(0.0), 0.0);
     EXPECT_EQ(fold_depth_ratio(0.0), 0.0);
-    double last = 0, last_step = 0;
-    for (double c = 0; c < 0.4; c += 1e-3) {
-        const double depth = fold_depth_ratio(folded_share(c) / (1 - c)), step = depth - last;
-        EXPECT_GE(step, -1e-12) << c;
-        EXPECT_LT(std::abs(step - last_step), 1.5e-3) << "a jump of the speed at " << c;
-        EXPECT_LT(step, 8e-3) << c;
-        last = depth;
-        last_step = step;
+    for (const FoldOnset& onset : {kSmoothSkin, kCreasedSkin}) {
+        EXPECT_EQ(folded_share(0.0, onset), 0.0);
+        // Onset over half the way, onset at twice the pace
+        const double smoothest = 1.5e-3 * kSmoothSkin.softness / onset.softness;
+        double last = 0, last_step = 0;
+        for (double c = 0; c < 0.4; c += 1e-3) {
+            const double depth = fold_depth_ratio(folded_share(c, onset) / (1 - c)),
+                         step = depth - last;
+            EXPECT_GE(step, -1e-12) << c;
+            EXPECT_LT(std::abs(step - last_step), smoothest) << "a jump of the speed at " << c;
+            EXPECT_LT(step, 8e-3) << c;
+            last = depth;
+            last_step = step;
+        }
     }
+    // A line that is there at rest folds where smooth skin only thickens.
+    EXPECT_GT(folded_share(0.04, kCreasedSkin), 3 * folded_share(0.04));
     for (double ratio = 0.02; ratio < 0.6; ratio += 0.02)
         EXPECT_NEAR(fold_depth_ratio(fold_excess(ratio)), ratio, 0.01 * ratio);
 }

@@ -96,7 +96,7 @@ void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from
     // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
     if (shadow_) {
         buffers.choose_casters(clip_from_world_, clip_from_world);
-        for (const Batch& batch : buffers.batches()) buffers.draw(batch, SceneBuffers::kShadow);
+        for (const Batch& batch : buffers.batches()) buffers.draw(batch, Purpose::kShadow);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glActiveTexture(GL_TEXTURE0 + kShadowUnit);

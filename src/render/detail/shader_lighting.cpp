@@ -41,6 +41,9 @@ float glint(vec3 n, vec3 v, vec3 l, float roughness, float f0) {
     return nl * fresnel * a2 / (4.0 * d * d * max(lh * lh, 0.05));
 }
 
+// The key lamp is a soft box that subtends some 9 degrees: a lobe of the surface is so much wider, in squares of roughness.
+const float kLampSize = 0.04;
+
 // Two lobes of one lamp, each with its roughness and share.
 float two_glints(vec3 n, vec3 v, vec3 l, vec2 roughness, vec2 share, float f0) {
     vec3 h = normalize(v + l);
@@ -82,7 +85,7 @@ vec3 shown(vec3 x) {
 constexpr const char* kShadow = R"(
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 
-// Soft edge of the key light over a disc of 3.5 mm. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
+// Soft edge of the key light over a disc of 3.5 mm, wider below the chin: what shades neck and chest is the far jaw. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
 // among them, every fourth each, and all get the mean. Not to be called where the block's samples go different ways.
 // Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself.
 float key_visibility(vec3 p, vec3 n) {
@@ -91,7 +94,8 @@ float key_visibility(vec3 p, vec3 n) {
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
-    e *= 0.0035 / (texel * float(textureSize(shadow_map, 0).x));
+    float below = clamp(mouth_centre.y - p.y - 0.06, 0.0, 0.1);
+    e *= (0.0035 + 0.12 * below) / (texel * float(textureSize(shadow_map, 0).x));
     vec2 f = vec2(-e.y, e.x);
     vec2 slope = (mat3(shadow_from_world) * n).xy * (0.5 * texel * float(textureSize(shadow_map, 0).x)) / max(dot(n, key_direction.xyz), 0.2);
     vec4 r = sqrt((vec4(0.5, 4.5, 8.5, 12.5) + float(first)) * 0.0625);
@@ -142,7 +146,7 @@ out float key_gloss;   // and what of a lamp of 1 it mirrors
 out vec3 lit_at;       // in the shadow map
 void pass_key(vec3 p, vec3 n, vec3 v, vec3 w, float kept) {
     key_light = kept * key_card.rgb * scattered(dot(n, key_direction.xyz), w);
-    key_gloss = two_glints(n, v, key_direction.xyz, vec2(0.464, 0.260), vec2(0.76, 0.24), 0.028);
+    key_gloss = two_glints(n, v, key_direction.xyz, sqrt(vec2(0.2153, 0.0676) + kLampSize), vec2(0.76, 0.24), 0.028);
     lit_at = (shadow_from_world * vec4(p + n * (2.5 * mouth_axis.w), 1.0)).xyz;
 }
 )";

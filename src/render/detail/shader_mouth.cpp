@@ -22,11 +22,11 @@ void main() {
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz;
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
-    vec3 enamel = vec3(0.62, 0.575, 0.49) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
+    vec3 enamel = vec3(0.80, 0.70, 0.56) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
     enamel = own_colour(rest, enamel);
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
-    vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.35, 0.32, 0.28)) + soft * tint;
+    vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.45, 0.40, 0.33)) + soft * tint;
     vec3 gloss = key_card.rgb * s * min(glint(n, v, k, 0.22, 0.045), 1.0);
     gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.22, 0.045) * mirrored(reflect(-v, n), 1.0);
     colour = vec4(shown(enamel * light + gloss), 1.0);

@@ -37,10 +37,11 @@ void main() {
 
     vec3 k = key_direction.xyz;
     float rough = roughness - 0.14 * oil;
+    vec2 lobes = sqrt(rough * rough * vec2(1.0, 0.3136) + kLampSize);
     float s = key_visibility(position, n);
     vec3 shade = s + s * (1.0 - s) * bleed;
     vec3 key = key_card.rgb * shade * scattered(mix(dot(n, k), dot(m, k), 0.5), min(scatter * curvature, 0.5));
-    vec3 gloss = key_card.rgb * (s * two_glints(m, v, k, vec2(rough, 0.56 * rough), vec2(0.90 - 0.40 * oil * oil, 0.10 + 0.40 * oil * oil), 0.028));
+    vec3 gloss = key_card.rgb * (s * two_glints(m, v, k, lobes, vec2(0.90 - 0.40 * oil * oil, 0.10 + 0.40 * oil * oil), 0.028));
     // Pores and wrinkles turn to the soft light or away from it.
     float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
     vec3 diffuse = key * kept + soft * (open * turned);

@@ -16,6 +16,13 @@ std::uint8_t srgb_byte(double linear) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0)));
 }
 
+/// The back of the head is the rim of the map, whose triangles about its very middle the paint leaves out.
+Vec2 within_rim(const Vec2& place) {
+    constexpr double kRim = 0.495;
+    const Vec2 off = place - Vec2(0.5, 0.5);
+    return Vec2(0.5, 0.5) + off * std::min(1.0, kRim / std::max(off.norm(), 1e-9));
+}
+
 /// Square roots of linear light between four texels of the map.
 Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
     const double x = std::clamp(place.x() * side - 0.5, 0.0, side - 1.001),
@@ -100,7 +107,7 @@ Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std
                                  v = (a.x() * d.y() - a.y() * d.x()) / area;
                     if (u < 0 || v < 0 || u + v > 1) continue;
                     const Vec3 p = (1 - u - v) * rest[0] + u * rest[1] + v * rest[2];
-                    const Vec3 root = sample(map, map_side, paint_place(p, centre));
+                    const Vec3 root = sample(map, map_side, within_rim(paint_place(p, centre)));
                     for (int k = 0; k < 3; ++k) image.pixel(x, y)[k] = srgb_byte(root[k] * root[k]);
                     covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(side_px) +
                             static_cast<std::size_t>(x)] = 1;
