@@ -1,6 +1,9 @@
 // The skin's colours on texture coordinates, and where the hair of the scalp begins.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "message_of.h"
 #include "render/detail/skin_plan.h"
 #include "render/offscreen_view.h"
@@ -17,10 +20,18 @@ RoundHead laid_out() {
     for (Surface& surface : head.scene.surfaces) {
         if (surface.material != Material::kSkin) continue;
         surface.texcoords.resize(3 * surface.triangles.rows(), 2);
-        for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
-            const Vec3 p = head.scene.rest.row(surface.triangles.data()[i]).transpose();
-            surface.texcoords.row(i) =
-                (p.z() > 0.02 ? Vec2(0.5 + 4 * p.x(), 0.5 + 4 * p.y()) : Vec2(2, 2)).transpose();
+        for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+            std::array<Vec3, 3> corner;
+            for (int k = 0; k < 3; ++k)
+                corner[static_cast<std::size_t>(k)] =
+                    head.scene.rest.row(surface.triangles(f, k)).transpose();
+            const bool front = std::all_of(corner.begin(), corner.end(),
+                                           [](const Vec3& p) { return p.z() > 0.02; });
+            for (int k = 0; k < 3; ++k) {
+                const Vec3& p = corner[static_cast<std::size_t>(k)];
+                surface.texcoords.row(3 * f + k) =
+                    (front ? Vec2(0.5 + 4 * p.x(), 0.5 + 4 * p.y()) : Vec2(2, 2)).transpose();
+            }
         }
     }
     return head;

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "app/animate.h"
@@ -15,6 +17,7 @@
 #include "media/luminance.h"
 #include "media/sync_marks.h"
 #include "media/video_reader.h"
+#include "message_of.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -297,8 +300,9 @@ TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
             reds += sheet.pixel(x, y)[0] == 200 && sheet.pixel(x, y)[1] == 10;
     EXPECT_EQ(reds, 20 * 40);
     options.cameras = {"below"};
-    EXPECT_NE(message_of([&] { app::make_sheet(options); }).find("--cameras: expected one of"),
-              std::string::npos);
+    EXPECT_NE(
+        risorius::message_of([&] { app::make_sheet(options); }).find("--cameras: expected one of"),
+        std::string::npos);
 }
 
 TEST(StimulusOptions, OfNoUseTogetherAreRefusedWithTheirPlace) {
