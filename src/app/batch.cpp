@@ -62,6 +62,25 @@ void share_takes(std::vector<ClipPlan>& clips) {
     }
 }
 
+/// Clips that differ in their names alone: a factor that the script does not use.
+void note_twins(BatchPlan& plan) {
+    std::map<std::string, const ClipPlan*> first;
+    std::string example;
+    int twins = 0;
+    for (const ClipPlan& clip : plan.clips) {
+        if (clip.is_control()) continue;
+        const auto [like, is_new] = first.emplace(clip.film_sha256, &clip);
+        if (is_new) continue;
+        if (++twins == 1)
+            example = clip.condition.clip + " is " + like->second->condition.clip + " again";
+    }
+    if (twins > 0)
+        plan.notes.push_back(std::to_string(twins) +
+                             (twins == 1 ? " clip is the same film as another ("
+                                         : " clips are the same films as others (") +
+                             example + "): does the script use every factor?");
+}
+
 }  // namespace
 
 void check_batch_folder(const fs::path& out) {
@@ -105,6 +124,7 @@ BatchPlan plan_batch(const fs::path& file) {
         plan.clips.push_back(plan_clip(condition, design, rigs, sounds));
     share_takes(plan.clips);
     check_experiment(plan);
+    note_twins(plan);
     return plan;
 }
 

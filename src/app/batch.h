@@ -31,7 +31,8 @@ struct BatchPlan {
     std::vector<std::pair<std::string, stimuli::Balance>>
         balances;  ///< of the sets that are only a part of their crossing
     std::vector<ClipPlan> clips;
-    double seconds() const;  ///< to make all of them, about, on two cores
+    std::vector<std::string> notes;  ///< what can be rendered, but may not be meant
+    double seconds() const;          ///< to make all of them, about, on two cores
     double megabytes() const;
 };
 

@@ -1,5 +1,8 @@
 #include "app/check_files.h"
 
+#include <algorithm>
+
+#include "app/batch.h"
 #include "app/landmark_file.h"
 #include "app/part_guess.h"
 #include "app/rig_files.h"
@@ -20,11 +23,31 @@ rig::Head check_rig(const fs::path& file) {
     return rig::place_head(files.rig, files.mesh, files.place());
 }
 
-void check_script(const fs::path& file) {
+/// What a script asks for after its last frame.
+void note_what_comes_late(const track::ScriptDescription& script, CheckResult& result) {
+    const double end_s = script.header.duration_s;
+    const auto note = [&](const std::string& what, const std::string& does, double at_s) {
+        if (at_s <= end_s + 1e-9) return;
+        result.notes.push_back(what + " " + does + " at " + format_number(at_s) +
+                               " s, after the end at " + format_number(end_s) + " s");
+    };
+    for (const track::ChannelTrack& channel : script.channels)
+        if (!channel.keys.empty())
+            note("\"" + channel.name + "\"", "has a key", channel.keys.back().time_s);
+    for (const track::ExpressionEvent& event : script.expressions)
+        if (const double until = event.start_s + event.onset_s + event.hold_s; until > end_s)
+            note("\"" + event.expression + "\"", "is over", until + event.offset_s);
+        else
+            note("\"" + event.expression + "\"", "has gone back", until + event.offset_s);
+}
+
+void check_script(const fs::path& file, CheckResult& result) {
     const track::ScriptHeader header = track::read_script_header(file);
     existing_file(JsonCursor::read_file(file).at("rig"));
     const RigFiles files = read_rig_files(header.rig_file);
-    track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    note_what_comes_late(
+        track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions),
+        result);
     rig::place_head(files.rig, files.mesh, files.place());
 }
 
@@ -55,10 +78,12 @@ void check(CheckResult& result) {
         return check_mesh_file(result.file, result);
     }
     const JsonCursor json = JsonCursor::read_file(result.file);
-    const std::string format = json.at("format").one_of(
-        {"risorius-script", "risorius-rig", "risorius-landmarks", "risorius-experiment"});
+    const std::string format =
+        json.at("format").one_of({"risorius-script", "risorius-rig", "risorius-landmarks",
+                                  "risorius-design", "risorius-experiment"});
     result.format = format.substr(std::string("risorius-").size());
-    if (result.format == "script") check_script(result.file);
+    if (result.format == "script") check_script(result.file, result);
+    if (result.format == "design") result.notes = plan_batch(result.file).notes;
     if (result.format == "experiment") experiment::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") {

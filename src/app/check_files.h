@@ -10,14 +10,14 @@ namespace risorius::app {
 struct CheckResult {
     std::filesystem::path file;
     std::string
-        format;  ///< "script", "rig", "landmarks", "experiment" or "mesh"; "" when it cannot be told
+        format;  ///< "script", "rig", "landmarks", "design", "experiment" or "mesh"; "" when it cannot be told
     std::string error;               ///< empty when the file can be used
     std::vector<std::string> notes;  ///< worth knowing
     bool ok() const { return error.empty(); }
 };
 
-/// A script is read with its rig, a rig with its mesh, landmarks against the standard anatomy, an experiment with the
-/// bodies it describes. What a JSON file is, its
+/// A script is read with its rig, a rig with its mesh, landmarks against the standard anatomy, a design with all its
+/// conditions, an experiment with the bodies it describes. What a JSON file is, its
 /// key "format" says; every other ending is a mesh.
 CheckResult check_file(const std::filesystem::path& file);
 

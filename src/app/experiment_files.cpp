@@ -109,14 +109,18 @@ std::string csv_table(const std::vector<Json>& rows) {
 
 }  // namespace
 
-void check_experiment(const BatchPlan& plan) {
+void check_experiment(BatchPlan& plan) {
     if (!plan.experiment) return;
     const stimuli::ExperimentOptions& experiment = *plan.experiment;
     bool any = false, any_correct = false;
+    std::vector<std::string> without;
     for (const ClipPlan& clip : plan.clips) {
         if (!is_shown(experiment, clip.condition)) continue;
         any = true;
-        any_correct = any_correct || !correct_key(experiment, clip.condition).empty();
+        if (!correct_key(experiment, clip.condition).empty())
+            any_correct = true;
+        else if (experiment.correct && !clip.is_control())
+            without.push_back(clip.condition.clip);
         if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" &&
             std::find(experiment.programs.begin(), experiment.programs.end(), "jspsych") !=
                 experiment.programs.end())
@@ -127,6 +131,10 @@ void check_experiment(const BatchPlan& plan) {
     if (experiment.correct && !any_correct)
         throw Error("experiment/correct", "a parameter with values that are among the answers",
                     risorius::quoted(*experiment.correct));
+    if (!without.empty())
+        plan.notes.push_back("experiment: none of the answers is correct for " +
+                             std::to_string(without.size()) + " of the clips shown, " +
+                             without.front() + (without.size() > 1 ? " the first" : ""));
 }
 
 std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<Json>& records,

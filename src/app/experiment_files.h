@@ -15,7 +15,7 @@
 namespace risorius::app {
 
 /// What the design's experiment asks for must be there. Throws Error.
-void check_experiment(const BatchPlan& plan);
+void check_experiment(BatchPlan& plan);
 
 /// Of clips that are all made; the names of the files in `folder`.
 std::vector<std::filesystem::path> write_experiment(const BatchPlan& plan,

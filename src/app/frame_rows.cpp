@@ -9,6 +9,7 @@ namespace risorius::app {
 namespace {
 
 constexpr double kOnset_m = 0.3e-3, kOnsetShare = 0.05;
+constexpr double kApexShare = 0.99;  // a held face creeps on by micrometres
 
 std::vector<std::string> split(const std::string& text, char by) {
     std::vector<std::string> out;
@@ -69,7 +70,10 @@ Moments moments_of(const std::vector<double>& ways_m) {
     Moments out;
     if (ways_m.empty()) return out;
     const auto farthest = std::max_element(ways_m.begin(), ways_m.end());
-    out.apex = static_cast<int>(farthest - ways_m.begin());
+    const double there = kApexShare * *farthest;
+    out.apex = static_cast<int>(
+        std::find_if(ways_m.begin(), ways_m.end(), [&](double way) { return way >= there; }) -
+        ways_m.begin());
     const double begun = std::min(kOnset_m, kOnsetShare * *farthest);
     for (std::size_t i = 0; i < ways_m.size() && begun > 0; ++i)
         if (ways_m[i] > begun) {

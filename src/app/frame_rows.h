@@ -22,7 +22,7 @@ FrameRows frame_rows(const std::string& table);
 /// Of every frame, m: how far the landmark that moved farthest is from where it was in the first. Zeros without landmarks.
 std::vector<double> landmark_ways(const FrameRows& rows);
 
-/// First frame in which a landmark has moved by 0.3 mm, or 5 % of the farthest way; the frame farthest from the first.
+/// First frame in which a landmark has moved by 0.3 mm, or 5 % of the farthest way; first in which one has gone 99 % of it.
 struct Moments {
     int onset = 0, apex = 0;
 };

@@ -1,6 +1,7 @@
 #include "app/stimulus_set.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -169,21 +170,36 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
     return html_page(name, html);
 }
 
-/// Files that this set does not have but `batch` may have written for an earlier design.
-void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
-    // Beside an experiment may be what participants answered
-    for (const char* program : {"conditions.csv", "settings.json", "experiment.py", "index.html"})
-        if (kept.count(fs::path("experiment") / program) == 0)
-            fs::remove(folder / "experiment" / program);
-    for (const char* below : {"stimuli", "overview", "code/scripts", "luminance", "takes"}) {
-        if (!fs::is_directory(folder / below)) continue;
-        std::vector<fs::path> former;
-        for (const auto& entry : fs::directory_iterator(folder / below))
-            if (kept.count(fs::path(below) / entry.path().filename()) == 0)
-                former.push_back(entry.path());
-        for (const fs::path& file : former) fs::remove_all(file);
-        if (fs::is_empty(folder / below)) fs::remove(folder / below);
+/// What `batch` has written into the folder for this or an earlier design, as its checksums, sidecars and names tell.
+std::set<fs::path> written_before(const fs::path& folder) {
+    std::set<fs::path> files;
+    std::ifstream sums(folder / "SHA256SUMS");
+    for (std::string line; std::getline(sums, line);)
+        if (const std::size_t gap = line.find("  "); gap != std::string::npos) {
+            const fs::path file = fs::path(line.substr(gap + 2)).lexically_normal();
+            if (file.is_relative() && *file.begin() != "..") files.insert(file);
+        }
+    if (!fs::is_directory(folder / "stimuli")) return files;
+    for (const auto& entry : fs::directory_iterator(folder / "stimuli")) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("stim-")) continue;
+        files.insert(fs::path("stimuli") / name);
+        // Of a clip that was never finished only its files tell
+        const std::string clip = name.substr(5, name.find('_') - 5);
+        files.insert(fs::path("overview") / (clip + ".png"));
+        files.insert(fs::path("code/scripts") / (clip + ".json"));
     }
+    return files;
+}
+
+/// Files that this set does not have but `batch` has written for an earlier design; no one else's.
+void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
+    for (const fs::path& file : written_before(folder))
+        if (kept.count(file) == 0 && fs::is_regular_file(folder / file)) fs::remove(folder / file);
+    fs::remove_all(folder / "takes");
+    for (const char* below : {"stimuli", "overview", "code/scripts", "luminance"})
+        if (fs::is_directory(folder / below) && fs::is_empty(folder / below))
+            fs::remove(folder / below);
 }
 
 }  // namespace

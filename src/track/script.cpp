@@ -156,9 +156,9 @@ class Reader {
             std::vector<std::string_view> known;
             for (const Expression& e : expressions_.list) known.push_back(e.name);
             const std::string near = nearest_name(name.string(), known);
-            std::string expected =
-                near.empty() ? "one of"
-                             : "an expression of the rig (did you mean " + quoted(near) + "?)";
+            std::string expected = near.empty() ? "one of"
+                                                : "an expression of the rig (did you mean " +
+                                                      risorius::quoted(near) + "?)";
             if (near.empty())
                 for (std::string_view k : known) expected += " " + quoted(std::string(k));
             name.fail(expected);
@@ -289,9 +289,15 @@ class Reader {
             known.push_back(channel.name.ends_with(".l") || channel.name.ends_with(".r")
                                 ? channel.name.substr(0, channel.name.size() - 2)
                                 : channel.name);
-        const std::string near = nearest_name(id, known);
+        std::string near = nearest_name(id, known);
+        for (const std::string side : {".left", ".right"})
+            if (name.ends_with(side))
+                if (const std::string whole = name.substr(0, name.size() - side.size());
+                    channels_.find(whole) || facs_.find(whole))
+                    near = whole + side.substr(0, 2);
         json.fail("a muscle, action unit or kinematic channel of the rig" +
-                      (near.empty() ? "" : " (did you mean " + quoted(near) + "?)"),
+                      (near.empty() ? " (`risorius info` lists them)"
+                                    : " (did you mean " + risorius::quoted(near) + "?)"),
                   quoted(name));
     }
 

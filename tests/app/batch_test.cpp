@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/check_files.h"
 #include "app/frame_rows.h"
 #include "media/tone.h"
 #include "media/video_reader.h"
@@ -92,8 +93,15 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     EXPECT_EQ(text_of(video), smile);
     EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile1Reversed_video.mkv"));
     options.design = design("design.json", {1, 0.8});
+    // Whoever keeps something beside it keeps it
+    const fs::path others[] = {options.out / "stimuli/ratings.tsv",
+                               options.out / "overview/talk.png"};
+    for (const fs::path& file : others) std::ofstream(file) << "mine";
     const BatchReport less = make_batch(options);
     EXPECT_EQ(less.made, 0);
+    for (const fs::path& file : others) EXPECT_EQ(text_of(file), "mine");
+    EXPECT_FALSE(fs::exists(options.out / "overview/smile0p5.png"));
+    EXPECT_FALSE(fs::exists(options.out / "code/scripts/smile0p5.json"));
     EXPECT_EQ(less.kept, 2);
     EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile0p5_video.mkv"));
     EXPECT_TRUE(fs::exists(options.out / "stimuli/stim-smile0p8_video.mkv"));
@@ -195,8 +203,8 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
     };
     const std::string folder_of = folder().path().string();
     EXPECT_EQ(
-        with("/sets/0/script/events/0/expression", "hapiness").substr(0, folder_of.size() + 16),
-        folder_of + "/clip smile0p5:/");
+        with("/sets/0/script/events/0/expression", "hapiness").substr(0, folder_of.size() + 26),
+        folder_of + "/bad.json, clip smile0p5:/");
     EXPECT_NE(with("/sets/0/script/events/0/expression", "hapiness").find("\"happiness\""),
               std::string::npos);
     EXPECT_NE(with("/sets/0/script/duration_s", "= 0 - 1").find("expected (0, 3600]"),
@@ -218,6 +226,37 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
               std::string::npos);
 }
 
+TEST_F(Batch, NotesWhatMayNotBeMeant) {
+    const fs::path file = design("notes.json", {0.5, 1});
+    EXPECT_TRUE(plan_batch(file).notes.empty());
+    Json json = Json::parse(text_of(file));
+    json["sets"][0]["factors"]["fps"] = {25, 50};
+    json["sets"][0]["clip"] = "smile_${intensity}_${fps}";
+    json["experiment"] = {{"programs", {"psychopy"}},
+                          {"question", "How much?"},
+                          {"answers", {{"h", "0.5"}}},
+                          {"correct", "intensity"}};
+    json["clips"]["ending"] = "mp4";
+    std::ofstream(file) << json.dump();
+    const std::vector<std::string> notes = check_file(file).notes;
+    ASSERT_EQ(notes.size(), 2u) << check_file(file).error;
+    EXPECT_EQ(
+        notes[0],
+        "experiment: none of the answers is correct for 2 of the clips shown, smile125 the first");
+    EXPECT_EQ(notes[1],
+              "2 clips are the same films as others (smile0p550 is smile0p525 again): does the "
+              "script use every factor?");
+    std::ofstream(folder().path() / "late.json")
+        << Json{{"format", "risorius-script"},
+                {"version", 1},
+                {"rig", kAdult},
+                {"duration_s", 1},
+                {"channels", {{"AU12", {{"keys", {{0, 0}, {3, 1}}}}}}}};
+    const CheckResult late = check_file(folder().path() / "late.json");
+    ASSERT_EQ(late.notes.size(), 1u) << late.error;
+    EXPECT_EQ(late.notes[0], "\"AU12\" has a key at 3 s, after the end at 1 s");
+}
+
 TEST(Moments, AreOfTheLandmarkThatGoesFarthest) {
     const FrameRows rows = frame_rows(
         "frame\ttime_s\tpg.x_mm\tpg.y_mm\tpg.z_mm\tpg.u_px\n0\t0\t1\t2\t3\t9\n1\t0.1\t1\t2."
@@ -230,6 +269,9 @@ TEST(Moments, AreOfTheLandmarkThatGoesFarthest) {
     EXPECT_EQ(moments.onset, 2);
     EXPECT_EQ(moments.apex, 2);
     EXPECT_EQ(moments_of({0, 0}).onset, 0);
+    EXPECT_EQ(moments_of({0, 0}).apex, 0);
+    // Of a face that is held, not the frame in which it happens to have crept farthest
+    EXPECT_EQ(moments_of({0, 4e-3, 12.84e-3, 12.85e-3, 12.851e-3, 12e-3}).apex, 2);
 }
 
 }  // namespace

@@ -66,17 +66,19 @@ void tell_plan(const BatchArguments& arguments) {
         std::printf("%s\n", Json{{"name", plan.name},
                                  {"parts_of_crossings", parts},
                                  {"clips", clips},
+                                 {"notes", plan.notes},
                                  {"frames", frames},
                                  {"seconds_about", plan.seconds()},
                                  {"megabytes_about", plan.megabytes()}}
                                 .dump(2)
                                 .c_str());
     } else {
-        std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.0f MB\n",
+        std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.*f MB\n",
                     plan.name.c_str(), plan.clips.size(), frames, time_text(plan.seconds()).c_str(),
-                    plan.megabytes());
+                    plan.megabytes() < 10 ? 1 : 0, plan.megabytes());
         for (const auto& [set, balance] : plan.balances)
             std::printf("%s: %s\n", set.c_str(), balance.text().c_str());
+        for (const std::string& note : plan.notes) std::printf("  note: %s\n", note.c_str());
     }
 }
 

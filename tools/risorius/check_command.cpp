@@ -40,13 +40,14 @@ void run(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("check", "Validate scripts, rigs, landmarks, experiments and meshes");
+    CLI::App* command = app.add_subcommand(
+        "check", "Validate scripts, rigs, landmarks, designs, experiments and meshes");
     auto arguments = std::make_shared<CheckArguments>();
     command->add_option("FILE", arguments->files, "What to check")->required();
     add_common(*command, arguments->common);
     command->footer(
-        "A script is read with its rig and a rig with its mesh. Exit code 2 when a file is "
+        "A script is read with its rig, a rig with its mesh and a design with every condition. "
+        "Exit code 2 when a file is "
         "wrong.\n\n"
         "Example:\n  risorius check samples/hello/script.json rigs/adult/rig.json");
     command->callback([arguments] { run(*arguments); });
