@@ -129,7 +129,8 @@ void add_evaluate(CLI::App& app) {
     command
         ->add_option("--only", options.only,
                      "Names of expressions, separated by commas; all when not given")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_flag("--fit", options.fit,
                       "Also search the activations that come nearest, few and within [0, 1], "
                       "setting out from the rig's table");

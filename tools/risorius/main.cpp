@@ -47,6 +47,10 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
                risorius::did_you_mean(found.substr(0, found.find('=')), names) + ", found " +
                quoted(found);
     }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) &&
+        text.find("received") != std::string::npos)  // "--fps: At Most 1 required but received 2"
+        return place + " " + text.substr(0, text.find(':')) + ": expected one value, found " +
+               text.substr(text.rfind(' ') + 1);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         return place + " " + text.substr(0, text.find(':')) + ": expected a value, found none";
     if (dynamic_cast<const CLI::ConversionError*>(&error)) {

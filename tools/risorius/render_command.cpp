@@ -116,7 +116,8 @@ void add_render(CLI::App& app) {
                      "normals, flow (pixels to the next frame, from the mesh itself), masks (face "
                      "oval, eyes, mouth); several with commas. PNG and OpenEXR, results.json names "
                      "the parts")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius render samples/hello/script.json -o hello.mp4\n"

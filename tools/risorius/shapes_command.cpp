@@ -102,13 +102,15 @@ void add_shapes(CLI::App& app) {
     command
         ->add_option("--only", options.only,
                      "Names of shapes of the set, separated by commas; all when not given")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         ->add_option(
             "--formats", options.formats,
             "Of \"glb\", \"obj\", \"table\" and, with --script, \"csv\" and \"cache\", separated "
             "by commas; all but \"cache\" when not given")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         ->add_option("--quality", options.quality,
                      "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")

@@ -40,6 +40,7 @@ void add_sheet(CLI::App& app) {
     command->add_option("SCRIPT", options.scripts, "One script or more")->required();
     command->add_option("--times", options.times_s, "Moments, seconds, with commas: a column each")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->required();
     command
         ->add_option("-o,--out", options.out,

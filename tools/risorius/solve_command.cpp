@@ -60,13 +60,15 @@ void add_solve(CLI::App& app) {
         ->add_option("--mesh", options.meshes,
                      "In place of it: the rig's mesh with its vertices moved, OBJ; several with "
                      "commas")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--landmarks", options.landmarks,
                         "In place of it: a table with the columns time_s and ID.x_mm, ID.y_mm, "
                         "ID.z_mm of some landmarks, the first row at rest, as render --landmarks "
                         "writes it");
     command->add_option("--only", options.only, "Names of shapes, separated by commas")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         ->add_option("--quality", options.quality,
                      "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")
