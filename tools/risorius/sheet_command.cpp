@@ -52,11 +52,13 @@ void add_sheet(CLI::App& app) {
         ->add_option("--cameras", options.cameras,
                      "Views, with commas, a column each: front, three_quarter, profile, top, eye, "
                      "nose, mouth, ear ...")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command
         ->add_option("--beside", options.beside,
                      "Pictures (.png) to compare with, with commas, in a row of their own")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--show", options.view.show,
                         "skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options.view, arguments->size);
