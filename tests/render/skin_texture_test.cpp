@@ -42,7 +42,7 @@ TEST(SkinTexture, ShowsSkinAndLipsWhereTheyAreLaidOut) {
     const OffscreenView view(head.scene, {.width_px = 128, .height_px = 128});
     const Image texture = view.skin_texture(head.scene, kSide_px);
     ASSERT_EQ(texture.width_px, kSide_px);
-    const auto colour = [&](double x_m, double y_m) {
+    const auto colour = [&](double x_m, double y_m) -> Vec3 {
         const auto* p = texture.pixel(static_cast<int>((0.5 + 4 * x_m) * kSide_px),
                                       static_cast<int>((0.5 - 4 * y_m) * kSide_px));
         return Vec3(p[0], p[1], p[2]) / 255;
