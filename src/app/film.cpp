@@ -207,6 +207,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                 muscles *= Mat3(Eigen::AngleAxisd(angle_rad, Vec3::UnitY())).transpose();
             add_muscles(face.muscle_surfaces(), activation, std::move(muscles), seen);
         }
+        if (const auto& skull = studio.skull()) add_bones(*skull, pose, seen);
         seen.values = sight.values(pose.vertices,
                                    reference ? std::optional(reference->at(t_s)) : std::nullopt);
         return seen;

@@ -159,6 +159,8 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                   .iris_tone = rig.look.iris_tone,
                   .freckles = rig.look.freckles,
                   .scalp_hair = rig.look.scalp_hair,
+                  .hairline_mm = rig.look.hairline_mm,
+                  .temples_mm = rig.look.temples_mm,
                   .hair_length_mm = rig.look.hair_length_mm,
                   .beard_length_mm = rig.look.beard_length_mm,
                   .beard = rig.look.beard,
@@ -197,6 +199,29 @@ void add_muscles(const sim::MuscleSurfaces& surfaces, const Eigen::VectorXd& act
     pose.muscle_positions = std::move(vertices);
     for (const sim::MuscleSurface& surface : surfaces.muscles)
         pose.activations.push_back(surface.column < 0 ? 0.0 : activation[surface.column]);
+}
+
+render::Bones bones_for_view(const sim::Skull& skull) {
+    const sim::BoneSurface &upper = skull.cranium, &lower = skull.mandible;
+    render::Bones bones;
+    bones.rest.resize(upper.vertices.rows() + lower.vertices.rows(), 3);
+    bones.rest << upper.vertices, lower.vertices;
+    bones.triangles.resize(upper.triangles.rows() + lower.triangles.rows(), 3);
+    bones.triangles << upper.triangles,
+        (lower.triangles.array() + static_cast<int>(upper.vertices.rows())).matrix();
+    bones.open = upper.open;
+    bones.open.insert(bones.open.end(), lower.open.begin(), lower.open.end());
+    return bones;
+}
+
+void add_bones(const sim::Skull& skull, const sim::FacePose& pose, render::Pose& out) {
+    const sim::BoneSurface &upper = skull.cranium, &lower = skull.mandible;
+    const auto placed = [](const Rigid& where, const Points& rest) -> Points {
+        return (rest * where.linear().transpose()).rowwise() + where.translation().transpose();
+    };
+    out.bone_positions.resize(upper.vertices.rows() + lower.vertices.rows(), 3);
+    out.bone_positions << placed(pose.head, upper.vertices),
+        placed(pose.head * pose.mandible, lower.vertices);
 }
 
 }  // namespace risorius::app

@@ -6,6 +6,7 @@
 #include "rig/head.h"
 #include "rig/rig_description.h"
 #include "sim/face.h"
+#include "sim/skull.h"
 
 namespace risorius::app {
 
@@ -21,5 +22,9 @@ render::Pose pose_for_view(const sim::FacePose& pose);
 render::Muscles muscles_for_view(const sim::MuscleSurfaces& surfaces);
 void add_muscles(const sim::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
                  Points vertices, render::Pose& pose);
+
+/// The bones, the skull's vertices first; and where a pose has them.
+render::Bones bones_for_view(const sim::Skull& skull);
+void add_bones(const sim::Skull& skull, const sim::FacePose& pose, render::Pose& out);
 
 }  // namespace risorius::app

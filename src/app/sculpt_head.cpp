@@ -25,6 +25,7 @@ constexpr const char* kLandmarks = "landmarks.json";
 constexpr const char* kRegions = "regions.json";
 constexpr const char* kIdentityFile = "identity.json";
 constexpr const char* kRigFile = "rig.json";
+constexpr const char* kTexture = "skin.png";
 constexpr const char* kViews = "views.png";
 constexpr const char* kResults = "results.json";
 
@@ -44,18 +45,29 @@ Json look_json(const sculpt::Identity& identity, const sculpt::DesignTables& tab
     look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
     look["freckles"] = identity.freckles;
     look["scalp_hair"] = identity.scalp_hair;
+    look["hairline_mm"] = identity.hairline;
+    look["temples_mm"] = identity.temples;
     look["beard"] = identity.beard;
     look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
     return look;
 }
 
-Image views_of(const fs::path& rig_file) {
-    constexpr int kWidth_px = 560, kHeight_px = 720;
+render::Scene scene_of(const fs::path& rig_file) {
     const RigFiles files = read_rig_files(rig_file);
-    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
-    const render::Scene scene = scene_from_rig(head, files.rig, files.mesh);
+    return scene_from_rig(rig::place_head(files.rig, files.mesh, files.place()), files.rig,
+                          files.mesh);
+}
+
+/// The square holds a head of 0.6 m from ear to ear over the crown; the view is as fine.
+Image texture_of(const render::Scene& scene, int side_px) {
+    const render::OffscreenView view(scene, {.width_px = side_px / 2, .height_px = side_px / 2});
+    return view.skin_texture(scene, side_px);
+}
+
+Image views_of(const render::Scene& scene) {
+    constexpr int kWidth_px = 560, kHeight_px = 720;
     render::Pose pose;
-    pose.positions = head.vertices;
+    pose.positions = scene.rest;
     Image row(3 * kWidth_px, kHeight_px);
     int left = 0;
     for (const char* camera : {"front", "three_quarter", "profile"}) {
@@ -146,7 +158,12 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
         Json rig = JsonCursor::read_file(fit.out).json();
         rig["look"] = look_json(options.identity, tables);
         write_text(fit.out, rig.dump(1) + "\n");
-        media::write_png(views_of(fit.out), partial / kViews);
+        const render::Scene scene = scene_of(fit.out);
+        media::write_png(views_of(scene), partial / kViews);
+        if (options.texture_px > 0) {
+            media::write_png(texture_of(scene, options.texture_px), partial / kTexture);
+            report.files.emplace_back(kTexture);
+        }
         report.files.insert(report.files.end(), {kRigFile, kViews});
     }
     std::sort(report.files.begin(), report.files.end());

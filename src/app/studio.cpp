@@ -35,6 +35,11 @@ const render::Scene& Studio::scene(const render::ViewOptions& view, int count) {
     add_wrinkles(face_->wrinkle_lines(), *scene_);
     if (view.show == render::Show::kMuscles)
         scene_->muscles = muscles_for_view(face_->muscle_surfaces());
+    skull_.reset();
+    if (view.show == render::Show::kSkull) {
+        skull_ = sim::estimate_skull(face_->head(), files_->rig);
+        scene_->bones = bones_for_view(*skull_);
+    }
     // The first one here, as others need it; each of those on the thread that draws with it
     views_.resize(wanted);
     views_[0] = std::make_unique<render::OffscreenView>(*scene_, view);

@@ -11,6 +11,7 @@
 #include "app/rig_files.h"
 #include "render/offscreen_view.h"
 #include "sim/face.h"
+#include "sim/skull.h"
 
 namespace risorius::app {
 
@@ -24,12 +25,15 @@ class Studio {
     render::OffscreenView& view() { return *views_[0]; }
     /// One for each thread that draws.
     render::OffscreenView& view(int worker);
+    /// Of the scene, when its bones are shown.
+    const std::optional<sim::Skull>& skull() const { return skull_; }
 
   private:
     std::optional<RigFiles> files_;
     std::string quality_;
     std::unique_ptr<sim::Face> face_;
     std::optional<render::Scene> scene_;
+    std::optional<sim::Skull> skull_;
     render::ViewOptions options_;
     std::vector<std::unique_ptr<render::OffscreenView>> views_;
 };

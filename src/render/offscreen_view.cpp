@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/known_names.h"
+#include "render/detail/bone_layer.h"
 #include "render/detail/camera.h"
 #include "render/detail/cell_clear.h"
 #include "render/detail/colour_scale.h"
@@ -25,6 +26,7 @@
 #include "render/detail/shell_layer.h"
 #include "render/detail/skin_layer.h"
 #include "render/detail/skin_paint.h"
+#include "render/detail/skin_texture.h"
 #include "render/detail/strand_layer.h"
 #include "render/detail/tear_layer.h"
 #include "render/value_colour.h"
@@ -83,7 +85,7 @@ std::vector<float> colours_of(const SkinValues& values) {
     return rgb;
 }
 
-constexpr const char* kShowNames[] = {"skin",   "muscles", "wire",
+constexpr const char* kShowNames[] = {"skin",   "muscles", "skull",    "wire",
                                       "strain", "error",   "landmarks"};  // in the order of Show
 
 }  // namespace
@@ -140,6 +142,7 @@ struct OffscreenView::Impl {
             muscles = std::make_unique<MuscleLayer>(
                 scene, camera, options.height_px * options.supersampling,
                 picture.tile_width_samples(), picture.tile_height_samples());
+        if (options.show == Show::kSkull) bones = std::make_unique<BoneLayer>(scene);
         buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre, coarseness());
 
         baked = first ? first->baked : bake(scene, centre);
@@ -180,22 +183,27 @@ struct OffscreenView::Impl {
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }
 
+    /// Whether the skin lets something through.
+    bool looks_inside() const {
+        return options.show == Show::kMuscles || options.show == Show::kSkull;
+    }
+
     /// Samples of skin that are shaded per pixel and side; as many as there are where one asks for more than 8 bits.
     int shaded_per_side() const {
-        if (options.deep || options.show == Show::kMuscles) return options.supersampling;
+        if (options.deep || looks_inside()) return options.supersampling;
         return std::max(options.supersampling / 2, 1);
     }
 
     /// Of skin whose colours come from its shader, by the samples of the picture.
     Coarseness coarseness() const {
-        if (options.deep || options.show == Show::kMuscles) return {};
+        if (options.deep || looks_inside()) return {};
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         return {kCoarseSamples * sample_m, kCoarseShadow_m, !options.draft};
     }
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
         auto out = std::make_shared<Baked>();
-        const double reach = 0.75 * camera.frame_height_m;
+        const double reach = 0.75 * camera.portrait_height_m;
         const auto sky_over = [&](const Points& positions) {
             return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
         };
@@ -244,7 +252,33 @@ struct OffscreenView::Impl {
         tears.reset();
         shells.reset();
         muscles.reset();
+        bones.reset();
         buffers.reset();
+    }
+
+    /// Everything the face is seen by; `looked_up`: the skin from its layer.
+    void draw_surfaces(const Pose& pose, bool looked_up) {
+        for (const Batch& batch : buffers->batches()) {
+            if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
+            if (batch.material == Material::kSkin && looked_up) {
+                glDisable(GL_FRAMEBUFFER_SRGB);
+                skin_layer->use();
+                buffers->draw(batch);
+                glEnable(GL_FRAMEBUFFER_SRGB);
+            } else if (batch.material == Material::kSkin && !pose.values) {
+                materials->draw_skin(batch, *buffers);
+            } else {
+                materials->use(batch, pose, marks);
+                baked->own->bind(batch);
+                buffers->draw(batch);
+            }
+        }
+        materials->done();
+        buffers->bind();
+        shells->draw();
+        tears->draw();
+        hair->draw();
+        buffers->bind();
     }
 
     void draw_tile(const Tile& tile, const Mat4& clip_from_world, const Pose& pose,
@@ -283,27 +317,11 @@ struct OffscreenView::Impl {
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         }
         glEnable(GL_FRAMEBUFFER_SRGB);
-        for (const Batch& batch : buffers->batches()) {
-            if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
-            if (batch.material == Material::kSkin && looked_up) {
-                glDisable(GL_FRAMEBUFFER_SRGB);
-                skin_layer->use();
-                buffers->draw(batch);
-                glEnable(GL_FRAMEBUFFER_SRGB);
-            } else if (batch.material == Material::kSkin && !pose.values) {
-                materials->draw_skin(batch, *buffers);
-            } else {
-                materials->use(batch, pose, marks);
-                baked->own->bind(batch);
-                buffers->draw(batch);
-            }
+        if (bones) {
+            bones->draw(*buffers);
+        } else {
+            draw_surfaces(pose, looked_up);
         }
-        materials->done();
-        buffers->bind();
-        shells->draw();
-        tears->draw();
-        hair->draw();
-        buffers->bind();
         glDisable(GL_FRAMEBUFFER_SRGB);
         glFinish();  // which reading would wait for
         const double drawn_s = processor_s();
@@ -328,6 +346,7 @@ struct OffscreenView::Impl {
     GlContext context;
     std::unique_ptr<SceneBuffers> buffers;
     std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
+    std::unique_ptr<BoneLayer> bones;      ///< likewise
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<TearLayer> tears;
@@ -374,6 +393,7 @@ Image OffscreenView::draw(const Pose& pose) {
             view.baked->inside);
     if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
     if (view.muscles) view.muscles->upload(pose);
+    if (view.bones) view.bones->upload(pose);
     view.hair->upload(pose, view.marks);
     view.tears->upload(pose, view.marks);
 
@@ -401,6 +421,35 @@ Image OffscreenView::draw(const Pose& pose) {
     return image;
 }
 
+Image OffscreenView::skin_texture(const Scene& scene, int side_px) const {
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    bool laid_out = false;
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kSkin) continue;
+        laid_out = laid_out || surface.texcoords.rows() > 0;
+        for (long f = 0; f < surface.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k) {
+                const Vec3 p = scene.rest.row(surface.triangles(f, k)).transpose();
+                low = low.cwiseMin(p);
+                high = high.cwiseMax(p);
+            }
+    }
+    if (!laid_out) throw Error("skin", "texture coordinates", "none");
+    const GlContext::Current current(impl_->context);
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           impl_->baked->paint_map, 0);
+    const int map_side = paint_side(impl_->options.height_px / impl_->camera.frame_height_m);
+    std::vector<std::uint8_t> map(4 * static_cast<std::size_t>(map_side) *
+                                  static_cast<std::size_t>(map_side));
+    glReadPixels(0, 0, map_side, map_side, GL_RGBA, GL_UNSIGNED_BYTE, map.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    return unfold_paint(scene, paint_centre(scene, low, high), map, map_side, side_px);
+}
+
 Image OffscreenView::draw(const std::vector<Pose>& poses) {
     if (poses.empty()) throw Error("poses", "at least one", "none");
     if (poses.size() == 1) return draw(poses.front());
@@ -410,7 +459,8 @@ Image OffscreenView::draw(const std::vector<Pose>& poses) {
     const auto looks_as = [&](const Pose& a, const Pose& b) {
         return same(a.positions, b.positions) && a.eye_rotation == b.eye_rotation &&
                a.jaw_open == b.jaw_open && same(a.fold_depth, b.fold_depth) &&
-               same(a.muscle_positions, b.muscle_positions) && a.activations == b.activations &&
+               same(a.muscle_positions, b.muscle_positions) &&
+               same(a.bone_positions, b.bone_positions) && a.activations == b.activations &&
                !a.values && !b.values;
     };
     std::vector<Image> images;

@@ -26,13 +26,14 @@ struct Background {
 enum class Show {
     kSkin,     ///< the face as one sees it
     kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
+    kSkull,    ///< skull, mandible and teeth under skin as clear as glass
     // The skin, and what who draws puts onto it: values of a pose, or lines and marks over the picture
     kWire,       ///< the mesh's edges
     kStrain,     ///< principal strain of the skin
     kError,      ///< distance from where the skin is in another run
     kLandmarks,  ///< their places and names
 };
-/// "skin", "muscles", "wire", "strain", "error", "landmarks"
+/// "skin", "muscles", "skull", "wire", "strain", "error", "landmarks"
 const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the names for an unknown one.
 Show show_named(const std::string& name, const std::string& place);
@@ -51,7 +52,7 @@ struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
     std::string camera =
-        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors; see camera_names()
+        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors, "top", and close-ups; see camera_names()
     Show show = Show::kSkin;
     bool deep = false;  ///< pictures with 16 bits besides, without the scale of values
     Background background{};
@@ -84,6 +85,10 @@ class OffscreenView {
     Image draw(const Pose& pose);
     /// The mean in linear light of what several moments look like: a shutter that was open for all of them.
     Image draw(const std::vector<Pose>& poses);
+
+    /// The colours of the skin without light, on the texture coordinates of its surfaces: a square picture, sRGB. Lashes and brows,
+    /// which are strands, are not in it. `scene` is the view's. Throws Error for a skin without texture coordinates.
+    Image skin_texture(const Scene& scene, int side_px) const;
 
     /// Processor time of the process, s, from when the last picture was drawn until it was in memory.
     double read_back_s() const;

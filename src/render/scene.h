@@ -51,9 +51,11 @@ struct Look {
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
     Vec3 iris_tone{0.35, 0.50, 0.60};
-    double freckles = 0.15;        ///< 0..1
-    double scalp_hair = 0.6;       ///< 0..1, short hair painted above the hairline
-    double hair_length_mm = 0.0;   ///< of the scalp, standing off the skin; 0: cropped, as painted
+    double freckles = 0.15;       ///< 0..1
+    double scalp_hair = 0.6;      ///< 0..1, short hair painted above the hairline
+    double hairline_mm = 0.0;     ///< how much higher the hair of the forehead begins than its mark
+    double temples_mm = 0.0;      ///< how much farther it recedes at the temples than between
+    double hair_length_mm = 0.0;  ///< of the scalp, standing off the skin; 0: cropped, as painted
     double beard_length_mm = 0.0;  ///< likewise
     double beard = 0.0;            ///< 0..1, from none over a shadow to a few days' growth
     double age =
@@ -76,6 +78,13 @@ struct Muscles {
     std::vector<double> tendon;  ///< M, 0 flesh, 1 tendon
 };
 
+/// Skull and mandible, seen with Show::kSkull, over a vertex array of their own.
+struct Bones {
+    Points rest;               ///< B x 3, m, head frame
+    Triangles triangles;       ///< counter-clockwise from outside
+    std::vector<double> open;  ///< B, 0..1: how much of the surroundings is seen
+};
+
 struct Scene {
     Points rest;  ///< V x 3, m, head frame
     Points
@@ -89,6 +98,7 @@ struct Scene {
     Points
         fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown
+    Bones bones;      ///< likewise
 };
 
 /// Whether the skin's colour is a picture of the mesh's, which then shows brows, beard and the hair of the scalp too.
@@ -109,6 +119,7 @@ struct Pose {
     Points fold_depth;                ///< V x 3, m, of the wrinkles along fold_phase; no rows: none
     Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
     std::vector<double> activations;  ///< per muscle of the scene, ratio
+    Points bone_positions;            ///< B x 3, m; only read when bones are shown
     std::optional<SkinValues> values;  ///< of this frame; any view shows them
 };
 

@@ -81,6 +81,8 @@ void visit_fields(LookDescription& look, Visit visit) {
     visit("iris_tone", look.iris_tone);
     visit("freckles", look.freckles, Range{0, 1});
     visit("scalp_hair", look.scalp_hair, Range{0, 1});
+    visit("hairline_mm", look.hairline_mm, Range{-10, 40});
+    visit("temples_mm", look.temples_mm, Range{-10, 40});
     visit("hair_length_mm", look.hair_length_mm, Range{0, 15});
     visit("beard", look.beard, Range{0, 1});
     visit("beard_length_mm", look.beard_length_mm, Range{0, 15});

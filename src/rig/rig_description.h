@@ -99,6 +99,7 @@ struct LookDescription {
     Vec3 iris_tone{0.35, 0.50, 0.60};
     double freckles = 0.15;
     double scalp_hair = 0.6;
+    double hairline_mm = 0.0, temples_mm = 0.0;
     double hair_length_mm = 0.0;
     double beard = 0.0;
     double beard_length_mm = 0.0;

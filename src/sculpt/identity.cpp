@@ -62,6 +62,8 @@ void check_identity(const Identity& identity, const DesignTables& tables,
     check_range(place + "age", identity.age, kAgeRange);
     check_range(place + "freckles", identity.freckles, {0, 1});
     check_range(place + "scalp_hair", identity.scalp_hair, {0, 1});
+    check_range(place + "hairline", identity.hairline, kHairRange);
+    check_range(place + "temples", identity.temples, kHairRange);
     check_range(place + "beard", identity.beard, {0, 1});
     const auto names = shape_parameters(tables);
     for (const auto& [parameter, value] : identity.shape) {
@@ -76,7 +78,7 @@ void check_identity(const Identity& identity, const DesignTables& tables,
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.allow_keys({"format", "version", "name", "sex", "age", "shape", "skin", "iris", "hair",
-                     "freckles", "scalp_hair", "beard"});
+                     "freckles", "scalp_hair", "hairline", "temples", "beard"});
     json.at("format").one_of({"risorius-identity"});
     json.at("version").integer(1, 1);
     Identity identity;
@@ -88,6 +90,8 @@ Identity read_identity(const std::filesystem::path& file, const DesignTables& ta
     number("age", identity.age);
     number("freckles", identity.freckles);
     number("scalp_hair", identity.scalp_hair);
+    number("hairline", identity.hairline);
+    number("temples", identity.temples);
     number("beard", identity.beard);
     if (const auto shape = json.find("shape"))
         for (const std::string& key : shape->keys()) identity.shape[key] = shape->at(key).number();
@@ -115,6 +119,8 @@ Json identity_json(const Identity& identity) {
     json["hair"] = identity.hair;
     json["freckles"] = identity.freckles;
     json["scalp_hair"] = identity.scalp_hair;
+    json["hairline"] = identity.hairline;
+    json["temples"] = identity.temples;
     json["beard"] = identity.beard;
     return json;
 }
@@ -151,6 +157,12 @@ Identity random_identity(unsigned seed, const DesignTables& tables) {
         light ? draw.one_of({"black", "blond", "brown", "red"}) : draw.one_of({"black", "brown"});
     identity.freckles = to_hundredths(light ? 0.5 * draw.even() * draw.even() : 0.05);
     identity.beard = identity.sex > 0 ? to_hundredths(0.6 * draw.even()) : 0;
+    // Men lose hair with the years, some much and most little.
+    identity.hairline = to_hundredths(3 * draw.normal());
+    const double lost =
+        identity.sex > 0 ? (identity.age - 20) / 55 * draw.even() : 0.1 * draw.even();
+    identity.hairline = to_hundredths(std::clamp(identity.hairline + 15 * lost, -8.0, 25.0));
+    identity.temples = to_hundredths(25 * lost);
     return identity;
 }
 

@@ -14,7 +14,7 @@
 
 namespace risorius::sculpt {
 
-inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2};
+inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, kHairRange{-10, 40};
 
 struct Identity {
     std::string name = "adult";
@@ -24,6 +24,8 @@ struct Identity {
     std::string skin = "fair", iris = "blue", hair = "brown";  ///< names of the tones table
     double freckles = 0.15;                                    ///< 0..1, as the others below
     double scalp_hair = 0.6;
+    double hairline = 0;  ///< mm: how much higher than on the average forehead hair begins
+    double temples = 0;   ///< mm: how much farther it recedes at the temples
     double beard = 0;
 };
 

@@ -14,7 +14,8 @@ struct FacePose {
     std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
     Points fold_depth;  ///< V x 3 or no rows, m: of wrinkles finer than the mesh, see skin_layer.h
     Rigid head = Rigid::Identity();
-    double jaw_open = 0;  ///< opening / that of the channel jaw_open at 1
+    double jaw_open = 0;                 ///< opening / that of the channel jaw_open at 1
+    Rigid mandible = Rigid::Identity();  ///< from rest, before the head's turn
     JawPlace jaw;
     double tooth_force_n = 0;  ///< what all teeth press with; known when muscles move the jaw
 };

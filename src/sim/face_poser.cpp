@@ -114,6 +114,7 @@ Points FacePoser::pull_back(const FaceMoment& moment, const Points& slope) const
 FacePose FacePoser::pose(const FaceMoment& moment, Folds folds, Points* pulled) const {
     const track::Drive& drive = moment.drive;
     FacePose out;
+    out.mandible = moment.mandible;
     out.jaw = joint_.place(moment.mandible);
     out.jaw_open = drive.at(track::Kinematic::kJawOpen);
     const std::array<Mat3, 2> turned = gaze(drive);
@@ -140,6 +141,7 @@ FacePose FacePoser::pose(const FaceMoment& moment, Folds folds, Points* pulled) 
 FacePose FacePoser::posed(Points vertices, const track::Drive& drive, const Rigid& mandible) const {
     FacePose out;
     const std::array<Mat3, 2> turned = gaze(drive);
+    out.mandible = mandible;
     out.jaw = joint_.place(mandible);
     out.jaw_open = drive.at(track::Kinematic::kJawOpen);
     out.head = head_motion(head_, drive);

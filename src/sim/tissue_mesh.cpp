@@ -15,20 +15,6 @@ constexpr double kLeastVolume = 0.12;  // of a tet's nominal volume
 constexpr int kRepairRounds = 60;
 constexpr double kThinnest_mm = 0.8;
 
-// Inverse-distance interpolation (power 4) of the measured soft-tissue thickness.
-double interpolate_thickness(const rig::Head& head,
-                             const std::vector<rig::ThicknessSample>& samples, const Vec3& p) {
-    double sum = 0, weights = 0;
-    for (const rig::ThicknessSample& sample : samples) {
-        const Vec3 at = head.landmark(sample.landmark) + head.size * sample.offset;
-        const double squared = (p - at).squaredNorm() + 1e-10;
-        const double w = 1.0 / (squared * squared);
-        sum += w * sample.thickness_m * head.size;
-        weights += w;
-    }
-    return sum / weights;
-}
-
 // Three tetrahedra per prism, with diagonals from the vertex of least rank so that neighbours agree, and mirror images too.
 void cut_prism(const std::array<int, 3>& base, const std::vector<int>& rank, Layer bottom,
                Layer top, std::vector<std::array<int, 4>>& out) {
@@ -51,6 +37,19 @@ void cut_prism(const std::array<int, 3>& base, const std::vector<int>& rank, Lay
 }
 
 }  // namespace
+
+double interpolate_thickness(const rig::Head& head,
+                             const std::vector<rig::ThicknessSample>& samples, const Vec3& p) {
+    double sum = 0, weights = 0;
+    for (const rig::ThicknessSample& sample : samples) {
+        const Vec3 at = head.landmark(sample.landmark) + head.size * sample.offset;
+        const double squared = (p - at).squaredNorm() + 1e-10;
+        const double w = 1.0 / (squared * squared);
+        sum += w * sample.thickness_m * head.size;
+        weights += w;
+    }
+    return sum / weights;
+}
 
 TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
                              const Shell& shell, const std::array<EyeLids, 2>& lids) {

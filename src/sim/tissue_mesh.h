@@ -31,6 +31,10 @@ struct TissueMesh {
     int dropped_tets = 0;             ///< too thin to be used
 };
 
+/// Of the tissue over bone under a place of the skin, m: the rig's samples, weighted by the inverse fourth power of their distance.
+double interpolate_thickness(const rig::Head& head,
+                             const std::vector<rig::ThicknessSample>& samples, const Vec3& p);
+
 TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
                              const Shell& shell, const std::array<EyeLids, 2>& lids);
 

@@ -53,10 +53,10 @@ ScriptView read_view(const JsonCursor& json) {
     if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
     if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
     if (const auto v = json.find("camera"))
-        view.camera = v->one_of(
-            {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"});
+        view.camera = v->one_of({"front", "three_quarter", "three_quarter_right", "profile",
+                                 "profile_right", "top", "eye", "nose", "mouth", "ear"});
     if (const auto v = json.find("show"))
-        view.show = v->one_of({"skin", "muscles", "wire", "strain", "landmarks"});
+        view.show = v->one_of({"skin", "muscles", "skull", "wire", "strain", "landmarks"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);

@@ -172,13 +172,34 @@ TEST_F(MeasuredHeadTest, ShowsItsMouthDarkWhenTheJawOpens) {
 }
 
 TEST_F(MeasuredHeadTest, FillsThePictureFromCrownToChin) {
-    for (const std::string& camera : camera_names()) {
+    for (const char* camera :
+         {"front", "three_quarter", "three_quarter_right", "profile", "profile_right"}) {
         OffscreenView view(head_.scene, {.width_px = 512, .height_px = 512, .camera = camera});
         const double height = view.project(head_.scene.landmarks.at("me")).y() -
                               view.project(head_.scene.landmarks.at("v")).y();
         EXPECT_GT(height, 0.6 * 512) << camera;
         EXPECT_LT(height, 0.9 * 512) << camera;
     }
+}
+
+TEST_F(MeasuredHeadTest, CloseUpsAndTheViewFromAboveShowWhatTheyAreNamedAfter) {
+    const auto shown = [&](const char* camera, const char* landmark) {
+        const OffscreenView view(head_.scene, {.width_px = 64, .height_px = 64, .camera = camera});
+        return view.project(head_.scene.landmarks.at(landmark));
+    };
+    for (const auto& [camera, landmarks] : {std::pair("eye", std::array{"en_l", "ex_l"}),
+                                            {"nose", std::array{"prn", "sn"}},
+                                            {"mouth", std::array{"sto", "sto"}},
+                                            {"ear", std::array{"sa_l", "sba_l"}}}) {
+        const Vec2 middle = (shown(camera, landmarks[0]) + shown(camera, landmarks[1])) / 2;
+        EXPECT_LT((middle - Vec2(32, 32)).norm(), 2) << camera;
+    }
+    const double wide = (shown("eye", "en_l") - shown("eye", "ex_l")).norm();
+    EXPECT_GT(wide, 0.35 * 64);
+    EXPECT_LT(wide, 0.75 * 64);
+    // From above the nose points down in the picture, and left is on the right
+    EXPECT_GT(shown("top", "prn").y(), shown("top", "op").y() + 30);
+    EXPECT_GT(shown("top", "t_l").x(), shown("top", "t_r").x() + 20);
 }
 
 }  // namespace

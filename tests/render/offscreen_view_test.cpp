@@ -326,7 +326,7 @@ TEST(OffscreenView, WrongOptionsAreNamed) {
     EXPECT_EQ(message({.camera = "side"}),
               "camera: expected one of \"front\", \"three_quarter\", \"three_quarter_right\", "
               "\"profile\", "
-              "\"profile_right\", found \"side\"");
+              "\"profile_right\", \"top\", \"eye\", \"nose\", \"mouth\", \"ear\", found \"side\"");
 }
 
 TEST(OffscreenView, ASceneThatCannotBeDrawnIsNamed) {

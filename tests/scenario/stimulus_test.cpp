@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "app/animate.h"
@@ -15,6 +17,7 @@
 #include "media/luminance.h"
 #include "media/sync_marks.h"
 #include "media/video_reader.h"
+#include "message_of.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -262,6 +265,44 @@ TEST(Comparison, SheetHasTheTimesInTheirColumnsWhateverTheirOrder) {
     };
     EXPECT_EQ(column(0), column(2));
     EXPECT_NE(column(0), column(1));
+}
+
+TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
+    const Folder folder;
+    app::SheetOptions options;
+    options.scripts = {smile_of(folder, "smile.json", 0.9)};
+    options.times_s = {0};
+    options.cameras = {"front", "top", "mouth"};
+    Image red(20, 40);
+    for (int i = 0; i < 20 * 40; ++i)
+        std::copy_n(std::array<std::uint8_t, 4>{200, 10, 10, 255}.data(), 4, &red.rgba[4 * i]);
+    media::write_png(red, folder / "red.png");
+    options.beside = {folder / "red.png"};
+    options.out = folder / "sheet.png";
+    options.view.quality = "preview";
+    options.view.size = app::PictureSize{64, 64};
+    const Json record = app::make_sheet(options);
+    ASSERT_EQ(record["runs"].size(), 3u);
+    EXPECT_EQ(record["runs"][1]["camera"], "top");
+    const Image sheet = media::read_png(options.out);
+    std::set<std::string> pictures;
+    int top = 0, reds = 0;
+    while (sheet.pixel(24, top)[1] == 255 || sheet.pixel(60, top)[1] == 255) ++top;
+    for (int c = 0; c < 3; ++c) {
+        std::string bytes;
+        for (int y = 0; y < 64; ++y)
+            bytes.append(reinterpret_cast<const char*>(sheet.pixel(24 + 67 * c, top + y)), 4 * 64);
+        pictures.insert(bytes);
+    }
+    EXPECT_EQ(pictures.size(), 3u);
+    for (int y = 0; y < sheet.height_px; ++y)
+        for (int x = 0; x < sheet.width_px; ++x)
+            reds += sheet.pixel(x, y)[0] == 200 && sheet.pixel(x, y)[1] == 10;
+    EXPECT_EQ(reds, 20 * 40);
+    options.cameras = {"below"};
+    EXPECT_NE(
+        risorius::message_of([&] { app::make_sheet(options); }).find("--cameras: expected one of"),
+        std::string::npos);
 }
 
 TEST(StimulusOptions, OfNoUseTogetherAreRefusedWithTheirPlace) {

@@ -197,6 +197,27 @@ TEST(Identity, DrawnOnesArePeopleAndDifferFromEachOther) {
     EXPECT_EQ(drawn.size(), 3u);
 }
 
+TEST(Identity, MenLoseHairWithTheYearsAndWomenHardly) {
+    double old_men = 0, young_men = 0, women = 0;
+    int olds = 0, youngs = 0, others = 0;
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        const Identity one = random_identity(seed, tables());
+        if (one.sex <= 0) {
+            women += one.temples;
+            ++others;
+        } else if (one.age > 55) {
+            old_men += one.temples;
+            ++olds;
+        } else if (one.age < 35) {
+            young_men += one.temples;
+            ++youngs;
+        }
+    }
+    ASSERT_GT(std::min({olds, youngs, others}), 10);
+    EXPECT_GT(old_men / olds, 3 * young_men / youngs);
+    EXPECT_LT(women / others, 2);
+}
+
 TEST(Identity, ExtremesOfEveryParameterStayWholeAndSymmetric) {
     // All at once at their ends: the map still folds nothing, though nobody looks like it.
     for (const double end : {-2.0, 2.0}) {

@@ -60,7 +60,7 @@ void add_compare(CLI::App& app) {
     command->add_option("--rig", arguments->rigs,
                         "Another rig than the script's; given twice: left, right");
     command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
-    command->add_option("--show", options.show, "skin, muscles, wire, strain or landmarks");
+    command->add_option("--show", options.show, "skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_common(*command, arguments->common);

@@ -75,8 +75,13 @@ void add_head(CLI::App& app) {
     command->add_option("--skin", choice.skin, "Tone of the skin, by name");
     command->add_option("--iris", choice.iris, "Colour of the eyes, by name");
     command->add_option("--hair", choice.hair, "Colour of brows and hair, by name");
-    command->add_flag("--mesh-only", arguments->options.mesh_only,
-                      "Mesh and landmarks alone, without rig and pictures");
+    command
+        ->add_option("--texture", arguments->options.texture_px,
+                     "Write the colours of the skin on its texture coordinates too, so many pixels "
+                     "wide and high (256 to 4096): skin.png, for other programs")
+        ->check(CLI::Range(256, 4096))
+        ->excludes(command->add_flag("--mesh-only", arguments->options.mesh_only,
+                                     "Mesh and landmarks alone, without rig and pictures"));
     command->add_flag(
         "--calibrate", arguments->options.calibrate,
         "Make each muscle as strong as it has to be on this head, which takes minutes; "

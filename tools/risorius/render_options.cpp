@@ -65,9 +65,9 @@ void add_coding(CLI::App& command, app::AnimateOptions& options) {
 void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size) {
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command.add_option("--size", size, "Another size of the picture, as 1024x1024");
-    command.add_option(
-        "--camera", options.camera,
-        "Another view: front, three_quarter, three_quarter_right, profile, profile_right");
+    command.add_option("--camera", options.camera,
+                       "Another view: front, three_quarter, three_quarter_right, profile, "
+                       "profile_right, top; close-ups eye, nose, mouth, ear");
     command.add_option("--quality", options.quality,
                        "How carefully to simulate: draft, preview, video (when not given) or fine");
     command

@@ -48,7 +48,19 @@ void add_sheet(CLI::App& app) {
         ->required();
     command->add_option("--rig", options.rigs,
                         "Another rig than the scripts'; given several times: a row each");
-    command->add_option("--show", options.view.show, "skin, muscles, wire, strain or landmarks");
+    command
+        ->add_option("--cameras", options.cameras,
+                     "Views, with commas, a column each: front, three_quarter, profile, top, eye, "
+                     "nose, mouth, ear ...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        ->add_option("--beside", options.beside,
+                     "Pictures (.png) to compare with, with commas, in a row of their own")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command->add_option("--show", options.view.show,
+                        "skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options.view, arguments->size);
     command->get_option("--size")->description("Of one picture")->capture_default_str();
     add_common(*command, arguments->common);

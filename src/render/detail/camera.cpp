@@ -1,6 +1,7 @@
 #include "render/detail/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -11,17 +12,27 @@
 namespace risorius::render {
 namespace {
 
-struct NamedDirection {
+struct NamedCamera {
     const char* name;
-    double azimuth_deg;
+    double azimuth_deg, elevation_deg = 0;
+    /// A close-up: what lies in its middle, and its height on a head that is kHeadHeight_mm high; else the whole head.
+    std::array<const char*, 2> middle{};
+    double height_mm = 0;
 };
 
-// Positive azimuth looks at the subject's left side.
-constexpr NamedDirection kDirections[] = {{"front", 0},
-                                          {"three_quarter", 38},
-                                          {"three_quarter_right", -38},
-                                          {"profile", 90},
-                                          {"profile_right", -90}};
+constexpr double kHeadHeight_mm = 227.5;  // from chin to crown, of the standard head
+
+// Positive azimuth looks at the subject's left side, positive elevation down on it.
+constexpr NamedCamera kCameras[] = {{"front", 0},
+                                    {"three_quarter", 38},
+                                    {"three_quarter_right", -38},
+                                    {"profile", 90},
+                                    {"profile_right", -90},
+                                    {"top", 0, 90},
+                                    {"eye", 14, 0, {"en_l", "ex_l"}, 62},
+                                    {"nose", 30, -12, {"prn", "sn"}, 80},
+                                    {"mouth", 16, 0, {"sto", "sto"}, 74},
+                                    {"ear", 82, 0, {"sa_l", "sba_l"}, 96}};
 
 // Shares of the height from chin to crown.
 constexpr double kMarginAbove = 0.10;
@@ -32,12 +43,12 @@ constexpr double kMarginBeside = 0.10;
 constexpr double kDistancePerHeight = 4.0;
 constexpr double kNearestDistance_m = 1.0;
 
-double direction_deg(const std::string& name) {
+const NamedCamera& camera_named(const std::string& name) {
     std::string known;
-    for (const NamedDirection& direction : kDirections) {
-        if (direction.name == name) return direction.azimuth_deg;
+    for (const NamedCamera& camera : kCameras) {
+        if (camera.name == name) return camera;
         if (!known.empty()) known += ", ";
-        known.append("\"").append(direction.name).append("\"");
+        known.append("\"").append(camera.name).append("\"");
     }
     throw Error("camera", "one of " + known, "\"" + name + "\"");
 }
@@ -61,7 +72,7 @@ void check_lens(const Lens& lens) {
 const std::vector<std::string>& camera_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (const NamedDirection& direction : kDirections) list.emplace_back(direction.name);
+        for (const NamedCamera& camera : kCameras) list.emplace_back(camera.name);
         return list;
     }();
     return names;
@@ -71,7 +82,10 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
                    const Vec3& skin_min, const Vec3& skin_max, double aspect, const Lens& lens) {
     check_lens(lens);
     Camera camera;
-    camera.azimuth_rad = direction_deg(name) * std::numbers::pi / 180.0;
+    const NamedCamera& named = camera_named(name);
+    constexpr double kDegree = std::numbers::pi / 180;
+    camera.azimuth_rad = kDegree * named.azimuth_deg;
+    const double elevation_rad = kDegree * named.elevation_deg;
 
     // What must be seen: height from the landmarks, width and depth from the skin above the chin.
     const auto crown = landmarks.find("v");
@@ -102,7 +116,15 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
     camera.frame_height_m =
         std::max(frame_top - frame_bottom, 2 * half_width * (1 + kMarginBeside) / aspect);
 
-    // Perspective along the horizontal
+    camera.portrait_height_m = camera.frame_height_m;
+    if (named.elevation_deg > 80)  // a head is as deep as its front is high, nearly
+        target.y() = (top + bottom) / 2;
+    if (named.height_mm > 0 && marked && landmarks.contains(named.middle[0]) &&
+        landmarks.contains(named.middle[1])) {
+        target = (landmarks.at(named.middle[0]) + landmarks.at(named.middle[1])) / 2;
+        camera.frame_height_m = named.height_mm / kHeadHeight_mm * height / std::min(aspect, 1.0);
+    }
+
     double distance = std::max(kNearestDistance_m, kDistancePerHeight * camera.frame_height_m);
     const double half_angle = lens.view_angle_deg.value_or(0) * std::numbers::pi / 360;
     if (lens.distance_m) distance = *lens.distance_m;
@@ -110,13 +132,16 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
         camera.frame_height_m = 2 * distance * std::tan(half_angle);
     else if (lens.view_angle_deg)
         distance = camera.frame_height_m / 2 / std::tan(half_angle);
-    const Vec3 backward(std::sin(camera.azimuth_rad), 0.0, std::cos(camera.azimuth_rad));
+    const Vec3 backward(std::cos(elevation_rad) * std::sin(camera.azimuth_rad),
+                        std::sin(elevation_rad),
+                        std::cos(elevation_rad) * std::cos(camera.azimuth_rad));
+    camera.up = backward.cross(right);
     camera.position = target + distance * backward;
     camera.backward = backward;
     camera.orthographic = lens.orthographic;
     Mat4 view = Mat4::Identity();
     view.block<1, 3>(0, 0) = right.transpose();
-    view.block<1, 3>(1, 0) = Vec3::UnitY().transpose();
+    view.block<1, 3>(1, 0) = camera.up.transpose();
     view.block<1, 3>(2, 0) = backward.transpose();
     view.block<3, 1>(0, 3) = -view.block<3, 3>(0, 0) * camera.position;
 
@@ -155,7 +180,7 @@ std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, V
         }
     if (marks > 0) focus /= marks;
     const double distance = std::max((camera.position - focus).dot(camera.backward), 0.05);
-    const Vec3 up = Vec3::UnitY(), right = up.cross(camera.backward);
+    const Vec3 up = camera.up, right = up.cross(camera.backward);
     std::vector<Mat4> views;
     for (int i = 0; i < kViews; ++i) {
         // Vogel's spiral fills the disc evenly.

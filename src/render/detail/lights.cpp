@@ -37,7 +37,7 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
         put(frame_.irradiance[i], irradiance[i].cwiseProduct(exposure));
     mirror_ = mirror_texture(plan.surroundings, exposure);
 
-    const double reach = kShadowReachPerFrame * camera.frame_height_m;
+    const double reach = kShadowReachPerFrame * camera.portrait_height_m;
     const Vec3 across =
         (std::abs(key.y()) > 0.999 ? Vec3::UnitX() : Vec3::UnitY().cross(key)).normalized();
     const Vec3 up = key.cross(across);

@@ -65,6 +65,10 @@ std::string values_vertex_shader();
 std::string values_shader();  ///< of the skin when it shows a quantity
 std::string muscle_vertex_shader();
 std::string muscle_shader();
+std::string bone_vertex_shader();
+std::string bone_shader();  ///< of bone and teeth under skin of glass
+std::string glass_vertex_shader();
+std::string glass_shader();  ///< of that skin
 // With `own` their colour is of the mesh's own picture.
 std::string eye_shader(bool own);
 std::string cornea_shader();

@@ -120,7 +120,7 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
 }
 
 /// Hair grows beyond a closed line on the map: over the forehead through the marks, in front of the ears, to the nape.
-void plan_hairline(const Marks& marks, const Vec3& centre, SkinPlan& plan) {
+void plan_hairline(const Marks& marks, const Vec3& centre, const Look& look, SkinPlan& plan) {
     plan.hairline.fill(2.0);
     const std::vector<Vec3> front = marks.all({"tr", "fht_l", "fht_r", "t_l", "t_r"});
     if (front.empty()) return;
@@ -132,14 +132,18 @@ void plan_hairline(const Marks& marks, const Vec3& centre, SkinPlan& plan) {
         const Vec2 d = paint_place(p, centre) - Vec2(0.5, 0.5);
         knots.push_back({std::atan2(d.x(), d.y()), d.norm()});
     };
-    const Vec3 &crown = front[0], &temple_l = front[1], &temple_r = front[2];
+    // Higher up the forehead is backwards too; the map only sees the direction from the middle of the head.
+    const Vec3 higher = 1e-3 * look.hairline_mm * Vec3(0, 0.75, -0.65),
+               bay = higher + 1e-3 * look.temples_mm * Vec3(0, 0.7, -0.7),
+               side_bay = 0.4 * higher + 1e-3 * look.temples_mm * Vec3(0, 0.3, -0.6);
+    const Vec3 crown = front[0] + higher, &temple_l = front[1], &temple_r = front[2];
     for (const int side : {0, 1}) {
         const double s = side == 0 ? 1 : -1;
         const Vec3& temple = side == 0 ? temple_l : temple_r;
         const Vec3& tragion = side == 0 ? front[3] : front[4];
         // The bay of the temple, its point, the front edge of the sideburn, its foot, behind the ear, the nape
-        add(crown + 0.55 * (temple - crown) + Vec3(0, 0.012, -0.004));
-        add(temple + Vec3(0, 0, -0.004));
+        add(front[0] + 0.55 * (temple - front[0]) + Vec3(0, 0.012, -0.004) + bay);
+        add(temple + Vec3(0, 0, -0.004) + side_bay);
         add(tragion + Vec3(0, 0.034, 0.026));
         add(tragion + Vec3(0, 0.004, 0.014));
         add(tragion + Vec3(-s * 0.008, -0.030, -0.034));
@@ -222,7 +226,7 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
     plan.zones = plan_zones(marks);
     plan_lips(marks, plan);
     plan_beard(marks, plan);
-    plan_hairline(marks, paint_centre, plan);
+    plan_hairline(marks, paint_centre, scene.look, plan);
     for (const std::size_t side : {0U, 1U}) {
         const std::string s = side == 0 ? "_l" : "_r";
         const std::vector<Vec3> ear = marks.all({"sa" + s, "sba" + s, "t" + s});

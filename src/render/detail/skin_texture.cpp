@@ -1,0 +1,121 @@
+#include "render/detail/skin_texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "render/detail/skin_paint.h"
+
+namespace risorius::render {
+namespace {
+
+std::uint8_t srgb_byte(double linear) {
+    const double s =
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0)));
+}
+
+/// The back of the head is the rim of the map, whose triangles about its very middle the paint leaves out.
+Vec2 within_rim(const Vec2& place) {
+    constexpr double kRim = 0.495;
+    const Vec2 off = place - Vec2(0.5, 0.5);
+    return Vec2(0.5, 0.5) + off * std::min(1.0, kRim / std::max(off.norm(), 1e-9));
+}
+
+/// Square roots of linear light between four texels of the map.
+Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
+    const double x = std::clamp(place.x() * side - 0.5, 0.0, side - 1.001),
+                 y = std::clamp(place.y() * side - 0.5, 0.0, side - 1.001);
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const double u = x - x0, v = y - y0;
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [dx, dy, share] : {std::tuple{0, 0, (1 - u) * (1 - v)},
+                                        {1, 0, u * (1 - v)},
+                                        {0, 1, (1 - u) * v},
+                                        {1, 1, u * v}}) {
+        const std::uint8_t* texel =
+            &map[4 * (static_cast<std::size_t>(y0 + dy) * static_cast<std::size_t>(side) +
+                      static_cast<std::size_t>(x0 + dx))];
+        sum += share * Vec3(texel[0], texel[1], texel[2]) / 255;
+    }
+    return sum;
+}
+
+/// Colours grow over the border of what is covered, so that filtering finds no seam.
+void grow(Image& image, std::vector<char>& covered) {
+    constexpr int kPixels = 6;
+    const int side = image.width_px;
+    for (int step = 0; step < kPixels; ++step) {
+        const std::vector<char> before = covered;
+        const auto at = [&](int x, int y) {
+            return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+                   static_cast<std::size_t>(x);
+        };
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                if (before[at(x, y)]) continue;
+                for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+                    const int nx = x + dx, ny = y + dy;
+                    if (nx < 0 || ny < 0 || nx >= side || ny >= side || !before[at(nx, ny)])
+                        continue;
+                    std::copy_n(image.pixel(nx, ny), 4, image.pixel(x, y));
+                    covered[at(x, y)] = 1;
+                    break;
+                }
+            }
+    }
+}
+
+}  // namespace
+
+Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std::uint8_t>& map,
+                   int map_side, int side_px) {
+    Image image(side_px, side_px);
+    std::vector<char> covered(static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px),
+                              0);
+    const Vec3 tone = 255 * scene.look.skin_tone;
+    for (int y = 0; y < side_px; ++y)
+        for (int x = 0; x < side_px; ++x) {
+            for (int k = 0; k < 3; ++k)
+                image.pixel(x, y)[k] = static_cast<std::uint8_t>(std::lround(tone[k]));
+            image.pixel(x, y)[3] = 255;
+        }
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kSkin || surface.texcoords.rows() == 0) continue;
+        for (long f = 0; f < surface.triangles.rows(); ++f) {
+            std::array<Vec2, 3> at;
+            std::array<Vec3, 3> rest;
+            for (int k = 0; k < 3; ++k) {
+                const Vec2 t = surface.texcoords.row(3 * f + k).transpose();
+                at[static_cast<std::size_t>(k)] = Vec2(t.x() * side_px, (1 - t.y()) * side_px);
+                rest[static_cast<std::size_t>(k)] =
+                    scene.rest.row(surface.triangles(f, k)).transpose();
+            }
+            const Vec2 a = at[1] - at[0], b = at[2] - at[0];
+            const double area = a.x() * b.y() - a.y() * b.x();
+            if (std::abs(area) < 1e-9) continue;
+            const Vec2 low = at[0].cwiseMin(at[1]).cwiseMin(at[2]),
+                       high = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
+            const auto pixel = [&](double place) {
+                return std::clamp(static_cast<int>(std::floor(place)), 0, side_px - 1);
+            };
+            for (int y = pixel(low.y()); y <= pixel(high.y()); ++y)
+                for (int x = pixel(low.x()); x <= pixel(high.x()); ++x) {
+                    const Vec2 d = Vec2(x + 0.5, y + 0.5) - at[0];
+                    const double u = (d.x() * b.y() - d.y() * b.x()) / area,
+                                 v = (a.x() * d.y() - a.y() * d.x()) / area;
+                    if (u < 0 || v < 0 || u + v > 1) continue;
+                    const Vec3 p = (1 - u - v) * rest[0] + u * rest[1] + v * rest[2];
+                    const Vec3 root = sample(map, map_side, within_rim(paint_place(p, centre)));
+                    for (int k = 0; k < 3; ++k) image.pixel(x, y)[k] = srgb_byte(root[k] * root[k]);
+                    covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(side_px) +
+                            static_cast<std::size_t>(x)] = 1;
+                }
+        }
+    }
+    grow(image, covered);
+    return image;
+}
+
+}  // namespace risorius::render

@@ -1,0 +1,17 @@
+// The painted skin laid out on texture coordinates, for programs that know nothing of its map.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "render/scene.h"
+
+namespace risorius::render {
+
+/// `map`: side x side x 4 bytes of paint_skin(), rows from below. What no skin covers has the colour of the nearest skin within
+/// some pixels of it, or the scene's tone.
+Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std::uint8_t>& map,
+                   int map_side, int side_px);
+
+}  // namespace risorius::render
