@@ -66,7 +66,7 @@ Json correctives_json(const Correctives& found, const std::vector<MadeShape>& al
             drivers.push_back(all[static_cast<std::size_t>(driver)].goal.name);
         kept.push_back({{"name", one.name},
                         {"drivers", drivers},
-                        {"weight", one.drivers.size() == 1 ? "4 w (1 - w)" : "product"},
+                        {"weight", weight_rule(one)},
                         {"vertices", one.shape.vertex.size()}});
     }
     for (const TriedCorrective& one : found.tried)

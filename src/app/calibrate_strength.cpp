@@ -45,7 +45,7 @@ std::vector<MuscleStrength> calibrate_strength(sim::Face& face, const rig::RigDe
             const double strength = std::exp(log_strength);
             face.scale_muscle(muscle.muscle, strength / muscle.strength);
             muscle.strength = strength;
-            muscle.converged = face.settle(activation, rest, kIterations).converged;
+            muscle.converged = face.settle(activation, rest, {.iterations = kIterations}).converged;
             muscle.stretch = face.mean_stretch(muscle.muscle);
             const double miss = muscle.stretch - muscle.target_stretch;
             if (std::abs(miss) < kTolerance) break;

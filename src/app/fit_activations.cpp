@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/watch.h"
 #include "solve/box_quadratic.h"
 
 namespace risorius::app {
@@ -110,7 +111,8 @@ track::Drive fit_activations(sim::Face& face, const std::vector<ActivationUnknow
     const auto settled_miss = [&](const Eigen::VectorXd& at) {
         for (long i = 0; i < count; ++i)
             set_value(unknowns[static_cast<std::size_t>(i)], at[i], drive);
-        face.settle(drive.excitation, drive);
+        face.settle(drive.excitation, drive, options.rest);
+        if (options.rest.stopped && options.rest.stopped()) throw Interrupted();
         return Eigen::VectorXd(weighted(face.pose().vertices - rest) - goal);
     };
     const auto cost = [&](const Eigen::VectorXd& miss, const Eigen::VectorXd& at) {

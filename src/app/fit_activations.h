@@ -25,6 +25,8 @@ struct ActivationFitOptions {
     double size = 0;            ///< in place of |g|_w^2, m^4; 0: that itself
     double keep = 0;            ///< what being off `near` costs: keep/2 sum (a_i - near_i)^2
     Eigen::VectorXd near = {};  ///< as many as unknowns, needed with keep
+    sim::StaticOptions rest = {.iterations =
+                                   sim::kRestIterations};  ///< of every pose that is tried
 };
 
 /// Unknowns of the search: what moves together, and how far it goes.

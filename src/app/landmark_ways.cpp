@@ -26,7 +26,7 @@ track::Drive LandmarkWays::drive(const std::string& expression) const {
 
 Points LandmarkWays::settle(const track::Drive& drive, int iterations) {
     face_.start([&](double) { return at_rest_; });
-    came_to_rest_ = face_.settle(drive.excitation, drive, iterations).converged;
+    came_to_rest_ = face_.settle(drive.excitation, drive, {.iterations = iterations}).converged;
     const Points vertices = face_.pose().vertices;
     Points out(static_cast<long>(ids_.size()), 3);
     for (std::size_t i = 0; i < ids_.size(); ++i)

@@ -189,8 +189,8 @@ class Maker {
                 drives.push_back(plan.drives[i]);
             }
         if (leaning.empty()) return;
-        std::vector<SolvedPose> again =
-            solver_.solve(drives, {.progress = {}, .stopped = watch.stopped}, kUprightSteps);
+        std::vector<SolvedPose> again = solver_.solve(
+            drives, {.progress = {}, .stopped = watch.stopped}, {.steps = kUprightSteps});
         for (std::size_t k = 0; k < leaning.size(); ++k)
             if (again[k].figures.converged && lean(again[k]) < lean(poses[leaning[k]]))
                 poses[leaning[k]] = std::move(again[k]);

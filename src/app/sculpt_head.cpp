@@ -125,6 +125,9 @@ sculpt::Identity chosen_identity(const IdentityChoice& choice) {
 }
 
 SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
+    if (options.mesh_only && fs::exists(options.out / kRigFile))
+        throw Error("--mesh-only", "a folder without a rig, which it would take away",
+                    quoted((options.out / kRigFile).generic_string()));
     // Shape it, and prove that there are people like this
     watch.tell(0, "sculpting");
     const sculpt::DesignTables tables = design_tables();

@@ -14,6 +14,11 @@ namespace {
 constexpr double kSharedStrip_mm = 15;  // of the middle of the face, as of halves
 constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves by more is shared
 
+constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
+
+// Mean squares of the weights of correctives, 4 w (1 - w) and w_a w_b, where those of shapes are anything from 0 to 1.
+constexpr double kSquareOfHalf = 8.0 / 15.0, kSquareOfProduct = 1.0 / 9.0;
+
 /// What is tried together: a shape, or both its halves.
 struct Unit {
     std::string name;
@@ -91,17 +96,23 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
 /// A corrective with what it is good for.
 struct Found {
     shapes::Corrective corrective;
-    double use = 0;  ///< squares it removes, m^4
+    double use = 0;  ///< squares it removes on average, m^4
     long bytes = 0;
     std::size_t tried;
 };
 
-// Positions, normals and an index each.
+// A position of 16-bit numbers and a normal of floats with an index each; every other normal turns too little to be written.
 long bytes_of(const shapes::SparseShape& shape) {
-    return static_cast<long>(shape.vertex.size()) * 28;
+    return static_cast<long>(shape.vertex.size()) * 15;
 }
 
 }  // namespace
+
+std::string weight_rule(const shapes::Corrective& corrective) {
+    if (corrective.drivers.size() > 1) return "product";
+    return corrective.fades_with.empty() ? "4 w (1 - w)"
+                                         : "4 w (1 - w) product of (1 - fades_with)";
+}
 
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
@@ -118,7 +129,19 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         drives.push_back(one.a == one.b
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
+
+    // Which others move skin that this one moves
+    std::vector<Eigen::VectorXd> moved;
+    for (const Unit& unit : units) moved.push_back(unit.field.rowwise().norm());
+    const auto sharing = [&](std::size_t unit) {
+        std::vector<std::size_t> others;
+        for (std::size_t other = 0; other < units.size(); ++other)
+            if (other != unit &&
+                area.dot(moved[unit].cwiseMin(moved[other])) > kFadesWith * area.dot(moved[unit]))
+                others.push_back(other);
+        return others;
+    };
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
@@ -135,7 +158,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         tried.rms_m = error.rms_m;
         if (!poses[c].figures.converged || error.greatest_m < options.tolerance_m) continue;
         shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
-        const auto add = [&](const Points& field, std::vector<int> drivers) {
+        const auto add = [&](const Points& field, std::vector<int> drivers,
+                             std::vector<int> fades_with = {}, const std::string& ending = "") {
             Found one;
             one.corrective.shape = shapes::sparse(field);
             if (one.corrective.shape.empty()) return;
@@ -143,16 +167,26 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             for (const int driver : drivers)
                 one.corrective.name += (one.corrective.name.empty() ? "" : "*") +
                                        shapes.list[static_cast<std::size_t>(driver)].goal.name;
-            if (half) one.corrective.name += "~half";
+            if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
-            one.use = (area.asDiagonal() * field).cwiseProduct(field).sum();
+            one.corrective.fades_with = std::move(fades_with);
+            one.use = (half ? kSquareOfHalf : kSquareOfProduct) *
+                      (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
             one.tried = c;
             found.push_back(std::move(one));
         };
-        if (a.parts.size() == 1 && b.parts.size() == 1) {
+        const std::vector<std::size_t> others =
+            half ? sharing(candidates[c].a) : std::vector<std::size_t>{};
+        const bool sided = std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+            return units[other].parts.size() > 1;
+        });
+        if (a.parts.size() == 1 && b.parts.size() == 1 && !sided) {
+            std::vector<int> fades_with;
+            for (const std::size_t other : others) fades_with.push_back(units[other].parts[0]);
             add(missing,
-                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]});
+                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]},
+                std::move(fades_with));
             continue;
         }
         const auto [left, right] =
@@ -162,8 +196,14 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         };
         for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
             const Points& field = side == 0 ? left : right;
-            add(field, half ? std::vector<int>{driver(a, side)}
-                            : std::vector<int>{driver(a, side), driver(b, side)});
+            if (!half) {
+                add(field, {driver(a, side), driver(b, side)});
+                continue;
+            }
+            std::vector<int> fades_with;
+            for (const std::size_t other : others) fades_with.push_back(driver(units[other], side));
+            const char* ending = side == 0 ? "~left" : "~right";
+            add(field, {driver(a, side)}, std::move(fades_with), a.parts.size() > 1 ? "" : ending);
         }
     }
     // The most useful ones by size until the budget is spent
@@ -226,7 +266,7 @@ TrackError track_error(const std::string& name, const shapes::LinearRig& rig,
                        const std::vector<Eigen::VectorXd>& weights, const Watch& watch) {
     const rig::Head& head = solver.face().head();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch);
+    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
     shapes::LinearRig plain{rig.shapes, {}};
     TrackError out;
     out.name = name;

@@ -10,11 +10,14 @@
 namespace risorius::app {
 
 struct CorrectiveOptions {
-    int pairs = 48;                 ///< simulated at most: those that share most skin
-    double tolerance_m = 0.7e-3;    ///< a sum that errs by less anywhere is left as it is
-    double fade_m = 0.2e-3;         ///< of a corrective: what moves less does not move
-    long budget_bytes = 2'000'000;  ///< of all correctives' numbers, the most useful ones first
+    int pairs = 48;               ///< simulated at most: those that share most skin
+    double tolerance_m = 0.7e-3;  ///< a sum that errs by less anywhere is left as it is
+    double fade_m = 0.25e-3;      ///< of a corrective: what moves less does not move
+    long budget_bytes = 800'000;  ///< of all correctives' numbers, the most useful ones first
 };
+
+/// The rule its weight follows, as files state it.
+std::string weight_rule(const shapes::Corrective& corrective);
 
 /// A pair, or half a shape, that was simulated.
 struct TriedCorrective {

@@ -106,10 +106,12 @@ io::MorphModel morph_model(const RigFiles& files, const rig::Head& head, const M
         Json drivers = Json::array();
         for (const int driver : corrective.drivers)
             drivers.push_back(shapes.list[static_cast<std::size_t>(driver)].goal.name);
-        correctives.push_back(
-            {{"name", corrective.name},
-             {"drivers", drivers},
-             {"weight", corrective.drivers.size() == 1 ? "4 w (1 - w)" : "product"}});
+        Json& rule = correctives.emplace_back(Json{
+            {"name", corrective.name}, {"drivers", drivers}, {"weight", weight_rule(corrective)}});
+        if (corrective.fades_with.empty()) continue;
+        rule["fades_with"] = Json::array();
+        for (const int other : corrective.fades_with)
+            rule["fades_with"].push_back(shapes.list[static_cast<std::size_t>(other)].goal.name);
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)

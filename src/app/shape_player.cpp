@@ -73,6 +73,10 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const RigFil
             one.drivers.push_back(
                 static_cast<int>(index_of_name(driver.place(), driver.string(), names)));
         if (one.drivers.empty()) correctives[c].at("drivers").fail("at least one shape");
+        if (const auto others = correctives[c].find("fades_with"))
+            for (const JsonCursor& other : others->items())
+                one.fades_with.push_back(
+                    static_cast<int>(index_of_name(other.place(), other.string(), names)));
         one.shape = {target.vertex, target.delta};
     }
     return out;

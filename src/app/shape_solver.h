@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "app/rig_files.h"
@@ -21,31 +23,40 @@ struct SolvedPose {
     int inverted_tets = 0;
 };
 
+/// How a pose is approached from rest.
+struct Approach {
+    int steps = 1;      ///< equal ones
+    bool again = true;  ///< in small ones, when it did not come to rest
+};
+
 class ShapeSolver {
   public:
     /// Keeps references.
     ShapeSolver(const RigFiles& files, const sim::Quality& quality, int threads);
     ~ShapeSolver();
 
-    /// In the order of the drives, each approached from rest in so many equal steps; one that does not come to rest is
-    /// tried again in small ones. Throws Interrupted.
+    /// In the order of the drives. Throws Interrupted, and soon.
     std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives, const Watch& watch,
-                                  int steps = 1) const;
+                                  const Approach& how = {}) const;
 
-    /// A face that no pose is being sought with.
-    const sim::Face& face() const { return *first_; }
+    /// For what does not move: poses are sought with it.
+    const sim::Face& face() const { return *faces_.front(); }
 
     /// One of the caller's own.
     std::unique_ptr<sim::Face> another() const;
 
   private:
-    SolvedPose pose(sim::Face& face, const track::Drive& drive, int steps) const;
+    SolvedPose pose(sim::Face& face, const track::Drive& drive, const Approach& how,
+                    const std::function<bool()>& stopped) const;
+    sim::Face& idle() const;  ///< one that is not in use
 
     const RigFiles& files_;
     sim::Quality quality_;
     int threads_;
     double rest_volume_m3_;
-    std::unique_ptr<sim::Face> first_;
+    mutable std::mutex mutex_;
+    mutable std::vector<std::unique_ptr<sim::Face>> faces_;  ///< all that were made; one at least
+    mutable std::vector<sim::Face*> idle_;
 };
 
 }  // namespace risorius::app

@@ -41,6 +41,8 @@ constexpr double kOnTheSkull_m =
 constexpr double kRamp_s = 0.3, kHold_s = 0.4;  // of each shape, when they are shown in turn
 constexpr int kShapeFps = 30;
 constexpr int kShapeRounds = 16, kFrameRounds = 4;
+constexpr int kIterations = 400;       // of a pose, and how exactly it is
+constexpr double kTolerance_m = 5e-6;  // at rest: what landmarks are told to
 
 /// What is to be met, over all shapes or frames the same points.
 struct Given {
@@ -272,7 +274,7 @@ class Solver {
                 if (watch.stopped && watch.stopped()) throw Interrupted();
                 const std::unique_ptr<sim::Face> face = at_rest();
                 SolvedDrive& one = out[static_cast<std::size_t>(i)];
-                ActivationFitOptions fit = usual(kShapeRounds);
+                ActivationFitOptions fit = usual(kShapeRounds, watch);
                 seek(*face, static_cast<std::size_t>(i), nothing(files_.rig.channels()), fit, one);
                 const std::lock_guard<std::mutex> lock(telling);
                 watch.tell(static_cast<double>(++done) / static_cast<double>(out.size()), one.name);
@@ -283,7 +285,7 @@ class Solver {
     std::vector<SolvedDrive> sequence(const Watch& watch) const {
         std::vector<SolvedDrive> out(given_.fields.size());
         const std::unique_ptr<sim::Face> face = at_rest();
-        ActivationFitOptions fit = usual(kFrameRounds);
+        ActivationFitOptions fit = usual(kFrameRounds, watch);
         for (const Points& field : given_.fields)
             fit.size = std::max(fit.size, squares(field, given_.weight));
         if (!(fit.size > 0))
@@ -312,12 +314,16 @@ class Solver {
     }
 
   private:
-    ActivationFitOptions usual(int rounds) const {
+    ActivationFitOptions usual(int rounds, const Watch& watch) const {
         ActivationFitOptions fit;
         fit.rounds = rounds;
         fit.price = options_.price;
         fit.ridge = options_.ridge;
         fit.least_gain = 3e-3;
+        fit.rest = {.iterations = kIterations,
+                    .tolerance_m = kTolerance_m,
+                    .planes_m = kTolerance_m,
+                    .stopped = watch.stopped};
         return fit;
     }
     std::unique_ptr<sim::Face> at_rest() const {

@@ -18,7 +18,7 @@ namespace risorius::io {
 
 namespace {
 
-constexpr double kNoTurn = 0.02;  // of a normal, at weight 1: little more than a degree is not seen
+constexpr double kNoTurn = 0.035;     // of a normal, at weight 1: two degrees are not seen
 constexpr double kMostWhole = 32767;  // of 16 bits
 
 using Floats = std::vector<float>;

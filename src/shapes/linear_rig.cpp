@@ -10,7 +10,9 @@ double Corrective::weight(const Eigen::VectorXd& shape_weights) const {
     const auto driver = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
     if (drivers.size() == 1) {
         const double w = driver(drivers[0]);
-        return 4 * w * (1 - w);
+        double product = 4 * w * (1 - w);
+        for (const int i : fades_with) product *= 1 - driver(i);
+        return product;
     }
     double product = 1;
     for (const int i : drivers) product *= driver(i);

@@ -2,7 +2,9 @@
 //
 //   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
 //   k_c = w_a w_b ...      several drivers: 1 where all are whole, 0 where any is not there
-//   k_c = 4 w (1 - w)      one driver: an in-between, 1 half way, for what goes round a corner on its way
+//   k_c = 4 w (1 - w) (1 - w_a) (1 - w_b) ...      one driver: an in-between, 1 half way, for what goes round a corner on its way;
+//                          it goes as others come that move the same skin, which then takes another way: two shapes that both
+//                          part the lips part them but once
 //
 // Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
 #pragma once
@@ -19,6 +21,7 @@ struct Corrective {
     std::string name;          ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~half"
     std::vector<int> drivers;  ///< shapes
     SparseShape shape;
+    std::vector<int> fades_with = {};  ///< of an in-between: shapes that it goes with
 
     double weight(const Eigen::VectorXd& shape_weights) const;
 };

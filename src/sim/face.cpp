@@ -240,11 +240,11 @@ struct Face::Impl {
     }
 
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
-                       int iterations) {
+                       const StaticOptions& options) {
         Points x = now.x;
         prescribe(x, activation, drive);
-        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, drive, iterations, x)
-                                                 : statics->settle(activation, iterations, x);
+        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, drive, options, x)
+                                                 : statics->settle(activation, options, x);
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -257,9 +257,9 @@ struct Face::Impl {
 
     // Tissue and jaw come to rest together, in long steps of time.
     StepFigures settle_with_jaw(const Eigen::VectorXd& activation, const track::Drive& drive,
-                                int iterations, Points& x) {
+                                const StaticOptions& options, Points& x) {
         StepFigures figures;
-        while (figures.iterations < iterations) {
+        while (figures.iterations < options.iterations && !(options.stopped && options.stopped())) {
             tissue.find_contacts(x);
             const Points start = x;
             now.jaw.velocity = JawDynamics::still();
@@ -460,7 +460,7 @@ void Face::start(const DriveAt& drive) {
         impl_->before = impl_->now;
         impl_->in_step = false;
     } else {
-        impl_->settle(activation, first, kRestIterations);
+        impl_->settle(activation, first, {.iterations = kRestIterations});
     }
 }
 
@@ -481,7 +481,7 @@ FacePose Face::pose_at(double t_s, const DriveAt& drive) {
     if (impl_->how == Motion::kQuasiStatic) {
         const track::Drive now = drive(t_s);
         impl_->history.push_back(
-            impl_->settle(impl_->steady_activation(now), now, kRestIterations));
+            impl_->settle(impl_->steady_activation(now), now, {.iterations = kRestIterations}));
         return impl_->pose(1.0);
     }
     while (static_cast<double>(impl_->done) < exact_step(t_s, impl_->piece_s)) impl_->piece(drive);
@@ -503,8 +503,8 @@ Eigen::VectorXd Face::activation_at(double t_s) const {
 }
 
 StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                         int iterations) {
-    return impl_->settle(impl_->with_jaw(activation, kinematic), kinematic, iterations);
+                         const StaticOptions& options) {
+    return impl_->settle(impl_->with_jaw(activation, kinematic), kinematic, options);
 }
 
 const Points& Face::nodes() const { return impl_->now.x; }

@@ -19,6 +19,7 @@
 #include "sim/face_tissue.h"
 #include "sim/muscle_surface.h"
 #include "sim/shell.h"
+#include "sim/static_solver.h"
 #include "sim/wrinkle_lines.h"
 #include "track/channels.h"
 
@@ -87,7 +88,7 @@ class Face {
 
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
     StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                       int iterations = kRestIterations);
+                       const StaticOptions& options = {.iterations = kRestIterations});
 
     /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
     /// Nodes, n x 3, m: tissue, then volume muscles.

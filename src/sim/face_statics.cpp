@@ -23,9 +23,10 @@ FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe prescribe, Vertices verti
       least_(std::move(least)),
       solver_(tissue) {}
 
-StepFigures FaceStatics::settle(const Eigen::VectorXd& activation, int iterations, Points& x) {
+StepFigures FaceStatics::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
+                                Points& x) {
     moved();
-    return solver_.settle(activation, {.iterations = iterations}, x);
+    return solver_.settle(activation, options, x);
 }
 
 void FaceStatics::prepare(const Pose& pose) {

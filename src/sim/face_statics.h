@@ -38,7 +38,7 @@ class FaceStatics {
     FaceStatics(FaceTissue& tissue, Prescribe prescribe, Vertices vertices, Eigen::VectorXd least);
 
     /// Moves x to the equilibrium; the tissue must be prescribed.
-    StepFigures settle(const Eigen::VectorXd& activation, int iterations, Points& x);
+    StepFigures settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
     /// The pose is no longer the one last factored.
     void moved() { factored_ = false; }
     void forget() {

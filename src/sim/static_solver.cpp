@@ -187,8 +187,10 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
             std::sqrt(solve::dot(move_, move_) / static_cast<double>(x.rows()));
         move_ = x - where;
         figures.converged =
-            left <= options.tolerance_m && solve::longest_row(move_) <= options.tolerance_m;
-        if (figures.converged || figures.iterations >= options.iterations) break;
+            left <= options.tolerance_m && solve::longest_row(move_) <= options.planes_m;
+        if (figures.converged || figures.iterations >= options.iterations ||
+            (options.stopped && options.stopped()))
+            break;
         const bool nearer = left < kNearer * nearest;
         nearest = nearer ? left : kForgetting * nearest;
         longest_step = nearer ? std::min(2 * longest_step, options.step_cap_m)

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/evaluate.h"
+#include "app/landmark_points.h"
 #include "app/shape_player.h"
 #include "app/shot.h"
 #include "app/solve_activations.h"
@@ -273,6 +274,48 @@ TEST_F(BakedShapes, AreSolvedBackToWhatMadeThem) {
         EXPECT_NEAR(std::isnan(shown.activation[c]) ? 0.0 : shown.activation[c],
                     one.drive.excitation[c], 1e-6);
     EXPECT_THROW(solve_activations({.rig = kAdult, .out = other.path() / "none"}), Error);
+}
+
+// Landmarks of a smile on a head that turns and goes away meanwhile, as a camera sees them
+TEST_F(BakedShapes, AreFoundInLandmarksOverTime) {
+    const RigFiles files = read_rig_files(kAdult);
+    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+    const LandmarkPoints points(head, files.rig);
+    const Points smiling =
+        head.vertices + shape("mouthSmileLeft").shape.dense(head.vertices.rows());
+    const Rigid turn = Eigen::Translation3d(0.02, -0.01, 0.05) *
+                       Eigen::AngleAxisd(0.2, Vec3(0.3, 1, 0.1).normalized());
+    const TemporaryFolder other;
+    {
+        std::ofstream table(other.path() / "seen.tsv");
+        table << "time_s";
+        for (const std::string& id : points.ids())
+            for (const char axis : {'x', 'y', 'z'}) table << "\t" << id << "." << axis << "_mm";
+        for (const bool smiles : {false, true}) {
+            table << "\n" << (smiles ? 0.1 : 0.0);
+            for (const std::string& id : points.ids()) {
+                const Vec3 p = points.at(id, smiles ? smiling : head.vertices);
+                for (const double mm : Vec3(1e3 * (smiles ? turn * p : p))) table << "\t" << mm;
+            }
+        }
+        table << "\n";
+    }
+    const SolveReport solved = solve_activations(
+        {.rig = kAdult, .out = other.path() / "solved", .landmarks = other.path() / "seen.tsv"});
+    ASSERT_EQ(solved.solved.size(), 2u);
+    EXPECT_TRUE(solved.sequence);
+    EXPECT_EQ(solved.solved[0].highest, 0);
+    const SolvedDrive& smile = solved.solved[1];
+    EXPECT_GT(smile.given_rms_m, 1e-3);
+    EXPECT_LT(smile.given_rms_m, 4e-3);  // the turn is not the face's
+    EXPECT_LT(smile.rms_m, 0.3 * smile.given_rms_m);
+    const track::ChannelTable channels = files.rig.channels();
+    const auto pull = [&](Side side) {
+        return smile.drive.excitation[channels.column("zygomaticus_major", side)];
+    };
+    EXPECT_GT(pull(Side::kLeft), 0.1);
+    EXPECT_LT(pull(Side::kRight), 0.05);
+    EXPECT_TRUE(fs::exists(other.path() / "solved/script.json"));
 }
 
 TEST(BakedShapesOfNothing, LeaveNothingBehind) {

@@ -29,6 +29,20 @@ TEST(SculptHead, SameSeedGivesTheSameFiles) {
     EXPECT_EQ(bytes_of(folder / "a/head.obj"), bytes_of(folder / "c/head.obj"));
 }
 
+TEST(SculptHead, AMeshAloneDoesNotTakeARigAway) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "anna");
+    std::ofstream(folder / "anna/rig.json") << "{}";
+    EXPECT_EQ(message_of([&] {
+                  sculpt_head({.out = folder / "anna",
+                               .identity = chosen_identity({.seed = 7}),
+                               .mesh_only = true});
+              }),
+              "--mesh-only: expected a folder without a rig, which it would take away, found \"" +
+                  (folder / "anna/rig.json").generic_string() + "\"");
+    EXPECT_EQ(bytes_of(folder / "anna/rig.json"), "{}");
+}
+
 TEST(SculptHead, NobodyBeyondTheSpreadIsWritten) {
     const TemporaryFolder folder;
     const sculpt::Identity wide =

@@ -218,7 +218,7 @@ TEST_P(FittedHead, ALipSuckedInComesToRestOnAFineMesh) {
     track::Drive none = drive;
     none.excitation.setZero();
     face.start([&](double) { return none; });
-    const sim::StepFigures figures = face.settle(drive.excitation, drive, 400);
+    const sim::StepFigures figures = face.settle(drive.excitation, drive, {.iterations = 400});
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);

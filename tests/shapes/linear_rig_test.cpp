@@ -34,6 +34,14 @@ TEST(LinearRig, AddsShapesAndWhatTheirSumLacks) {
     EXPECT_EQ(all[4], 0.75);
 }
 
+TEST(LinearRig, AnInBetweenGoesAsOthersCome) {
+    LinearRig rig = three_shapes();
+    rig.correctives[1].fades_with = {0, 1};
+    EXPECT_EQ(rig.correctives[1].weight(Eigen::Vector3d(0, 0, 0.5)), 1.0);
+    EXPECT_EQ(rig.correctives[1].weight(Eigen::Vector3d(0.5, 0.25, 0.5)), 0.375);
+    EXPECT_EQ(rig.correctives[1].weight(Eigen::Vector3d(1, 0, 0.5)), 0.0);
+}
+
 TEST(LinearRig, LeavesWholeShapesAlone) {
     const LinearRig rig = three_shapes();
     for (int s = 0; s < 3; ++s) {

@@ -47,7 +47,7 @@ TEST(FaceStatics, SettlesToForcesThatBalance) {
 
 TEST(FaceStatics, SaysThatItHasNotConverged) {
     Face face = adult_face(kCoarse);
-    EXPECT_FALSE(face.settle(some_drive().excitation, some_drive(), 3).converged);
+    EXPECT_FALSE(face.settle(some_drive().excitation, some_drive(), {.iterations = 3}).converged);
 }
 
 TEST(FaceStatics, SensitivitiesForetellSettledPoses) {

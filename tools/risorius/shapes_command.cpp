@@ -133,7 +133,7 @@ void add_shapes(CLI::App& app) {
     command->add_option_function<double>(
         "--corrective-megabytes",
         [&options](double mb) { options.corrective.budget_bytes = static_cast<long>(1e6 * mb); },
-        "Room for correctives in shapes.glb, the most useful ones first (2)");
+        "Room for correctives in shapes.glb, the most useful ones first (0.8)");
     command
         ->add_option(
             "--test-frames", options.test_frames,

@@ -1,6 +1,7 @@
 // Triangles whose vertices are made anew for every picture, in a vertex array of their own.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
