@@ -228,10 +228,10 @@ TEST(Render, ShowsTheMusclesWhenTheScriptOrTheCommandAsks) {
 
     const Outcome refused = run("render '" + script.string() + "' --show bones -o x.mp4", kRoot);
     EXPECT_EQ(refused.code, 2);
-    EXPECT_EQ(
-        refused.errors,
-        "risorius: --show: expected one of \"skin\", \"muscles\", \"wire\", \"strain\", \"error\", "
-        "\"landmarks\", found \"bones\"\n");
+    EXPECT_EQ(refused.errors,
+              "risorius: --show: expected one of \"skin\", \"muscles\", \"skull\", \"wire\", "
+              "\"strain\", \"error\", "
+              "\"landmarks\", found \"bones\"\n");
 }
 
 TEST(Render, ANeutralScriptShowsOnePictureThroughout) {

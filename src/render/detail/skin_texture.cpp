@@ -18,7 +18,7 @@ std::uint8_t srgb_byte(double linear) {
 
 /// The back of the head is the rim of the map, whose triangles about its very middle the paint leaves out.
 Vec2 within_rim(const Vec2& place) {
-    constexpr double kRim = 0.495;
+    constexpr double kRim = 0.487;
     const Vec2 off = place - Vec2(0.5, 0.5);
     return Vec2(0.5, 0.5) + off * std::min(1.0, kRim / std::max(off.norm(), 1e-9));
 }
