@@ -174,10 +174,9 @@ ClipPlan plan_clip(const stimuli::Condition& condition, const stimuli::Design& d
     plan.clips = clips;
     plan.luminance = design.match.luminance;
     // As if it were a file beside the template, so that messages and relative paths are right
-    const std::string told_by =
-        fs::absolute(condition.folder) == fs::absolute(design.file).parent_path()
-            ? design.file.filename().string()
-            : "script of " + design.file.filename().string();
+    const std::string told_by = condition.folder == design.file.parent_path()
+                                    ? design.file.filename().string()
+                                    : "script of " + design.file.filename().string();
     const JsonCursor json = JsonCursor::from_json(
         condition.script, (condition.folder / (told_by + ", clip " + condition.clip)).string());
     const track::ScriptHeader header = track::read_script_header(json);

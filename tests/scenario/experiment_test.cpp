@@ -122,8 +122,8 @@ TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsItsCodes) {
     std::getline(data, line);
     int trials = 0;
     for (; std::getline(data, line); ++trials) {
-        // Begin, onset in frame 2, apex in frame 5, end after 6 frames of 0.1 s
-        EXPECT_NE(line.find(",1@0.0000 2@0.2000 3@0.5000 4@0.6000,0"), std::string::npos) << line;
+        // Begin, onset in frame 2, apex in frame 4, end after 6 frames of 0.1 s
+        EXPECT_NE(line.find(",1@0.0000 2@0.2000 3@0.4000 4@0.6000,0"), std::string::npos) << line;
         EXPECT_NE(line.find(line.find("happiness,stim") != std::string::npos ? ",a,happiness,1,"
                                                                              : ",a,happiness,0,"),
                   std::string::npos)
