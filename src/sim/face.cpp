@@ -3,19 +3,17 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <span>
 #include <stdexcept>
 
 #include "core/known_names.h"
 #include "muscle/activation.h"
+#include "sim/driven_jaw.h"
 #include "sim/face_poser.h"
 #include "sim/face_statics.h"
 #include "sim/face_tissue.h"
 #include "sim/head_motion.h"
 #include "sim/jaw.h"
-#include "sim/jaw_dynamics.h"
-#include "sim/jaw_synergies.h"
 #include "sim/lids.h"
 #include "sim/muscle_straps.h"
 #include "sim/shell.h"
@@ -27,10 +25,8 @@ namespace risorius::sim {
 
 namespace {
 
-constexpr double kStaticStep_s = 0.5;  // of the pseudo-time steps towards equilibrium
 constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
-constexpr int kContactRefresh = 20;  // iterations between searches while settling
 
 // A frame that falls on a step shows that step, whatever rounding made of its time.
 double exact_step(double t_s, double step_s) {
@@ -91,9 +87,7 @@ struct Face::Impl {
     };
     State now, before;
     std::optional<FaceStatics> statics;
-    std::optional<JawDynamics> jaw_dynamics;  // the same
-    std::optional<JawSynergies> jaw_synergies;
-    JawJoint jaw_joint;
+    DrivenJaw driven_jaw;
     Points last_move;  // of x within the last piece against what rides on bone, or no rows
     Neck neck;
     TissueMotion motion;
@@ -120,14 +114,14 @@ struct Face::Impl {
           shell(build_shell(head, jaw, lids, {q.shell_vertices})),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
-          jaw_joint(head, rig.jaw),
+          driven_jaw(head, rig, jaw),
           neck(head),
           motion(neck, tissue.rest(), piece_s),
           channels(rig.channels()) {
         tissue.prepare(motion.effective_step_s());
         tissue.step_in(quality.precision);
         tissue.refine_mouth(quality.mouth_iterations);
-        poser.emplace(head, rig, jaw, jaw_joint, lids, shell, mesh);
+        poser.emplace(head, rig, jaw, driven_jaw.joint(), lids, shell, mesh);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),
             muscle::ActivationLaw{.form = rig.activation.law == "smooth"
@@ -146,53 +140,14 @@ struct Face::Impl {
             channels.column_min());
     }
 
-    Rigid mandible(const track::Drive& drive) const {
-        return jaw.motion(drive.at(track::Kinematic::kJawOpen),
-                          drive.at(track::Kinematic::kJawForward),
-                          drive.at(track::Kinematic::kJawSide));
-    }
-
-    void drive_jaw_by(track::JawDrive by) {
-        if (by == track::JawDrive::kChannels) {
-            jaw_dynamics.reset();
-            jaw_synergies.reset();
-        } else if (!jaw_dynamics) {
-            std::set<std::string> solids;  // they pull for themselves
-            for (const rig::SolidMuscle& solid : rig.solids) solids.insert(solid.muscle);
-            jaw_dynamics.emplace(head, rig, solids);
-            for (const double h : {motion.effective_step_s(), kStaticStep_s})
-                tissue.prepare(h, *jaw_dynamics);
-            const auto reach = [&](double open, double forward, double side) {
-                return jaw_joint.place(jaw.motion(open, forward, side));
-            };
-            // Groups are found with lines for all muscles: what a solid does in their place is about the same
-            jaw_synergies.emplace(
-                JawDynamics(head, rig), channels,
-                JawSynergies::Ranges{reach(1, 0, 0).open_m, reach(0, 1, 0).forward_m,
-                                     reach(0, 0, 1).side_m},
-                tissue.ride_stiffness(kStaticStep_s));
-        }
-    }
-
-    Eigen::VectorXd with_jaw(const Eigen::VectorXd& excitation, const track::Drive& drive) const {
-        if (!jaw_dynamics) return excitation;
-        return excitation.cwiseMax(jaw_synergies->excitation(
-            drive.at(track::Kinematic::kJawOpen), drive.at(track::Kinematic::kJawForward),
-            drive.at(track::Kinematic::kJawSide)));
-    }
-
     // What activation comes to if the drive lasts.
     Eigen::VectorXd steady_activation(const track::Drive& drive) const {
-        Eigen::VectorXd activation = with_jaw(drive.excitation, drive);
+        Eigen::VectorXd activation = driven_jaw.excitation(drive.excitation, drive);
         for (long i = 0; i < drive.activation.size(); ++i)
             if (!std::isnan(drive.activation[i])) activation[i] = drive.activation[i];
         return activation;
     }
 
-    // Where it is, or where the drive wants it.
-    Rigid mandible(const JawVector& q, const track::Drive& drive) const {
-        return jaw_dynamics ? jaw_joint.pose(q).motion : mandible(drive);
-    }
     JawVector jaw_between(double share) const {
         return (1 - share) * before.jaw.q + share * now.jaw.q;
     }
@@ -209,30 +164,15 @@ struct Face::Impl {
         return weight.norm() < 1e-9 ? Vec3(Vec3::Zero()) : weight;
     }
 
-    // One step of the tissue, and of the jaw if muscles move it; `jaw_h` is the jaw's own.
-    StepFigures implicit_step(double h, double jaw_h, const Points& start, const Points& aim,
-                              const Eigen::VectorXd& activation,
-                              const JawDynamics::Carriage& carriage,
-                              const solve::QuasiNewtonOptions& options, Points& x,
-                              std::span<const Points> likely = {}) {
-        if (!jaw_dynamics)
-            return tissue.implicit_step(h, start, aim, activation, options, x, likely);
-        JawInStep jaw_step{*jaw_dynamics, jaw_dynamics->begin(jaw_h, now.jaw, activation, carriage),
-                           now.jaw.q};
-        const StepFigures figures =
-            tissue.implicit_step(h, start, aim, activation, options, x, jaw_step);
-        now.jaw = jaw_dynamics->end(jaw_step.step, jaw_step.q);
-        return figures;
-    }
-
     Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
-        return {mandible(now.jaw.q, drive), poser->lids(activation, drive),
+        return {driven_jaw.motion(now.jaw.q, drive), poser->lids(activation, drive),
                 drive.at(track::Kinematic::kMouthPressure), poser->gaze(drive), weight_at(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
     void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
-        tissue.carry_with_bone(x, mandible(now.jaw.q, now.drive), mandible(now.jaw.q, drive));
+        tissue.carry_with_bone(x, driven_jaw.motion(now.jaw.q, now.drive),
+                               driven_jaw.motion(now.jaw.q, drive));
         prescribe(activation, drive);
     }
     void prescribe(const Eigen::VectorXd& activation, const track::Drive& drive) {
@@ -243,8 +183,10 @@ struct Face::Impl {
                        const StaticOptions& options) {
         Points x = now.x;
         prescribe(x, activation, drive);
-        const StepFigures figures = jaw_dynamics ? settle_with_jaw(activation, drive, options, x)
-                                                 : statics->settle(activation, options, x);
+        const StepFigures figures =
+            driven_jaw.by_muscles()
+                ? driven_jaw.settle(tissue, activation, gravity_at(drive), options, x, now.jaw)
+                : statics->settle(activation, options, x);
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -252,38 +194,6 @@ struct Face::Impl {
         motion.start(now.x, head_motion(head, drive));
         before = now;
         in_step = false;
-        return figures;
-    }
-
-    // Tissue and jaw come to rest together, in long steps of time.
-    StepFigures settle_with_jaw(const Eigen::VectorXd& activation, const track::Drive& drive,
-                                const StaticOptions& options, Points& x) {
-        StepFigures figures;
-        while (figures.iterations < options.iterations && !(options.stopped && options.stopped())) {
-            tissue.find_contacts(x);
-            const Points start = x;
-            now.jaw.velocity = JawDynamics::still();
-            const StepFigures part = implicit_step(kStaticStep_s, kStaticStep_s, start, start,
-                                                   activation, {.gravity_m_s2 = gravity_at(drive)},
-                                                   {.iterations = kContactRefresh,
-                                                    .memory = kMemory,
-                                                    .step_cap_m = kStepCap_m,
-                                                    .tolerance_rms_m = 1e-6},
-                                                   x);
-            figures.iterations += std::max(1, part.iterations);
-            figures.evaluations += part.evaluations;
-            figures.contact_depth_m = part.contact_depth_m;
-            figures.lip_depth_m = part.lip_depth_m;
-            figures.bone_depth_m = part.bone_depth_m;
-            figures.muscle_volume_error = part.muscle_volume_error;
-            const double moved =
-                std::sqrt((x - start).squaredNorm() / static_cast<double>(x.rows()));
-            figures.last_step_rms_m = moved;
-            if (moved < 5e-6) {
-                figures.converged = true;
-                break;
-            }
-        }
         return figures;
     }
 
@@ -295,7 +205,7 @@ struct Face::Impl {
         dynamics->advance(
             [&](double t) -> const Eigen::VectorXd& {
                 const track::Drive then = drive_at(t);
-                excitation = with_jaw(then.excitation, then);
+                excitation = driven_jaw.excitation(then.excitation, then);
                 return excitation;
             },
             drive.activation, from, to);
@@ -311,16 +221,17 @@ struct Face::Impl {
         const Points carried = x;
         // The move of the piece before is likely to go on: its curvature is the first the search knows.
         const std::span<const Points> likely(&last_move, last_move.rows() > 0 ? 1 : 0);
-        const StepFigures figures = implicit_step(
-            h, piece_s, moves.start, moves.aim, activation, {moves.moved, gravity_at(drive)},
+        const StepFigures figures = driven_jaw.implicit_step(
+            tissue, h, piece_s, moves.start, moves.aim, activation,
+            {moves.moved, gravity_at(drive)},
             // A jaw that muscles move needs twice as many to keep up
-            {.iterations = (jaw_dynamics ? 2 : 1) * quality.iterations,
+            {.iterations = (driven_jaw.by_muscles() ? 2 : 1) * quality.iterations,
              .least_iterations = quality.least_iterations,
              .memory = kMemory,
              .pairs = quality.precision,
              .step_cap_m = kStepCap_m,
              .tolerance_rms_m = quality.tolerance_rms_m},
-            x, likely);
+            x, now.jaw, likely);
         last_move = x - carried;
         tissue.fibres().end_step();
         motion.end(x);
@@ -361,9 +272,10 @@ struct Face::Impl {
         const JawVector& q = state.jaw.q;
         Points vertices = surfaces.rest;
         const Points x = shown(state);
-        straps->place(
-            x, {mandible(q, state.drive), jaw_dynamics ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
-            vertices);
+        straps->place(x,
+                      {driven_jaw.motion(q, state.drive),
+                       driven_jaw.by_muscles() ? Vec3(q.segment<3>(kHyoid)) : Vec3::Zero()},
+                      vertices);
         tissue.solids().place_surfaces(x, vertices);
         poser->turn_with_head(head_motion(head, state.drive), surfaces.rest, vertices);
         return vertices;
@@ -378,7 +290,7 @@ struct Face::Impl {
 
     // Nodes as they are shown: steps leave surfaces in each other, equilibria hardly.
     Points shown(const State& state) const {
-        return in_step ? tissue.apart(state.x, mandible(state.jaw.q, state.drive),
+        return in_step ? tissue.apart(state.x, driven_jaw.motion(state.jaw.q, state.drive),
                                       poser->gaze(state.drive))
                        : state.x;
     }
@@ -390,24 +302,21 @@ struct Face::Impl {
     }
 
     Points pull_back(const Points& slope) const {
-        return poser->pull_back({now.x, now.activation, now.drive, mandible(now.jaw.q, now.drive)},
-                                slope);
+        return poser->pull_back(
+            {now.x, now.activation, now.drive, driven_jaw.motion(now.jaw.q, now.drive)}, slope);
     }
 
     FaceStatics::Pose at_rest() const {
-        if (jaw_dynamics)
+        if (driven_jaw.by_muscles())
             throw std::logic_error("an equilibrium's slopes while muscles move the jaw");
         return {now.x, now.activation, now.drive};
     }
 
     FacePose pose_of(const State& state) const {
         const JawVector& q = state.jaw.q;
-        FacePose out =
-            poser->pose({state.x, state.activation, state.drive, mandible(q, state.drive)});
-        if (jaw_dynamics) {
-            out.tooth_force_n = jaw_dynamics->joint().tooth_force_n(q);
-            out.jaw_open = out.jaw.open_m / jaw_joint.place(jaw.motion(1, 0, 0)).open_m;
-        }
+        FacePose out = poser->pose(
+            {state.x, state.activation, state.drive, driven_jaw.motion(q, state.drive)});
+        driven_jaw.tell(q, out);
         return out;
     }
 };
@@ -422,16 +331,16 @@ Face::Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const 
 Face::~Face() = default;
 Face::Face(Face&&) noexcept = default;
 
-void Face::drive_jaw_by(track::JawDrive by) { impl_->drive_jaw_by(by); }
+void Face::drive_jaw_by(track::JawDrive by) {
+    impl_->driven_jaw.drive_by(by, impl_->channels, impl_->motion.effective_step_s(),
+                               impl_->tissue);
+}
 void Face::move(Motion how) { impl_->how = how; }
 void Face::set_gravity(const std::optional<Vec3>& gravity_m_s2) { impl_->gravity = gravity_m_s2; }
-void Face::set_bite_block(double height_m) {
-    if (!impl_->jaw_dynamics) throw std::logic_error("a bite block in a jaw that channels place");
-    impl_->jaw_dynamics->joint().set_bite_block(height_m);
-}
+void Face::set_bite_block(double height_m) { impl_->driven_jaw.set_bite_block(height_m); }
 
 track::Drive Face::driven(track::Drive drive) const {
-    drive.excitation = impl_->with_jaw(drive.excitation, drive);
+    drive.excitation = impl_->driven_jaw.excitation(drive.excitation, drive);
     return drive;
 }
 
@@ -442,9 +351,10 @@ void Face::start(const DriveAt& drive) {
     impl_->history.clear();
     impl_->tissue.forget_contacts();
     impl_->dynamics->set_activation(activation);
-    const bool at_rest =
-        activation.isZero(0.0) && impl_->mandible(first).isApprox(Rigid::Identity(), 0.0) &&
-        first.at(track::Kinematic::kMouthPressure) == 0.0 && impl_->weight_at(first).isZero(0.0);
+    const bool at_rest = activation.isZero(0.0) &&
+                         impl_->driven_jaw.wanted(first).isApprox(Rigid::Identity(), 0.0) &&
+                         first.at(track::Kinematic::kMouthPressure) == 0.0 &&
+                         impl_->weight_at(first).isZero(0.0);
     impl_->now.x = impl_->tissue.rest();
     impl_->now.drive.kinematic.fill(0.0);
     impl_->now.jaw = {};
@@ -504,7 +414,7 @@ Eigen::VectorXd Face::activation_at(double t_s) const {
 
 StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                          const StaticOptions& options) {
-    return impl_->settle(impl_->with_jaw(activation, kinematic), kinematic, options);
+    return impl_->settle(impl_->driven_jaw.excitation(activation, kinematic), kinematic, options);
 }
 
 const Points& Face::nodes() const { return impl_->now.x; }
@@ -524,7 +434,7 @@ Points Face::pull_back(const Points& vertex_gradient) const {
 FacePose Face::pose() const { return impl_->pose(1.0); }
 
 FacePose Face::posed(Points vertices, const track::Drive& drive) const {
-    return impl_->poser->posed(std::move(vertices), drive, impl_->mandible(drive));
+    return impl_->poser->posed(std::move(vertices), drive, impl_->driven_jaw.wanted(drive));
 }
 
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }

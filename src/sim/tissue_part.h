@@ -72,6 +72,8 @@ class TissuePart {
 
   private:
     bool moves(int node) const {
+        // Loads act on the nodes of solid muscles too, which come after the tissue's
+        if (static_cast<std::size_t>(node) >= own_.size()) return false;
         const int own = own_[static_cast<std::size_t>(node)];
         return own >= 0 && own < moving_;
     }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRounding = 0.2;  // of the valleys; shader_skin.cpp draws the same profile
 constexpr double kUnlike = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
-constexpr double kSteepest = 0.45;                  // depth / span: folds steeper than this close
+constexpr double kSteepestFold = 0.45;              // depth / span: folds steeper than this close
 // Edges per wave from which on vertices carry the fold, and all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
 constexpr int kSamples = 64;
@@ -269,7 +269,7 @@ void Wrinkles::fold(Points& vertices, Points& depth) const {
             const double share = folded_share(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
             if (share == 0) continue;
             const double ratio =
-                std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepest);
+                std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepestFold);
             const double a = window_(row, slot) * ratio * (1 - c) * wavelength_(row, slot);
             depth(vertex_[i], slot) += (1 - resolved_(row, slot)) * a;
             if (resolved_(row, slot) > 0)
