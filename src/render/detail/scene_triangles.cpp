@@ -49,9 +49,8 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
     };
     if (material == Material::kSkin) {
         cull = is_wound_outwards(scene.rest, faces, paint_centre);
-        coarse_skin_ = {
-            coarse(coarseness.seen_m, much_moved(scene, coarseness.keeps_folds)),
-            coarse(coarseness.shadow_m, much_moved(scene, false))};
+        coarse_skin_ = {coarse(coarseness.seen_m, much_moved(scene, coarseness.keeps_folds)),
+                        coarse(coarseness.shadow_m, much_moved(scene, false))};
     } else if (material == Material::kEye || material == Material::kTeeth) {
         wind_outwards(scene.rest, faces);
         cull = true;
