@@ -34,8 +34,8 @@
 namespace risorius::render {
 namespace {
 
-// What drawn skin may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
-constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3;
+// What drawn skin and eyes may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
+constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2;
 
 ViewOptions checked(ViewOptions options) {
     check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
@@ -198,7 +198,8 @@ struct OffscreenView::Impl {
     Coarseness coarseness() const {
         if (options.deep || looks_inside()) return {};
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        return {kCoarseSamples * sample_m, kCoarseShadow_m, !options.draft};
+        return {kCoarseSamples * sample_m, kCoarseShadow_m, kCoarseEyeSamples * sample_m,
+                !options.draft};
     }
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {

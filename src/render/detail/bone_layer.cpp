@@ -12,15 +12,7 @@ namespace {
 // Linear albedo
 const Vec3 kBone(0.66, 0.58, 0.45), kEnamel(0.80, 0.76, 0.66);
 
-constexpr std::size_t kBoneFloats = 6;
 constexpr GLuint kOpenness = 8;  ///< vertex attribute; those of the scene's own are VertexAttribute
-
-void bone_attribute(GLuint index, GLint size, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE,
-                          static_cast<GLsizei>(stride * sizeof(float)),
-                          reinterpret_cast<const void*>(offset * sizeof(float)));
-}
 
 void set_colour(const GlProgram& program, const char* name, const Vec3& colour) {
     const Eigen::Vector3f f = colour.cast<float>();
@@ -44,8 +36,7 @@ const Triangles& sound_triangles(const Scene& scene) {
 }  // namespace
 
 BoneLayer::BoneLayer(const Scene& scene)
-    : vertex_count_(scene.bones.rest.rows()),
-      smooth_(scene.bones.rest, {&sound_triangles(scene)}),
+    : surface_(scene.bones.rest, {&sound_triangles(scene)}),
       bone_("bone", bone_vertex_shader(), bone_shader()),
       skin_("glass skin", glass_vertex_shader(), glass_shader()) {
     const Triangles& triangles = scene.bones.triangles;
@@ -57,7 +48,7 @@ BoneLayer::BoneLayer(const Scene& scene)
 
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
-    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &elements_}) glGenBuffers(1, buffer);
+    for (GLuint* buffer : {&fixed_buffer_, &elements_}) glGenBuffers(1, buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
@@ -65,39 +56,21 @@ BoneLayer::BoneLayer(const Scene& scene)
     glBindBuffer(GL_ARRAY_BUFFER, fixed_buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(open.size() * sizeof(float)), open.data(),
                  GL_STATIC_DRAW);
-    bone_attribute(kOpenness, 1, 1, 0);
-    glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
-    bone_attribute(kPosition, 3, kBoneFloats, 0);
-    bone_attribute(kNormal, 3, kBoneFloats, 3);
+    glEnableVertexAttribArray(kOpenness);
+    glVertexAttribPointer(kOpenness, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+    surface_.attach();
 
     skin_.use();
     set_colour(skin_, "tone", linear_from_srgb(scene.look.skin_tone));
 }
 
 BoneLayer::~BoneLayer() {
-    for (const GLuint buffer : {moving_buffer_, fixed_buffer_, elements_})
-        glDeleteBuffers(1, &buffer);
+    for (const GLuint buffer : {fixed_buffer_, elements_}) glDeleteBuffers(1, &buffer);
     glDeleteVertexArrays(1, &array_);
 }
 
 void BoneLayer::upload(const Pose& pose) {
-    if (pose.bone_positions.rows() != vertex_count_)
-        throw Error("pose/bone_positions", std::to_string(vertex_count_) + " rows",
-                    std::to_string(pose.bone_positions.rows()));
-    const auto vertices = static_cast<std::size_t>(vertex_count_);
-    positions_.resize(3 * vertices);
-    for (std::size_t i = 0; i < positions_.size(); ++i)
-        positions_[i] = static_cast<float>(pose.bone_positions.data()[i]);
-    smooth_.compute(positions_, normals_);
-    moving_.resize(kBoneFloats * vertices);
-    for (std::size_t v = 0; v < vertices; ++v)
-        for (std::size_t k = 0; k < 3; ++k) {
-            moving_[kBoneFloats * v + k] = positions_[3 * v + k];
-            moving_[kBoneFloats * v + 3 + k] = normals_[3 * v + k];
-        }
-    glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(moving_.size() * sizeof(float)),
-                 moving_.data(), GL_STREAM_DRAW);
+    surface_.upload(pose.bone_positions, "pose/bone_positions");
 }
 
 void BoneLayer::draw(const SceneBuffers& buffers) const {

@@ -2,11 +2,9 @@
 // where one looks straight through it and pale at its edges.
 #pragma once
 
-#include <vector>
-
 #include "render/detail/gl_context.h"
+#include "render/detail/moving_surface.h"
 #include "render/detail/scene_buffers.h"
-#include "render/detail/smooth_normals.h"
 #include "render/scene.h"
 
 namespace risorius::render {
@@ -26,12 +24,10 @@ class BoneLayer {
     void draw(const SceneBuffers& buffers) const;
 
   private:
-    Eigen::Index vertex_count_;
-    SmoothNormals smooth_;
-    std::vector<float> positions_, normals_, moving_;
+    MovingSurface surface_;
     GlProgram bone_, skin_;
     GLsizei index_count_ = 0;
-    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;
+    GLuint array_ = 0, fixed_buffer_ = 0, elements_ = 0;
 };
 
 }  // namespace risorius::render

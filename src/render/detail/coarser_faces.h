@@ -9,9 +9,9 @@
 
 namespace risorius::render {
 
-/// How far drawn skin may be from the scene's, m; 0: not at all.
+/// How far drawn skin and eyes may be from the scene's, m; 0: not at all.
 struct Coarseness {
-    double seen_m = 0, shadow_m = 0;
+    double seen_m = 0, shadow_m = 0, eyes_m = 0;
     bool keeps_folds = true;  ///< skin that may wrinkle stays as it is: its wrinkles are drawn
 };
 

@@ -26,11 +26,9 @@ std::vector<const Triangles*> muscle_triangles(const Scene& scene) {
     return lists;
 }
 
-void muscle_attribute(GLuint index, GLint size, std::size_t floats_per_vertex, std::size_t offset) {
+void muscle_attribute(GLuint index) {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE,
-                          static_cast<GLsizei>(floats_per_vertex * sizeof(float)),
-                          reinterpret_cast<const void*>(offset * sizeof(float)));
+    glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 GLuint muscle_texture(GLenum format, int width, int height) {
@@ -50,8 +48,6 @@ Vec2 depth_terms(const Mat4& clip_from_world) {
     return {-a, z[3] - a * w[3]};
 }
 
-constexpr std::size_t kMovingFloats = 9, kFixedFloats = 3;
-
 }  // namespace
 
 MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_samples,
@@ -59,7 +55,7 @@ MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_s
     : vertex_count_(scene.muscles.rest.rows()),
       muscle_count_(scene.muscles.parts.size()),
       muscle_of_vertex_(static_cast<std::size_t>(vertex_count_), 0),
-      smooth_(scene.muscles.rest, muscle_triangles(scene)),
+      surface_(scene.muscles.rest, muscle_triangles(scene)),
       distance_of_depth_(depth_terms(camera.clip_from_world)),
       right_(camera.clip_from_world.row(0).head<3>().normalized()),
       samples_per_slope_(0.5 * picture_samples * camera.clip_from_world.row(1).head<3>().norm()),
@@ -87,7 +83,7 @@ MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_s
 
     glGenVertexArrays(1, &array_);
     glBindVertexArray(array_);
-    for (GLuint* buffer : {&moving_buffer_, &fixed_buffer_, &elements_}) glGenBuffers(1, buffer);
+    for (GLuint* buffer : {&colour_buffer_, &fixed_buffer_, &elements_}) glGenBuffers(1, buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
@@ -95,11 +91,10 @@ MuscleLayer::MuscleLayer(const Scene& scene, const Camera& camera, int picture_s
     glBindBuffer(GL_ARRAY_BUFFER, fixed_buffer_);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(fixed.size() * sizeof(float)),
                  fixed.data(), GL_STATIC_DRAW);
-    muscle_attribute(3, 3, kFixedFloats, 0);
-    glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
-    muscle_attribute(0, 3, kMovingFloats, 0);
-    muscle_attribute(1, 3, kMovingFloats, 3);
-    muscle_attribute(2, 3, kMovingFloats, 6);
+    muscle_attribute(3);
+    glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
+    muscle_attribute(2);
+    surface_.attach();
 
     fibres_ = make_fibres();
     program_.use();
@@ -120,39 +115,26 @@ MuscleLayer::~MuscleLayer() {
     glDeleteTextures(1, &colour_);
     glDeleteTextures(1, &depth_);
     glDeleteTextures(1, &fibres_);
-    for (const GLuint buffer : {moving_buffer_, fixed_buffer_, elements_})
+    for (const GLuint buffer : {colour_buffer_, fixed_buffer_, elements_})
         glDeleteBuffers(1, &buffer);
     glDeleteVertexArrays(1, &array_);
 }
 
 void MuscleLayer::upload(const Pose& pose) {
-    if (pose.muscle_positions.rows() != vertex_count_)
-        throw Error("pose/muscle_positions", std::to_string(vertex_count_) + " rows",
-                    std::to_string(pose.muscle_positions.rows()));
+    surface_.upload(pose.muscle_positions, "pose/muscle_positions");
     if (pose.activations.size() != muscle_count_)
         throw Error("pose/activations", std::to_string(muscle_count_) + " values",
                     std::to_string(pose.activations.size()));
-    const auto vertices = static_cast<std::size_t>(vertex_count_);
-    positions_.resize(3 * vertices);
-    for (std::size_t i = 0; i < positions_.size(); ++i)
-        positions_[i] = static_cast<float>(pose.muscle_positions.data()[i]);
-    smooth_.compute(positions_, normals_);
     std::vector<Vec3> colours;
     for (const double activation : pose.activations)
         colours.push_back(activation_colour(activation));
-    moving_.resize(kMovingFloats * vertices);
-    for (std::size_t v = 0; v < vertices; ++v) {
-        float* to = moving_.data() + kMovingFloats * v;
-        const Vec3& colour = colours[static_cast<std::size_t>(muscle_of_vertex_[v])];
-        for (std::size_t k = 0; k < 3; ++k) {
-            to[k] = positions_[3 * v + k];
-            to[3 + k] = normals_[3 * v + k];
-            to[6 + k] = static_cast<float>(colour[static_cast<Eigen::Index>(k)]);
-        }
-    }
-    glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(moving_.size() * sizeof(float)),
-                 moving_.data(), GL_STREAM_DRAW);
+    colours_.clear();
+    for (const int muscle : muscle_of_vertex_)
+        for (const double channel : colours[static_cast<std::size_t>(muscle)])
+            colours_.push_back(static_cast<float>(channel));
+    glBindBuffer(GL_ARRAY_BUFFER, colour_buffer_);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(colours_.size() * sizeof(float)),
+                 colours_.data(), GL_STREAM_DRAW);
 }
 
 void MuscleLayer::tell(const GlProgram& program) const {

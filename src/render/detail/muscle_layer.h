@@ -5,7 +5,7 @@
 
 #include "render/detail/camera.h"
 #include "render/detail/gl_context.h"
-#include "render/detail/smooth_normals.h"
+#include "render/detail/moving_surface.h"
 #include "render/scene.h"
 
 namespace risorius::render {
@@ -32,14 +32,14 @@ class MuscleLayer {
     Eigen::Index vertex_count_;
     std::size_t muscle_count_;
     std::vector<int> muscle_of_vertex_;
-    SmoothNormals smooth_;
-    std::vector<float> positions_, normals_, moving_;
+    MovingSurface surface_;
+    std::vector<float> colours_;
     Vec2 distance_of_depth_;    ///< distance along the view = y / (2 depth - 1 + x)
     Vec3 right_;                ///< of the camera
     double samples_per_slope_;  ///< of the picture, across a metre a metre away
     GlProgram program_;
     GLsizei index_count_ = 0;
-    GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;
+    GLuint array_ = 0, colour_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;
     GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0, fibres_ = 0;
 };
 

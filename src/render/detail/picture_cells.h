@@ -36,7 +36,7 @@ struct PixelBox {
 
 class PictureCells {
   public:
-    static constexpr int kSide_px = 8;
+    static constexpr int kSide_px = 4;
 
     /// All are empty.
     void begin(int width_px, int height_px);

@@ -38,24 +38,27 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
     }
     if (faces.empty()) return;
     bool cull = false;
+    const auto coarse = [&](double error_m, const std::function<bool(const Face&)>& stays) {
+        std::vector<unsigned> corners;
+        if (error_m <= 0) return corners;
+        std::vector<Face> fewer = coarser_faces(scene.rest, faces, error_m, stays);
+        order_for_drawing(scene.rest, camera, fewer);
+        for (const Face& face : fewer)
+            for (const int v : face) corners.push_back(static_cast<unsigned>(v));
+        return corners;
+    };
     if (material == Material::kSkin) {
         cull = is_wound_outwards(scene.rest, faces, paint_centre);
-        const auto coarse = [&](double error_m, bool folds) {
-            std::vector<unsigned> corners;
-            if (error_m <= 0) return corners;
-            std::vector<Face> fewer =
-                coarser_faces(scene.rest, faces, error_m, much_moved(scene, folds));
-            order_for_drawing(scene.rest, camera, fewer);
-            for (const Face& face : fewer)
-                for (const int v : face) corners.push_back(static_cast<unsigned>(v));
-            return corners;
-        };
-        coarse_skin_ = {coarse(coarseness.seen_m, coarseness.keeps_folds),
-                        coarse(coarseness.shadow_m, false)};
+        coarse_skin_ = {coarse(coarseness.seen_m, much_moved(scene, coarseness.keeps_folds)),
+                        coarse(coarseness.shadow_m, much_moved(scene, false))};
     } else if (material == Material::kEye || material == Material::kTeeth) {
         wind_outwards(scene.rest, faces);
         cull = true;
     }
+    // An eye turns as one, and nothing of it stays as it is. What has a texture is looked up by the number of its triangle.
+    coarse_eyes_.push_back(of_eye && texture < 0
+                               ? coarse(coarseness.eyes_m, [](const Face&) { return false; })
+                               : std::vector<unsigned>());
     order_for_drawing(scene.rest, camera, faces);
     batches_.push_back({material, eye, texture, static_cast<int>(indices_.size()),
                         static_cast<int>(3 * faces.size()), cull});
@@ -65,8 +68,11 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
 
 std::span<const unsigned> SceneTriangles::corners_of(const Batch& batch, Purpose purpose,
                                                      bool whole) const {
-    const std::vector<unsigned>& coarse = coarse_skin(purpose);
-    if (batch.material == Material::kSkin && !coarse.empty() && !whole) return coarse;
+    const std::vector<unsigned>& coarse =
+        batch.material == Material::kSkin
+            ? coarse_skin(purpose)
+            : coarse_eyes_[static_cast<std::size_t>(&batch - batches_.data())];
+    if (!coarse.empty() && !whole) return coarse;
     return std::span(indices_).subspan(static_cast<std::size_t>(batch.first_index),
                                        static_cast<std::size_t>(batch.index_count));
 }

@@ -1,4 +1,4 @@
-// Triangles of a scene by material, each material's ordered front to back; of the skin fewer ones besides, for small pictures.
+// Triangles of a scene by material, each material's ordered front to back; of skin and eyes fewer ones besides, for small pictures.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,6 +49,7 @@ class SceneTriangles {
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
     std::array<std::vector<unsigned>, kPurposes> coarse_skin_;
+    std::vector<std::vector<unsigned>> coarse_eyes_;  ///< of each batch; none: as it is
 };
 
 }  // namespace risorius::render

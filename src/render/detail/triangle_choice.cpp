@@ -14,13 +14,17 @@ bool may_hide(const Batch& batch) {
 
 }  // namespace
 
+Eigen::Vector4f TriangleChoice::place_in(const Eigen::Matrix4f& clip_from_world,
+                                         std::size_t vertex) const {
+    const float* p = positions_.data() + 3 * vertex;
+    return clip_from_world * Eigen::Vector4f(p[0], p[1], p[2], 1.0F);
+}
+
 void TriangleChoice::look_from(const Eigen::Matrix4f& clip_from_world) {
     const std::size_t vertices = positions_.size() / 3;
     clip_places_.resize(4 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
-        const Eigen::Vector4f clip =
-            clip_from_world *
-            Eigen::Vector4f(positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2], 1.0F);
+        const Eigen::Vector4f clip = place_in(clip_from_world, v);
         clip_places_[4 * v] = clip.x() / clip.w();
         clip_places_[4 * v + 1] = clip.y() / clip.w();
         clip_places_[4 * v + 2] = clip.z() / clip.w();
@@ -76,9 +80,7 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
     const std::size_t vertices = positions_.size() / 3;
     lit_places_.resize(3 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
-        const Eigen::Vector4f at =
-            light_from_world *
-            Eigen::Vector4f(positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2], 1.0F);
+        const Eigen::Vector4f at = place_in(light_from_world, v);
         for (std::size_t k = 0; k < 2; ++k)
             lit_places_[3 * v + k] =
                 std::clamp((0.5F * at[static_cast<Eigen::Index>(k)] + 0.5F) * kCells, -2.0F,

@@ -50,6 +50,7 @@ class TriangleChoice {
     std::vector<Range>& ranges(Purpose purpose) {
         return ranges_[static_cast<std::size_t>(purpose)];
     }
+    Eigen::Vector4f place_in(const Eigen::Matrix4f& clip_from_world, std::size_t vertex) const;
     void look_from(const Eigen::Matrix4f& clip_from_world);
     bool is_seen(const unsigned* face, bool cull_back) const;
     /// Where a triangle lies in the clip space last chosen by, and its nearest depth, 0..1.
