@@ -59,6 +59,7 @@ struct AnimateOptions {
     bool emg = false;        ///< what electrodes would record, in the table
     int threads =
         2;  ///< 1, or more to simulate beside drawing, several frames at once; same frames
+    int films_at_once = 1;  ///< in this process, this one among them; same frames
 };
 
 /// Of the simulation, whether given or not.

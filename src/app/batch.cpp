@@ -158,7 +158,7 @@ class BatchRun {
     void tell(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
         if (options_.told) options_.told(clip.condition.clip, state, why);
     }
-    using Work = std::function<void(const ClipPlan&, int threads, const Watch&, Studio&)>;
+    using Work = std::function<void(const ClipPlan&, const CoreShare&, const Watch&, Studio&)>;
     /// Of each clip in turn; those that failed are noted. How many were done.
     int work(const std::vector<const ClipPlan*>& clips, const char* done, const Work& make) {
         for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
@@ -166,7 +166,7 @@ class BatchRun {
         int count = 0;
         // One thread for each, so that a worker is one core of a cluster; more where there are too few clips
         const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
-        const int threads = options_.workers / at_once;
+        const CoreShare share{.threads = options_.workers / at_once, .clips_at_once = at_once};
         for_each(clips.size(), at_once, [&](std::size_t i, Studio& studio) {
             const ClipPlan& clip = *clips[i];
             std::string why;
@@ -177,7 +177,7 @@ class BatchRun {
                     const std::lock_guard lock(telling_);
                     watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
                 }
-                make(clip, threads, frames, studio);
+                make(clip, share, frames, studio);
             } catch (const Error& error) {
                 why = error.what();
             } catch (const RunError& error) {
@@ -219,9 +219,8 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
         for (const std::size_t i : unmeasured(plan, options.out))
             if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
         run.work(films, "filmed",
-                 [&](const ClipPlan& clip, int threads, const Watch& frames, Studio& studio) {
-                     make_take(clip, options.out, threads, frames, studio);
-                 });
+                 [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+                     Studio& studio) { make_take(clip, options.out, share, frames, studio); });
         report.unmeasured =
             static_cast<int>(unmeasured(plan, options.out).size() - report.failed.size());
         if (!report.failed.empty() || report.unmeasured > 0) {
@@ -247,9 +246,8 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
     }
     report.made =
         run.work(wanted, "made",
-                 [&](const ClipPlan& clip, int threads, const Watch& frames, Studio& studio) {
-                     make_clip(clip, options.out, threads, frames, studio);
-                 });
+                 [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+                     Studio& studio) { make_clip(clip, options.out, share, frames, studio); });
 
     // What is told of all of them
     if (report.failed.empty() && report.elsewhere == 0) {

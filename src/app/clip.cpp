@@ -292,19 +292,20 @@ void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
 }
 
 AnimateOptions film_options(const ClipPlan& plan, const fs::path& folder, const fs::path& out,
-                            int threads) {
+                            const CoreShare& share) {
     AnimateOptions options;
     options.script = folder / script_file(plan);
     options.out = out;
     options.quality = plan.clips.quality;
     options.landmarks = films_landmarks(plan);
-    options.threads = threads;
+    options.threads = share.threads;
+    options.films_at_once = share.clips_at_once;
     options.flipped_motion = plan.condition.control.kind == ControlKind::kFlipped;
     return options;
 }
 
-void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const Watch& watch,
-               Studio& studio) {
+void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
+               const Watch& watch, Studio& studio) {
     const ClipFiles files = clip_files(plan);
     for (const fs::path& file : {files.strip, files.video})
         fs::create_directories((folder / file).parent_path());
@@ -312,7 +313,7 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
     if (plan.luminance) {
         take = find_take(plan, folder);
         if (!take) {
-            make_take(plan, folder, threads, watch, studio);
+            make_take(plan, folder, share, watch, studio);
             take = find_take(plan, folder);
             if (!take) throw RunError(plan.condition.clip + ": its take has gone");
         }
@@ -322,7 +323,7 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, int threads, const 
     write_clip_script(plan, folder);
 
     const fs::path video_file = folder / files.video;
-    AnimateOptions options = film_options(plan, folder, video_file, threads);
+    AnimateOptions options = film_options(plan, folder, video_file, share);
     options.video.crf = plan.clips.crf;
     options.video.lossless = plan.clips.lossless;
     Shot shot = plan_shot(options);

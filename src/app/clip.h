@@ -80,14 +80,19 @@ ClipFiles clip_files(const ClipPlan& plan);
 
 /// The script as it is played, into code/scripts.
 void write_clip_script(const ClipPlan& plan, const std::filesystem::path& folder);
+/// What a clip is given of the cores.
+struct CoreShare {
+    int threads = 2;        ///< AnimateOptions::threads
+    int clips_at_once = 1;  ///< in this process
+};
 AnimateOptions film_options(const ClipPlan& plan, const std::filesystem::path& folder,
-                            const std::filesystem::path& out, int threads);
+                            const std::filesystem::path& out, const CoreShare& share);
 /// How it was made, without what differs from one making to the next and from one folder to another.
 Json run_without_places(const RunRecord& record);
 std::string text_of_file(const std::filesystem::path& file);
 
 /// Throws Error, RunError, Interrupted; then nothing new has a final name but files that the next try replaces.
-void make_clip(const ClipPlan& plan, const std::filesystem::path& folder, int threads,
+void make_clip(const ClipPlan& plan, const std::filesystem::path& folder, const CoreShare& share,
                const Watch& watch, Studio& studio);
 
 /// The sidecar of a clip that is made.

@@ -39,6 +39,8 @@ class Fit {
                               &lips_.lower_push, &lips_.puff})
             lip_ratios_.push_back({ratio, *ratio});
         z_ = Eigen::VectorXd::Zero(static_cast<long>(muscles_.size() + lip_ratios_.size()));
+        keep_ = Eigen::VectorXd::Constant(z_.size(), options.keep);
+        keep_[static_cast<long>(muscles_.size()) + 3] = options.keep_lower_push;
         for (const auto& [name, table] : standard) {
             Points goal(static_cast<long>(ways_.landmarks().size()), 3);
             for (std::size_t i = 0; i < ways_.landmarks().size(); ++i) {
@@ -111,9 +113,9 @@ class Fit {
 
     // Cost and mean difference at z; `model`: the quadratic about it.
     std::pair<double, double> look(int round, solve::BoxQuadratic* model) {
-        double cost = 0.5 * options_.keep * z_.squaredNorm(), sum = 0;
+        double cost = 0.5 * keep_.dot(z_.cwiseAbs2()), sum = 0;
         if (model != nullptr) {
-            model->A = options_.keep * Eigen::MatrixXd::Identity(z_.size(), z_.size());
+            model->A = keep_.asDiagonal();
             model->b = model->price = Eigen::VectorXd::Zero(z_.size());
         }
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
@@ -124,14 +126,22 @@ class Fit {
                 one.name);
             const Points miss = ways_.settle(scaled(one.drive), kIterations) - one.goal;
             const double length = one.goal.norm(), ratio = miss.norm() / length;
-            cost += ratio;
+            const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
+            const Points way = miss + one.goal;
+            const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(way.data(), way.size());
+            const double longer = u.norm() / length - 1;
+            cost += ratio + options_.length * std::abs(longer);
             sum += ratio / static_cast<double>(expressions_.size());
             if (model == nullptr) continue;
             const Eigen::MatrixXd J = slopes(one.drive);
-            const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
             const double weight = 1 / (length * length * std::max(ratio, kLeastRatio));
             model->A += weight * (J.transpose() * J);
             model->b += weight * (J.transpose() * (r - J * z_));
+            if (!(u.norm() > 0)) continue;
+            const Eigen::VectorXd slope = J.transpose() * u / (u.norm() * length);
+            const double heavy = options_.length / std::max(std::abs(longer), kLeastRatio);
+            model->A += heavy * slope * slope.transpose();
+            model->b += heavy * slope * (longer - slope.dot(z_));
         }
         return {cost, sum};
     }
@@ -203,7 +213,7 @@ class Fit {
     rig::LipsDescription lips_;
     std::vector<std::pair<double*, double>> lip_ratios_;  // and what it was
     std::vector<Expression> expressions_;
-    Eigen::VectorXd z_;
+    Eigen::VectorXd z_, keep_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
 // standard tables were calibrated on.
 //
-//   minimise  sum over expressions |u - g| / |g| + keep/2 sum z^2
+//   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + keep/2 sum z^2
 //
 //   u, g   ways of the landmarks on this head and on the standard head, at atlas size, m
 //   z      logarithms of factors: on the strength of each muscle, on turn and push of each lip, on the pressure that puffs, |z| <= 1
@@ -31,6 +31,8 @@ struct StrengthFit {
 struct StrengthFitOptions {
     int rounds = 2;
     double keep = 0.03;
+    double keep_lower_push = 8;  ///< freer, the lower ring alone may widen the mouth
+    double length = 0.5;
 };
 
 /// `face` is left at rest with what was found. Throws Interrupted; Error when the table names what the rig does not know.

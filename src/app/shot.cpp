@@ -147,7 +147,9 @@ Shot plan_shot(const AnimateOptions& options) {
         shot.view.light.surroundings =
             render::Surroundings{map.width, map.height, std::move(map.rgb)};
     }
-    shot.view.threads = options.threads > 1 ? options.threads : 0;
+    // All films of a process draw on the driver's threads, one picture after another: as many as draw
+    const int drawing = options.threads * options.films_at_once;
+    shot.view.threads = drawing > 1 ? drawing : 0;
 
     // Refuse now what would only fail after minutes
     index_of_name("--camera", shot.view.camera, render::camera_names());

@@ -79,8 +79,8 @@ std::optional<Take> find_take(const ClipPlan& plan, const fs::path& folder) {
     return whole_take(plan, plan.condition.of, folder);
 }
 
-void make_take(const ClipPlan& plan, const fs::path& folder, int threads, const Watch& watch,
-               Studio& studio) {
+void make_take(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
+               const Watch& watch, Studio& studio) {
     const std::string& clip = plan.condition.clip;
     const fs::path video_file = folder / take_file(clip, ".mkv"),
                    table_file = folder / take_file(clip, ".tsv"),
@@ -89,7 +89,7 @@ void make_take(const ClipPlan& plan, const fs::path& folder, int threads, const 
     fs::remove(record_file);
     write_clip_script(plan, folder);
 
-    const AnimateOptions options = film_options(plan, folder, video_file, threads);
+    const AnimateOptions options = film_options(plan, folder, video_file, share);
     const Shot shot = plan_shot(options);
     media::VideoWriter video(video_file, shot.video);
     FilmExtras extras;

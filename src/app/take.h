@@ -30,7 +30,7 @@ struct Take {
 std::optional<Take> find_take(const ClipPlan& plan, const std::filesystem::path& folder);
 
 /// Throws as make_clip().
-void make_take(const ClipPlan& plan, const std::filesystem::path& folder, int threads,
+void make_take(const ClipPlan& plan, const std::filesystem::path& folder, const CoreShare& share,
                const Watch& watch, Studio& studio);
 
 /// What is measured of a clip's film: by its take, or by the clip that was made of it.

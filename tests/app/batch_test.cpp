@@ -96,10 +96,10 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     // Whoever keeps something beside it keeps it
     const fs::path others[] = {options.out / "stimuli/ratings.tsv",
                                options.out / "overview/talk.png"};
-    for (const fs::path& file : others) std::ofstream(file) << "mine";
+    for (const fs::path& other_file : others) std::ofstream(other_file) << "mine";
     const BatchReport less = make_batch(options);
     EXPECT_EQ(less.made, 0);
-    for (const fs::path& file : others) EXPECT_EQ(text_of(file), "mine");
+    for (const fs::path& other_file : others) EXPECT_EQ(text_of(other_file), "mine");
     EXPECT_FALSE(fs::exists(options.out / "overview/smile0p5.png"));
     EXPECT_FALSE(fs::exists(options.out / "code/scripts/smile0p5.json"));
     EXPECT_EQ(less.kept, 2);
