@@ -18,6 +18,9 @@ constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 
 // Mean squares of the weights of correctives, 4 w (1 - w) and w_a w_b, where those of shapes are anything from 0 to 1.
 constexpr double kSquareOfHalf = 8.0 / 15.0, kSquareOfProduct = 1.0 / 9.0;
+// A shape that is at work is on its way whatever else is there, while a given other one is there in a fifth of its frames
+// (random weights, four of 52 at a time: less; faces that speak and feel: less for most pairs).
+constexpr double kPairIsMet = 0.2;
 
 /// What is tried together: a shape, or both its halves.
 struct Unit {
@@ -106,6 +109,33 @@ long bytes_of(const shapes::SparseShape& shape) {
     return static_cast<long>(shape.vertex.size()) * 15;
 }
 
+/// The most useful ones by size until the budget is spent; left and right of what was tried together or not at all.
+void keep_most_useful(std::vector<Found>& found, long budget_bytes, Correctives& out) {
+    struct Group {
+        std::size_t first, end;
+        double use;
+        long bytes;
+    };
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (groups.empty() || found[groups.back().first].tried != found[i].tried)
+            groups.push_back({i, i, 0, 0});
+        groups.back().end = i + 1;
+        groups.back().use += found[i].use;
+        groups.back().bytes += found[i].bytes;
+    }
+    std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
+        return x.use * static_cast<double>(y.bytes) > y.use * static_cast<double>(x.bytes);
+    });
+    for (const Group& group : groups) {
+        if (out.bytes + group.bytes > budget_bytes) continue;
+        out.bytes += group.bytes;
+        out.tried[found[group.first].tried].kept = true;
+        for (std::size_t i = group.first; i < group.end; ++i)
+            out.rig.correctives.push_back(std::move(found[i].corrective));
+    }
+}
+
 }  // namespace
 
 std::string weight_rule(const shapes::Corrective& corrective) {
@@ -170,7 +200,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
             one.corrective.fades_with = std::move(fades_with);
-            one.use = (half ? kSquareOfHalf : kSquareOfProduct) *
+            one.use = (half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct) *
                       (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
             one.tried = c;
@@ -206,16 +236,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             add(field, {driver(a, side)}, std::move(fades_with), a.parts.size() > 1 ? "" : ending);
         }
     }
-    // The most useful ones by size until the budget is spent
-    std::stable_sort(found.begin(), found.end(), [](const Found& x, const Found& y) {
-        return x.use * static_cast<double>(y.bytes) > y.use * static_cast<double>(x.bytes);
-    });
-    for (Found& one : found) {
-        if (out.bytes + one.bytes > options.budget_bytes) continue;
-        out.bytes += one.bytes;
-        out.tried[one.tried].kept = true;
-        out.rig.correctives.push_back(std::move(one.corrective));
-    }
+    keep_most_useful(found, options.budget_bytes, out);
     return out;
 }
 

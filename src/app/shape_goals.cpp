@@ -233,7 +233,8 @@ const std::vector<std::string>& shape_set_names() {
 }
 
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& name,
-                   const std::vector<std::string>& only, const std::string& place) {
+                   const std::vector<std::string>& only, const std::string& place,
+                   const std::string& only_from) {
     index_of_name("--set", name, shape_set_names());
     ShapeSet set;
     set.name = name;
@@ -256,7 +257,7 @@ ShapeSet shape_set(const rig::RigDescription& rig, const std::string& name,
     // Twice: pairs are indices, and those change when only some shapes are kept
     out.pair_up();
     put_on_top(set);
-    keep_only(only, set, place);
+    keep_only(only, set, only_from);
     if (!only.empty()) {
         out.pair_up();
         put_on_top(set);

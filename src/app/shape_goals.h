@@ -44,8 +44,9 @@ struct ShapeSet {
 const std::vector<std::string>& shape_set_names();
 
 /// `only`: names of shapes or wholes to keep; empty: all. Throws Error naming `place` for a set that is unknown, or that
-/// the rig's tables do not have, and for a name that the set does not have.
+/// the rig's tables do not have, and naming `only_from`, where `only` was read, for a name that the set does not have.
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& set,
-                   const std::vector<std::string>& only, const std::string& place);
+                   const std::vector<std::string>& only, const std::string& place,
+                   const std::string& only_from = "--only");
 
 }  // namespace risorius::app

@@ -55,7 +55,7 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const RigFil
         names.push_back(model.targets[s].name);
         out.rig.shapes.push_back({model.targets[s].vertex, model.targets[s].delta});
     }
-    const ShapeSet set = shape_set(files.rig, out.set, names, file.string());
+    const ShapeSet set = shape_set(files.rig, out.set, names, file.string(), file.string());
     for (const std::string& name : names) {
         const auto index = set.index(name);
         if (!index || set.goals.size() != count)

@@ -91,7 +91,12 @@ Vec3 Jaw::floor_bulge(const Vec3& p) const {
     const double share = smoothstep(-4 * mm, 14 * mm, below) *
                          (1.0 - smoothstep(14 * mm, 60 * mm, below)) * std::exp(-aside * aside) *
                          smoothstep(0.0, 15 * mm, p.z());
-    return 0.5 * share * Vec3(0.7 * aside, -1, 0);
+    return 0.4 * share * Vec3(0.7 * aside, -1, -0.55);
+}
+
+double Jaw::in_floor(const Vec3& p) const {
+    const double mm = 1e-3 * size_;
+    return smoothstep(-11 * mm, 5 * mm, border_height(p) - p.y()) * smoothstep(0.0, 15 * mm, p.z());
 }
 
 namespace {

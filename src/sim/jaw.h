@@ -23,9 +23,11 @@ class Jaw {
     /// For skin whose side of the bite is known better than by its height (see bite_heights).
     double weight(const Vec3& p, double height_over_bite_m) const;
 
-    /// How far the floor of the mouth and the throat below it bulge for every metre that the chin comes back, m: tongue and
-    /// floor hardly change volume and give way downwards, the hyoid with them.
+    /// How far the floor of the mouth and the throat below it give way for every metre that the chin comes back, m: tongue and
+    /// floor hardly change volume, so they bulge downwards, and the hyoid goes down and back with them.
     Vec3 floor_bulge(const Vec3& p) const;
+    /// Share of what lies under the mandible, behind the chin's edge, at a point: 1 there and on the neck, 0 on the face.
+    double in_floor(const Vec3& p) const;
     /// How far the chin has come back, m.
     double chin_back(const Rigid& motion) const { return (chin() - motion * chin()).z(); }
     const Vec3& chin() const { return border_.front(); }

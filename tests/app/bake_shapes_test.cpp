@@ -72,8 +72,9 @@ TEST(ShapeGoals, OtherSetsHaveWhatMovesTheFace) {
         set_of("arkit52", {"mouthSmlie"});
         ADD_FAILURE() << "took an unknown name";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("did you mean \"mouthSmile\"?"), std::string::npos)
-            << error.what();
+        EXPECT_STREQ(error.what(),
+                     "--only: expected shapes of the set \"arkit52\" (did you mean "
+                     "\"mouthSmile\"?), found \"mouthSmlie\"");
     }
 }
 

@@ -27,8 +27,8 @@ void print(const app::ShapesReport& report, const app::ShapesOptions& options) {
     std::printf("%s, %s: %zu shapes of %d vertices, solved in %.0f s (%d nodes, %s)\n",
                 report.rig.c_str(), report.set.c_str(), report.shapes.list.size(), report.vertices,
                 report.solving_s, report.nodes, report.quality.c_str());
-    std::printf("  %-40s %7s %8s %6s %6s %6s %6s %7s\n", "", "peak", "volume", "lip", "eye", "lids",
-                "sides", "stretch");
+    std::printf("  %-40s %7s %8s %6s %6s %6s %6s %7s\n", "mm, volume in %, stretch a ratio", "peak",
+                "volume", "lip", "eye", "lids", "sides", "stretch");
     for (const app::MadeShape& made : report.shapes.list) {
         const app::ShapeCertificate& of = made.certificate;
         std::printf("  %-40s %7s %+6.2f %% %6s %6s %6s %6s %7.2f", made.goal.name.c_str(),
