@@ -40,7 +40,9 @@ class Fit {
             lip_ratios_.push_back({ratio, *ratio});
         z_ = Eigen::VectorXd::Zero(static_cast<long>(muscles_.size() + lip_ratios_.size()));
         keep_ = Eigen::VectorXd::Constant(z_.size(), options.keep);
-        keep_[static_cast<long>(muscles_.size()) + 3] = options.keep_lower_push;
+        for (std::size_t i = 0; i < lip_ratios_.size(); ++i)
+            if (lip_ratios_[i].first == &lips_.lower_push)
+                keep_[static_cast<long>(muscles_.size() + i)] = options.keep_lower_push;
         for (const auto& [name, table] : standard) {
             Points goal(static_cast<long>(ways_.landmarks().size()), 3);
             for (std::size_t i = 0; i < ways_.landmarks().size(); ++i) {

@@ -1,10 +1,11 @@
 // Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
 // standard tables were calibrated on.
 //
-//   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + keep/2 sum z^2
+//   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + sum keep/2 z^2
 //
 //   u, g   ways of the landmarks on this head and on the standard head, at atlas size, m
 //   z      logarithms of factors: on the strength of each muscle, on turn and push of each lip, on the pressure that puffs, |z| <= 1
+//   keep   the price of a change: the push of the lower lip has its own
 //
 // by Gauss-Newton over settled faces, du/dz = -H^-1 dg/dz at the nodes of the skin, with squares weighted so that they add up to the
 // lengths: an expression that this head cannot make does not spoil the others.
@@ -32,7 +33,7 @@ struct StrengthFitOptions {
     int rounds = 2;
     double keep = 0.03;
     double keep_lower_push = 8;  ///< freer, the lower ring alone may widen the mouth
-    double length = 0.5;
+    double length = 0.5;  ///< price of a way that is longer or shorter, to that of one that differs
 };
 
 /// `face` is left at rest with what was found. Throws Interrupted; Error when the table names what the rig does not know.
