@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit_rig.h"
+#include "app/head_textures.h"
 #include "app/rig_files.h"
 #include "app/scene_from_rig.h"
 #include "app/staged_file.h"
@@ -25,7 +26,6 @@ constexpr const char* kLandmarks = "landmarks.json";
 constexpr const char* kRegions = "regions.json";
 constexpr const char* kIdentityFile = "identity.json";
 constexpr const char* kRigFile = "rig.json";
-constexpr const char* kTexture = "skin.png";
 constexpr const char* kViews = "views.png";
 constexpr const char* kResults = "results.json";
 
@@ -56,12 +56,6 @@ render::Scene scene_of(const fs::path& rig_file) {
     const RigFiles files = read_rig_files(rig_file);
     return scene_from_rig(rig::place_head(files.rig, files.mesh, files.place()), files.rig,
                           files.mesh);
-}
-
-/// The square holds a head of 0.6 m from ear to ear over the crown; the view is as fine.
-Image texture_of(const render::Scene& scene, int side_px) {
-    const render::OffscreenView view(scene, {.width_px = side_px / 2, .height_px = side_px / 2});
-    return view.skin_texture(scene, side_px);
 }
 
 Image views_of(const render::Scene& scene) {
@@ -142,7 +136,8 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
     // Write mesh, landmarks and who it is
     StagedFolder folder(options.out);
     const fs::path partial = folder.partial();
-    sculpt::write_head(model, partial);
+    const bool textured = options.texture_px > 0;
+    sculpt::write_head(model, partial, textured ? kTextureLibrary : "");
     write_text(partial / kIdentityFile, sculpt::identity_json(options.identity).dump(2) + "\n");
     report.files = {kMeshFile, kLandmarks, kRegions, kIdentityFile, kResults};
 
@@ -160,12 +155,15 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
         report.notes = fit_rig(fit, watch).notes;
         Json rig = JsonCursor::read_file(fit.out).json();
         rig["look"] = look_json(options.identity, tables);
+        // The pictures are for others: drawn here, the head looks the same with and without them.
+        if (textured) rig["look"]["textures"] = "generated";
         write_text(fit.out, rig.dump(1) + "\n");
         const render::Scene scene = scene_of(fit.out);
         media::write_png(views_of(scene), partial / kViews);
-        if (options.texture_px > 0) {
-            media::write_png(texture_of(scene, options.texture_px), partial / kTexture);
-            report.files.emplace_back(kTexture);
+        if (textured) {
+            const std::vector<std::string> written =
+                write_head_textures(scene, options.texture_px, model.crown_height, partial);
+            report.files.insert(report.files.end(), written.begin(), written.end());
         }
         report.files.insert(report.files.end(), {kRigFile, kViews});
     }

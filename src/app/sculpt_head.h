@@ -17,8 +17,9 @@ struct SculptOptions {
     sculpt::Identity identity;   ///< who
     std::string place = "head";  ///< where the identity is from, for messages
     bool mesh_only = false;      ///< no rig and no picture
-    int texture_px = 0;          ///< side of a picture of the skin's colours; 0: none
-    bool calibrate = false;      ///< muscles anew, minutes; else as strong as the adult's
+    int texture_px =
+        0;  ///< side of a picture of the skin's colours, those of the other parts half of it; 0: none
+    bool calibrate = false;  ///< muscles anew, minutes; else as strong as the adult's
     std::filesystem::path
         standard{};  ///< folder of the standard tables; empty: those of this build
 };

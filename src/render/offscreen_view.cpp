@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
+#include <map>
 #include <numbers>
 
 #include "core/error.h"
@@ -19,6 +20,7 @@
 #include "render/detail/muscle_layer.h"
 #include "render/detail/occlusion.h"
 #include "render/detail/own_textures.h"
+#include "render/detail/part_texture.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/resolve.h"
 #include "render/detail/scene_buffers.h"
@@ -29,6 +31,7 @@
 #include "render/detail/skin_texture.h"
 #include "render/detail/strand_layer.h"
 #include "render/detail/tear_layer.h"
+#include "render/detail/texture_square.h"
 #include "render/value_colour.h"
 
 namespace risorius::render {
@@ -436,6 +439,7 @@ Image OffscreenView::skin_texture(const Scene& scene, int side_px) const {
             }
     }
     if (!laid_out) throw Error("skin", "texture coordinates", "none");
+    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
     const GlContext::Current current(impl_->context);
     GLuint framebuffer = 0;
     glGenFramebuffers(1, &framebuffer);
@@ -448,7 +452,31 @@ Image OffscreenView::skin_texture(const Scene& scene, int side_px) const {
     glReadPixels(0, 0, map_side, map_side, GL_RGBA, GL_UNSIGNED_BYTE, map.data());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDeleteFramebuffers(1, &framebuffer);
-    return unfold_paint(scene, paint_centre(scene, low, high), map, map_side, side_px);
+    return unfold_paint(scene, paint_centre(scene, low, high), map, map_side,
+                        unfold_part(scene, *impl_->materials, Material::kMouth, side_px, {}));
+}
+
+Image OffscreenView::part_texture(const Scene& scene, Material part, int side_px,
+                                  const std::vector<double>& crown_height) const {
+    static const std::map<Material, const char*> kParts{{Material::kEye, "eyes"},
+                                                        {Material::kTeeth, "teeth"},
+                                                        {Material::kGums, "gums"},
+                                                        {Material::kTongue, "tongue"}};
+    const auto named = kParts.find(part);
+    if (named == kParts.end())
+        throw Error("part", "eyes, teeth, gums or tongue", std::to_string(static_cast<int>(part)));
+    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
+    if (!crown_height.empty() && static_cast<long>(crown_height.size()) != scene.rest.rows())
+        throw Error("crown_height", std::to_string(scene.rest.rows()) + " rows, or none",
+                    std::to_string(crown_height.size()));
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+            return surface.material == part && surface.texcoords.rows() > 0;
+        }))
+        throw Error(named->second, "texture coordinates", "none");
+    const GlContext::Current current(impl_->context);
+    Image image = unfold_part(scene, *impl_->materials, part, side_px, crown_height);
+    fill_uncovered(image, mean_colour(image));
+    return image;
 }
 
 Image OffscreenView::draw(const std::vector<Pose>& poses) {

@@ -88,7 +88,12 @@ class OffscreenView {
 
     /// The colours of the skin without light, on the texture coordinates of its surfaces: a square picture, sRGB. Lashes and brows,
     /// which are strands, are not in it. `scene` is the view's. Throws Error for a skin without texture coordinates.
+    /// The wall of the mouth is, where it has texture coordinates that the skin leaves free.
     Image skin_texture(const Scene& scene, int side_px) const;
+    /// Likewise the colours of kEye, kTeeth, kGums or kTongue: an iris as it is seen from straight ahead, teeth warmer at the neck and
+    /// grey at the edge. `crown_height`: of each vertex of the scene, 0 at the neck of its tooth to 1 at the edge; or nothing.
+    Image part_texture(const Scene& scene, Material part, int side_px,
+                       const std::vector<double>& crown_height = {}) const;
 
     /// Processor time of the process, s, from when the last picture was drawn until it was in memory.
     double read_back_s() const;

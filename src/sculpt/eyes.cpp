@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/part_layout.h"
+
 namespace risorius::sculpt {
 
 double Globe::radius_at(double cosine) const {
@@ -38,21 +40,36 @@ geom::PolygonMesh globe_mesh(const Globe& globe, double side, const std::string&
     }
     const int last = 1 + (kRings - 1) * kAround;
     put(last, M_PI, 0);
-    const auto face = [&](std::vector<int> corners) {
+    const Disc disc = eye_disc(side);
+    std::vector<Vec2> places;
+    // A vertex by its ring and how many steps around it is; the pole of the back lies behind each face's own middle.
+    struct Corner {
+        int ring;
+        double around;
+    };
+    const auto face = [&](std::vector<Corner> corners) {
         if (side < 0) std::reverse(corners.begin(), corners.end());
-        mesh.corner_vertex.insert(mesh.corner_vertex.end(), corners.begin(), corners.end());
+        for (const auto& [ring, around] : corners) {
+            mesh.corner_vertex.push_back(ring == 0        ? 0
+                                         : ring == kRings ? last
+                                                          : 1 + (ring - 1) * kAround +
+                                                                static_cast<int>(around) % kAround);
+            places.push_back(
+                disc.at(static_cast<double>(ring) / kRings, 2 * M_PI * around / kAround));
+        }
         mesh.face_begin.push_back(static_cast<int>(mesh.corner_vertex.size()));
         mesh.face_group.push_back(0);
     };
     for (int k = 0; k < kAround; ++k) {
-        const int next = (k + 1) % kAround;
-        face({0, 1 + k, 1 + next});
-        for (int ring = 1; ring + 1 < kRings; ++ring) {
-            const int a = 1 + (ring - 1) * kAround, b = a + kAround;
-            face({a + k, b + k, b + next, a + next});
-        }
-        face({last, last - kAround + next, last - kAround + k});
+        const double a = k, b = k + 1, between = k + 0.5;
+        face({{0, between}, {1, a}, {1, b}});
+        for (int ring = 1; ring + 1 < kRings; ++ring)
+            face({{ring, a}, {ring + 1, a}, {ring + 1, b}, {ring, b}});
+        face({{kRings, between}, {kRings - 1, b}, {kRings - 1, a}});
     }
+    mesh.corner_texcoord.resize(static_cast<long>(places.size()), 2);
+    for (std::size_t c = 0; c < places.size(); ++c)
+        mesh.corner_texcoord.row(static_cast<long>(c)) = places[c].transpose();
     return mesh;
 }
 

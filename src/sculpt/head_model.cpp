@@ -20,6 +20,12 @@ void append(geom::PolygonMesh& whole, const geom::PolygonMesh& part) {
     joined.topRows(base) = whole.positions;
     joined.bottomRows(part.vertex_count()) = part.positions;
     whole.positions = joined;
+    // What has no layout yet is at (0, 0).
+    TexCoords places = TexCoords::Zero(
+        static_cast<long>(whole.corner_vertex.size() + part.corner_vertex.size()), 2);
+    places.topRows(whole.corner_texcoord.rows()) = whole.corner_texcoord;
+    places.bottomRows(part.corner_texcoord.rows()) = part.corner_texcoord;
+    whole.corner_texcoord = places;
     for (int f = 0; f < part.face_count(); ++f) {
         for (int c = part.face_begin[f]; c < part.face_begin[f + 1]; ++c)
             whole.corner_vertex.push_back(base + part.corner_vertex[c]);
@@ -81,13 +87,18 @@ HeadModel make_head(const DesignTables& tables) {
     model.mesh = mirrored(skin.mesh);
     append(model.mesh, globe_mesh(globe, 1, "eye_l"));
     append(model.mesh, globe_mesh(globe, -1, "eye_r"));
-    append(model.mesh, teeth(Arch::kUpper, "teeth_upper"));
-    append(model.mesh, teeth(Arch::kLower, "teeth_lower"));
+    for (const Arch arch : {Arch::kUpper, Arch::kLower}) {
+        model.crown_height.resize(static_cast<std::size_t>(model.mesh.vertex_count()), 0);
+        append(model.mesh, teeth(arch, arch == Arch::kUpper ? "teeth_upper" : "teeth_lower"));
+        const std::vector<double> heights = crown_heights();
+        model.crown_height.insert(model.crown_height.end(), heights.begin(), heights.end());
+    }
     append(model.mesh, gums(Arch::kUpper, "gums_upper"));
     append(model.mesh, gums(Arch::kLower, "gums_lower"));
     append(model.mesh, tongue("tongue"));
     append(model.mesh, lashes(skin, globe, 1, "lashes_l"));
     append(model.mesh, lashes(skin, globe, -1, "lashes_r"));
+    model.crown_height.resize(static_cast<std::size_t>(model.mesh.vertex_count()), 0);
     lay_out(skin.mesh, tables.landmarks.at("v").z(), skin.upper_margin, skin.lower_margin,
             model.mesh);
     // Both halves have their faces in the same order.
@@ -99,12 +110,14 @@ HeadModel make_head(const DesignTables& tables) {
     return model;
 }
 
-void write_head(const HeadModel& model, const std::filesystem::path& folder) {
+void write_head(const HeadModel& model, const std::filesystem::path& folder,
+                const std::string& library) {
     std::string text =
         "# Risorius adult head, made by tools/sculpt from models/adult/design. CC0. Millimetres; "
         "see ORIGIN.md.\n";
     char line[96];
     const auto& mesh = model.mesh;
+    if (!library.empty()) text.append("mtllib ").append(library).append("\n");
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         // Adding zero turns a rounded -0 into 0.
         const auto rounded = [&](int axis) {
@@ -130,6 +143,7 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder) {
     int written_faces = 0;
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
         text.append("g ").append(mesh.group_names[g]).append("\n");
+        if (!library.empty()) text.append("usemtl ").append(mesh.group_names[g]).append("\n");
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
             place_in_file[static_cast<std::size_t>(f)] = written_faces++;

@@ -275,7 +275,7 @@ struct Chart {
     }
 };
 
-/// Parts of no chart: each face along the axis it faces most, the six views side by side in the part's own square.
+/// Ribbons: each face along the axis it faces most, the six views side by side in the part's own square.
 void lay_out_part(geom::PolygonMesh& mesh, int group) {
     struct Corner {
         int corner, view;
@@ -372,8 +372,6 @@ void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper
     const double half_width = std::max(charts[0].high.x() + kGap_mm, along),
                  height = corner[0].y() + charts[0].high.y() - charts[0].low.y() + kGap_mm;
     const double scale = 1 / std::max(2 * half_width, height);
-    const int corners = static_cast<int>(mesh.corner_vertex.size());
-    mesh.corner_texcoord = TexCoords::Zero(corners, 2);
     const std::size_t faces = half.face.size();
     for (std::size_t f = 0; f < 2 * faces; ++f) {
         const std::size_t own = f % faces, c = chart_of(half.region[own]);
@@ -388,8 +386,7 @@ void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper
         }
     }
     for (int g = 0; g < static_cast<int>(mesh.group_names.size()); ++g)
-        if (mesh.group_names[static_cast<std::size_t>(g)] != "skin" &&
-            mesh.group_names[static_cast<std::size_t>(g)] != "mouth")
+        if (mesh.group_names[static_cast<std::size_t>(g)].starts_with("lashes"))
             lay_out_part(mesh, g);
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+
+#include "sculpt/part_layout.h"
 
 namespace risorius::sculpt {
 namespace {
@@ -90,13 +93,25 @@ class Builder {
         points_.push_back(p);
         return static_cast<int>(points_.size()) - 1;
     }
-    void face(std::vector<int> corners) {
-        mesh_.corner_vertex.insert(mesh_.corner_vertex.end(), corners.begin(), corners.end());
+    struct Corner {
+        int vertex;
+        Vec2 place;
+    };
+    void face(const std::vector<Corner>& corners) {
+        for (const Corner& corner : corners) {
+            mesh_.corner_vertex.push_back(corner.vertex);
+            places_.push_back(corner.place);
+        }
         mesh_.face_begin.push_back(static_cast<int>(mesh_.corner_vertex.size()));
         mesh_.face_group.push_back(0);
     }
+    /// Where a tube is laid out: `ring` -1 is the apex before the first, `around` 0..1 from the vertex `begin` of a ring.
+    struct Layout {
+        std::size_t begin = 0;
+        std::function<Vec2(int ring, double around)> at;
+    };
     /// Quads along a tube of rings of equal size; normals are set right by the sign of its volume.
-    void tube(const std::vector<std::vector<int>>& rings) {
+    void tube(const std::vector<std::vector<int>>& rings, const Layout& layout) {
         Vec3 middle = Vec3::Zero();
         int count = 0;
         for (const auto& ring : rings)
@@ -110,51 +125,79 @@ class Builder {
             for (std::size_t r = 0; r + 1 < rings.size(); ++r)
                 for (std::size_t k = 0; k < rings[r].size(); ++k) {
                     const std::size_t n = (k + 1) % rings[r].size();
-                    use(rings[r][k], rings[r][n], rings[r + 1][n], rings[r + 1][k]);
+                    use(r, k, rings[r][k], rings[r][n], rings[r + 1][n], rings[r + 1][k]);
                 }
         };
-        each([&](int a, int b, int c, int d) {
+        each([&](std::size_t, std::size_t, int a, int b, int c, int d) {
             const auto at = [&](int v) {
                 return Vec3(points_[static_cast<std::size_t>(v)] - middle);
             };
             volume += (at(c) - at(a)).cross(at(d) - at(b)).dot(at(a) + at(b) + at(c) + at(d));
         });
         inside_out_ = volume < 0;
-        each([&](int a, int b, int c, int d) {
+        rings_ = rings;
+        layout_ = layout;
+        each([&](std::size_t ring, std::size_t k, int a, int b, int c, int d) {
+            const int r = static_cast<int>(ring);
+            const Corner p{a, place(r, k, 0)}, q{b, place(r, k, 1)}, s{c, place(r + 1, k, 1)},
+                t{d, place(r + 1, k, 0)};
             if (inside_out_)
-                face({a, d, c, b});
+                face({p, t, s, q});
             else
-                face({a, b, c, d});
+                face({p, q, s, t});
         });
     }
     /// A fan over the last ring of the latest tube, or over its first.
-    void close(const std::vector<int>& ring, const Vec3& apex, bool first) {
+    void close(const Vec3& apex, bool first) {
+        const std::vector<int>& ring = first ? rings_.front() : rings_.back();
+        const int r = first ? 0 : static_cast<int>(rings_.size()) - 1;
         const int top = add(apex);
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const int a = ring[k], b = ring[(k + 1) % ring.size()];
+            const Corner a{ring[k], place(r, k, 0)}, b{ring[(k + 1) % ring.size()], place(r, k, 1)},
+                tip{top, place(first ? -1 : r + 1, k, 0.5)};
             if (inside_out_ != first)
-                face({b, a, top});
+                face({b, a, tip});
             else
-                face({a, b, top});
+                face({a, b, tip});
         }
     }
     geom::PolygonMesh finish() {
         mesh_.positions.resize(static_cast<long>(points_.size()), 3);
         for (std::size_t v = 0; v < points_.size(); ++v)
             mesh_.positions.row(static_cast<long>(v)) = points_[v].transpose();
+        mesh_.corner_texcoord.resize(static_cast<long>(places_.size()), 2);
+        for (std::size_t c = 0; c < places_.size(); ++c)
+            mesh_.corner_texcoord.row(static_cast<long>(c)) = places_[c].transpose();
         return mesh_;
     }
     std::vector<Vec3>& points() { return points_; }
 
   private:
+    /// Of the cell between the vertices k and k + 1 of a ring, `step` of the way from one to the other.
+    Vec2 place(int ring, std::size_t k, double step) const {
+        const std::size_t count = rings_.front().size();
+        const double from = static_cast<double>((k + count - layout_.begin) % count);
+        return layout_.at(ring, (from + step) / static_cast<double>(count));
+    }
+
     geom::PolygonMesh mesh_;
     std::vector<Vec3> points_;
+    std::vector<Vec2> places_;             ///< of the corners
+    std::vector<std::vector<int>> rings_;  ///< of the latest tube
+    Layout layout_;
     bool inside_out_ = false;
 };
 
+constexpr int kCrownAround = 20, kCrownRings = 9;
+
+/// 0 at the buried neck, 1 at the edge; close rings where the edge is rounded.
+double crown_height(int ring) {
+    return ring < 6 ? ring / 6.0 * 0.86 : 0.86 + (ring - 5) * 0.14 / (kCrownRings - 5);
+}
+
 void add_crown(Builder& builder, const Crown& crown, double scale, Arch arch, const ArchLine& line,
-               double place, double side) {
-    constexpr int kAround = 20, kRings = 9;
+               double place, double side, const Disc& disc) {
+    constexpr int kAround = kCrownAround, kRings = kCrownRings;
     const double to_edge = arch == Arch::kUpper ? -1 : 1;  // of y
     const Vec3 edge = line.at(place);
     const Vec3 out = line.outward(place), along = Vec3(out.z(), 0, -out.x());
@@ -162,8 +205,7 @@ void add_crown(Builder& builder, const Crown& crown, double scale, Arch arch, co
     std::vector<std::vector<int>> rings;
     const double buried = 1.5;  // of the crown's neck in the gum
     for (int r = 0; r <= kRings; ++r) {
-        // h: 0 at the buried neck, 1 at the edge; close rings where the edge is rounded.
-        const double h = r < 6 ? r / 6.0 * 0.86 : 0.86 + (r - 5) * 0.14 / (kRings - 5);
+        const double h = crown_height(r);
         const double rounding =
             h < 0.86 ? 1.0 : std::sqrt(std::max(0.0, 1 - std::pow((h - 0.86) / 0.155, 2.0)));
         const double half_width = 0.5 * scale * crown.width * 0.985 *
@@ -192,12 +234,18 @@ void add_crown(Builder& builder, const Crown& crown, double scale, Arch arch, co
             rings.back().push_back(builder.add(p));
         }
     }
-    builder.tube(rings);
+    // From the rounded edge to its middle it is a quarter as far as from the neck to the edge.
+    constexpr double kTop = 0.2;
+    builder.tube(rings, {0, [&disc](int ring, double around) {
+                             const double share =
+                                 ring > kRings ? 0 : 1 - (1 - kTop) * crown_height(ring);
+                             return disc.at(share, 2 * M_PI * around);
+                         }});
     Vec3 apex = Vec3::Zero();
     for (const int v : rings.back())
         apex += builder.points()[static_cast<std::size_t>(v)] / kAround;
     if (crown.molar) apex.y() -= to_edge * 0.7;  // the central fossa
-    builder.close(rings.back(), apex, false);
+    builder.close(apex, false);
 }
 
 }  // namespace
@@ -207,11 +255,22 @@ geom::PolygonMesh teeth(Arch arch, const std::string& group) {
     const ArchLine line(arch);
     std::array<double, 7> place;
     const double scale = crown_places(arch, line, place);
+    const bool upper = arch == Arch::kUpper;
     for (const double side : {1.0, -1.0})
         for (int k = 0; k < 7; ++k)
-            add_crown(builder, (arch == Arch::kUpper ? kUpperCrowns : kLowerCrowns)[k], scale, arch,
-                      line, place[k], side);
+            add_crown(builder, (upper ? kUpperCrowns : kLowerCrowns)[k], scale, arch, line,
+                      place[k], side, crown_disc(upper, side > 0 ? k : k + 7));
     return builder.finish();
+}
+
+std::vector<double> crown_heights() {
+    std::vector<double> heights;
+    for (int crown = 0; crown < 14; ++crown) {
+        for (int r = 0; r <= kCrownRings; ++r)
+            heights.insert(heights.end(), kCrownAround, crown_height(r));
+        heights.push_back(1);  // the middle of the edge
+    }
+    return heights;
 }
 
 geom::PolygonMesh gums(Arch arch, const std::string& group) {
@@ -260,12 +319,16 @@ geom::PolygonMesh gums(Arch arch, const std::string& group) {
             rings.back().push_back(builder.add(p));
         }
     }
-    builder.tube(rings);
+    const double count = static_cast<double>(rings.size());
+    builder.tube(rings, {kAround * 3 / 4, [&](int ring, double around) {
+                             return gum_place(arch == Arch::kUpper, (ring + 1) / (count + 1),
+                                              around);
+                         }});
     for (const bool last : {false, true}) {
         const auto& ring = last ? rings.back() : rings.front();
         Vec3 apex = Vec3::Zero();
         for (const int v : ring) apex += builder.points()[static_cast<std::size_t>(v)] / kAround;
-        builder.close(ring, apex, !last);
+        builder.close(apex, !last);
     }
     return builder.finish();
 }
@@ -304,9 +367,12 @@ geom::PolygonMesh tongue(const std::string& group) {
                                   (std::copysign(std::pow(std::abs(v), 0.85), v) - groove))));
         }
     }
-    builder.tube(rings);
-    builder.close(rings.front(), Vec3(0, -56.7, 80.0), true);
-    builder.close(rings.back(), Vec3(0, -71.5, 35.5), false);
+    const Disc disc = tongue_disc();
+    builder.tube(rings, {0, [&](int ring, double around) {
+                             return disc.at((ring + 1.0) / (count + 1), 2 * M_PI * around);
+                         }});
+    builder.close(Vec3(0, -56.7, 80.0), true);
+    builder.close(Vec3(0, -71.5, 35.5), false);
     return builder.finish();
 }
 

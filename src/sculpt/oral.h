@@ -1,6 +1,8 @@
 // What is inside the mouth: two arches of fourteen crowns, their gums, and the tongue at rest. Lengths in mm.
 #pragma once
 
+#include <vector>
+
 #include "geom/polygon_mesh.h"
 
 namespace risorius::sculpt {
@@ -8,6 +10,8 @@ namespace risorius::sculpt {
 enum class Arch { kUpper, kLower };
 
 geom::PolygonMesh teeth(Arch arch, const std::string& group);
+/// Of each vertex of teeth(): 0 at the neck, which the gum hides up to about 0.2, 1 at the edge.
+std::vector<double> crown_heights();
 geom::PolygonMesh gums(Arch arch, const std::string& group);
 geom::PolygonMesh tongue(const std::string& group);
 

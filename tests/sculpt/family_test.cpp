@@ -11,6 +11,7 @@
 #include "message_of.h"
 #include "sculpt/deform_head.h"
 #include "sculpt/layout.h"
+#include "sculpt/part_layout.h"
 #include "temporary_folder.h"
 
 namespace risorius::sculpt {
@@ -105,6 +106,48 @@ TEST(AverageHead, LiesFlatWithLittleStretch) {
     ASSERT_EQ(at.rows(), static_cast<long>(average().mesh.corner_vertex.size()));
     EXPECT_GE(at.minCoeff(), 0);
     EXPECT_LE(at.maxCoeff(), 1);
+}
+
+/// Whose faces all look upwards and fill what their border holds lie nowhere upon each other.
+TEST(AverageHead, HasEyesAndMouthLaidOutInIslandsOfTheirOwn) {
+    const geom::PolygonMesh& mesh = average().mesh;
+    constexpr int kFacesOfACrown = 200;
+    const std::map<std::string, int> islands_of{
+        {"eye_l", 1},      {"eye_r", 1},      {"teeth_upper", 14}, {"teeth_lower", 14},
+        {"gums_upper", 1}, {"gums_lower", 1}, {"tongue", 1}};
+    for (const auto& [group, islands] : islands_of) {
+        const int own = mesh.group_index(group);
+        std::vector<double> area(static_cast<std::size_t>(islands), 0);
+        double expected = 0;
+        int count = 0;
+        for (int f = 0; f < mesh.face_count(); ++f) {
+            if (mesh.face_group[f] != own) continue;
+            const int island = islands > 1 ? count / kFacesOfACrown : 0;
+            ++count;
+            const bool upper = group.ends_with("upper");
+            const Disc disc = islands > 1         ? crown_disc(upper, island)
+                              : group == "tongue" ? tongue_disc()
+                                                  : eye_disc(1);
+            expected = group.starts_with("gums") ? 0.98 * 0.48 : M_PI * disc.radius * disc.radius;
+            double twice = 0;
+            for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+                const int next = c + 1 < mesh.face_begin[f + 1] ? c + 1 : mesh.face_begin[f];
+                const Vec2 p = mesh.corner_texcoord.row(c), q = mesh.corner_texcoord.row(next);
+                twice += p.x() * q.y() - p.y() * q.x();
+                if (!group.starts_with("gums"))
+                    ASSERT_LE((p - disc.middle).norm(), disc.radius + 1e-9) << group << " " << c;
+                else
+                    ASSERT_EQ(p.y() > 0.5, upper) << group << " " << c;
+            }
+            ASSERT_GT(twice, 0) << group << ", face " << f;
+            area[static_cast<std::size_t>(island)] += twice / 2;
+        }
+        EXPECT_EQ(islands > 1 ? count : kFacesOfACrown * islands, kFacesOfACrown * islands);
+        for (const double a : area) {
+            EXPECT_GT(a, 0.9 * expected) << group;
+            EXPECT_LT(a, expected) << group;
+        }
+    }
 }
 
 TEST(AverageHead, HasEveryFaceOfTheSkinInOneNamedRegion) {

@@ -76,9 +76,11 @@ void add_head(CLI::App& app) {
     command->add_option("--iris", choice.iris, "Colour of the eyes, by name");
     command->add_option("--hair", choice.hair, "Colour of brows and hair, by name");
     command
-        ->add_option("--texture", arguments->options.texture_px,
-                     "Write the colours of the skin on its texture coordinates too, so many pixels "
-                     "wide and high (256 to 4096): skin.png, for other programs")
+        ->add_option(
+            "--texture", arguments->options.texture_px,
+            "Write colours on the texture coordinates too, for other programs: skin.png, so "
+            "many pixels wide and high (256 to 4096), eyes, teeth, gums and tongue half of "
+            "it, and head.mtl, which names them")
         ->check(CLI::Range(256, 4096))
         ->excludes(command->add_flag("--mesh-only", arguments->options.mesh_only,
                                      "Mesh and landmarks alone, without rig and pictures"));

@@ -137,9 +137,7 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
     }
     if (material == Material::kMatte)
         set(program->location("albedo"), Vec3(Vec3::Constant(matte_reflectance(scene))));
-    if (material == Material::kGums) set(program->location("albedo"), kGums);
-    if (material == Material::kTongue) set(program->location("albedo"), kTongue);
-    if (material == Material::kMouth) set(program->location("albedo"), kMouth);
+    if (inside_mouth(material)) tell_colours(*program, material, -1);
     if (material == Material::kLashes)
         set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
     return program;
@@ -183,19 +181,28 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
     }
 }
 
+void Materials::tell_colours(const GlProgram& program, Material material, int eye) const {
+    if (material == Material::kGums) set(program.location("albedo"), kGums);
+    if (material == Material::kTongue) set(program.location("albedo"), kTongue);
+    if (material == Material::kMouth) set(program.location("albedo"), kMouth);
+    if (material != Material::kEye && material != Material::kCornea) return;
+    const auto index = static_cast<std::size_t>(eye);
+    const Eye& ball = eyes_[index];
+    set(program.location("eye_from_rest"), eye_axes(ball));
+    set(program.location("centre"), ball.centre);
+    glUniform1f(program.location("iris_radius"), static_cast<float>(ball.iris_radius_m));
+    glUniform1f(program.location("pupil_radius"), static_cast<float>(ball.pupil_radius_m));
+    glUniform1f(program.location("iris_depth"), static_cast<float>(iris_depth_m_[index]));
+    set(program.location("iris_tone"), linear_from_srgb(look_.iris_tone));
+}
+
 void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
                         const PosedMarks& marks) const {
     const auto index = static_cast<std::size_t>(side);
-    const Eye& eye = eyes_[index];
-    const Mat3 axes = eye_axes(eye);
-    set(program.location("eye_from_rest"), axes);
-    set(program.location("eye_from_world"), Mat3(axes * pose.eye_rotation[index].transpose()));
-    set(program.location("centre"), eye.centre);
-    glUniform1f(program.location("iris_radius"), static_cast<float>(eye.iris_radius_m));
-    glUniform1f(program.location("pupil_radius"), static_cast<float>(eye.pupil_radius_m));
-    glUniform1f(program.location("iris_depth"), static_cast<float>(iris_depth_m_[index]));
+    tell_colours(program, Material::kEye, side);
+    set(program.location("eye_from_world"),
+        Mat3(eye_axes(eyes_[index]) * pose.eye_rotation[index].transpose()));
     glUniform1i(program.location("separate_cornea"), separate_cornea_[index]);
-    set(program.location("iris_tone"), linear_from_srgb(look_.iris_tone));
     const LidMarks lids = marks.lids(pose, side);
     set(program.location("lid_inner"), lids.inner);
     set(program.location("lid_outer"), lids.outer);

@@ -28,6 +28,8 @@ class Materials {
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
     void done() const;
+    /// Tells another program the colours of a material, and of an eye at rest its measures.
+    void tell_colours(const GlProgram& program, Material material, int eye) const;
     /// Draws the skin, with folds where it has some.
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 

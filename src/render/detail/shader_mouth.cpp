@@ -15,15 +15,17 @@ in float kept;
 out vec4 colour;
 )";
 
-// Enamel is a clear coat over dentine, which shows yellower at the neck, where the crown is thickest.
+constexpr const char* kEnamel = R"(
+vec3 enamel_at(vec3 rest) { return vec3(0.80, 0.70, 0.56) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0)); }
+)";
+
 constexpr const char* kTeeth = R"(
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz;
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
-    vec3 enamel = vec3(0.80, 0.70, 0.56) * (0.96 + 0.08 * noise(rest * 900.0 + 300.0));
-    enamel = own_colour(rest, enamel);
+    vec3 enamel = own_colour(rest, enamel_at(rest));
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.75, 0.42, 0.36), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
     vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.45, 0.40, 0.33)) + soft * tint;
@@ -53,8 +55,12 @@ const float kWet = 1.0;
 vec3 back_of(vec3 n, vec3 tint, vec3 m) { return tint; }
 )";
 
-constexpr const char* kMucosa = R"(
+constexpr const char* kMucosaColour = R"(
 uniform vec3 albedo;      // linear
+vec3 mucosa_at(float speck) { return albedo * (0.8 + 0.4 * speck); }
+)";
+
+constexpr const char* kMucosa = R"(
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
@@ -62,13 +68,33 @@ void main() {
     vec3 p = rest * 1400.0 + 500.0;
     float a = noise(p);
     vec3 m = n + 0.12 * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5);
-    vec3 tint = back_of(n, own_colour(rest, albedo * (0.8 + 0.4 * a)), m);
+    vec3 tint = back_of(n, own_colour(rest, mucosa_at(a)), m);
     m = normalize(m);
     float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 light = key_card.rgb * s * kept * scattered(dot(m, k), vec3(0.4, 0.2, 0.15)) + soft;
     vec3 gloss = key_card.rgb * s * min(glint(m, v, k, 0.26, 0.03), 1.2);
     gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(m, v), 0.0, 1.0), 0.26, 0.03) * mirrored(reflect(-v, m), 1.0);
     colour = vec4(shown(tint * light + kWet * gloss), 1.0);
+}
+)";
+
+// Enamel is a clear coat over dentine, which shows yellower at the neck, where the crown is thickest, and ends before the edge,
+// which is grey with the darkness behind it.
+constexpr const char* kTeethTexture = R"(
+const vec3 kNeck = vec3(0.88, 0.76, 0.58);
+const vec3 kEdge = vec3(0.70, 0.78, 0.90);
+void main() {
+    float wander = 0.10 * (noise(rest * 700.0 + 40.0) - 0.5);
+    vec3 enamel = enamel_at(rest) * mix(kNeck, vec3(1.0), smoothstep(0.15, 0.65, crown_height + wander));
+    colour = vec4(enamel * mix(vec3(1.0), kEdge, smoothstep(0.78, 0.97, crown_height + wander)), 1.0);
+}
+)";
+
+constexpr const char* kMucosaTexture = R"(
+void main() {
+    vec3 m = vec3(0.0);
+    vec3 n = normalize(normal);
+    colour = vec4(back_of(n, mucosa_at(noise(rest * 1400.0 + 500.0)), m), 1.0);
 }
 )";
 
@@ -84,11 +110,19 @@ void main() {
 }  // namespace
 
 std::string teeth_shader(bool own) {
-    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs + kTeeth;
+    return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs + kEnamel +
+           kTeeth;
 }
 std::string mucosa_shader(bool tongue, bool own) {
     return lighting_chunk() + noise_chunk() + own_colour_chunk(own) + kMouthInputs +
-           (tongue ? kTongueBack : kSmoothMucosa) + kMucosa;
+           (tongue ? kTongueBack : kSmoothMucosa) + kMucosaColour + kMucosa;
+}
+std::string teeth_texture_shader() {
+    return texture_inputs_chunk() + noise_chunk() + kEnamel + kTeethTexture;
+}
+std::string mucosa_texture_shader(bool tongue) {
+    return texture_inputs_chunk() + noise_chunk() + (tongue ? kTongueBack : kSmoothMucosa) +
+           kMucosaColour + kMucosaTexture;
 }
 std::string matte_shader() { return lighting_chunk() + kMouthInputs + kMatte; }
 

@@ -1,4 +1,4 @@
-// GLSL of colours that come from the mesh's own pictures.
+// GLSL of colours that come from the mesh's own pictures, and of making such pictures.
 #include "render/detail/shader_paint.h"
 #include "render/detail/shaders.h"
 
@@ -36,10 +36,34 @@ layout(binding = 8) uniform sampler2D own_colour_map;
 void main() { colour = vec4(sqrt(texture(own_colour_map, texcoord).rgb), 1.0); }
 )";
 
+constexpr const char* kPartTextureVertex = R"(#version 450 core
+layout(location = 0) in vec2 in_texcoord;
+layout(location = 1) in vec3 in_rest;
+layout(location = 2) in vec3 in_normal;
+layout(location = 3) in float in_crown_height;
+out vec3 rest;
+out vec3 normal;
+out float crown_height;
+void main() {
+    rest = in_rest;
+    normal = in_normal;
+    crown_height = in_crown_height;
+    gl_Position = vec4(2.0 * in_texcoord - 1.0, 0.0, 1.0);
+}
+)";
+constexpr const char* kTextureInputs = R"(#version 450 core
+in vec3 rest;
+in vec3 normal;
+in float crown_height;
+out vec4 colour;
+)";
+
 }  // namespace
 
 std::string own_colour_chunk(bool own) { return own ? kOwnColour : kGeneratedColour; }
 std::string own_skin_vertex_shader() { return kOwnSkinVertex; }
 std::string own_skin_shader() { return kOwnSkin; }
+std::string part_texture_vertex_shader() { return kPartTextureVertex; }
+std::string texture_inputs_chunk() { return kTextureInputs; }
 
 }  // namespace risorius::render

@@ -76,6 +76,11 @@ std::string teeth_shader(bool own);
 std::string mucosa_shader(bool tongue,
                           bool own);  ///< of gums and the wall of the mouth, or the tongue
 std::string matte_shader();
+// Of what is laid out on texture coordinates without light, see part_texture.h; linear.
+std::string part_texture_vertex_shader();
+std::string eye_texture_shader();
+std::string teeth_texture_shader();
+std::string mucosa_texture_shader(bool tongue);
 std::string lash_shader();
 std::string strand_vertex_shader();
 std::string strand_shader();
@@ -91,6 +96,7 @@ std::string frame_chunk();   ///< version, frame block
 std::string lights_chunk();  ///< after it: lamps and surroundings
 std::string lighting_chunk();  ///< both and the shadow
 std::string noise_chunk();
+std::string texture_inputs_chunk();  ///< version, and what part_texture_vertex_shader() hands on
 std::string own_colour_chunk(bool own);  ///< own_colour(rest position, generated colour)
 
 }  // namespace risorius::render

@@ -6,15 +6,10 @@
 #include <tuple>
 
 #include "render/detail/skin_paint.h"
+#include "render/detail/texture_square.h"
 
 namespace risorius::render {
 namespace {
-
-std::uint8_t srgb_byte(double linear) {
-    const double s =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0)));
-}
 
 /// The back of the head is the rim of the map, whose triangles about its very middle the paint leaves out.
 Vec2 within_rim(const Vec2& place) {
@@ -42,45 +37,11 @@ Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
     return sum;
 }
 
-/// Colours grow over the border of what is covered, so that filtering finds no seam.
-void grow(Image& image, std::vector<char>& covered) {
-    constexpr int kPixels = 6;
-    const int side = image.width_px;
-    for (int step = 0; step < kPixels; ++step) {
-        const std::vector<char> before = covered;
-        const auto at = [&](int x, int y) {
-            return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
-                   static_cast<std::size_t>(x);
-        };
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                if (before[at(x, y)]) continue;
-                for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-                    const int nx = x + dx, ny = y + dy;
-                    if (nx < 0 || ny < 0 || nx >= side || ny >= side || !before[at(nx, ny)])
-                        continue;
-                    std::copy_n(image.pixel(nx, ny), 4, image.pixel(x, y));
-                    covered[at(x, y)] = 1;
-                    break;
-                }
-            }
-    }
-}
-
 }  // namespace
 
 Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std::uint8_t>& map,
-                   int map_side, int side_px) {
-    Image image(side_px, side_px);
-    std::vector<char> covered(static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px),
-                              0);
-    const Vec3 tone = 255 * scene.look.skin_tone;
-    for (int y = 0; y < side_px; ++y)
-        for (int x = 0; x < side_px; ++x) {
-            for (int k = 0; k < 3; ++k)
-                image.pixel(x, y)[k] = static_cast<std::uint8_t>(std::lround(tone[k]));
-            image.pixel(x, y)[3] = 255;
-        }
+                   int map_side, Image image) {
+    const int side_px = image.width_px;
     for (const Surface& surface : scene.surfaces) {
         if (surface.material != Material::kSkin || surface.texcoords.rows() == 0) continue;
         for (long f = 0; f < surface.triangles.rows(); ++f) {
@@ -109,12 +70,11 @@ Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std
                     const Vec3 p = (1 - u - v) * rest[0] + u * rest[1] + v * rest[2];
                     const Vec3 root = sample(map, map_side, within_rim(paint_place(p, centre)));
                     for (int k = 0; k < 3; ++k) image.pixel(x, y)[k] = srgb_byte(root[k] * root[k]);
-                    covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(side_px) +
-                            static_cast<std::size_t>(x)] = 1;
+                    image.pixel(x, y)[3] = 255;
                 }
         }
     }
-    grow(image, covered);
+    fill_uncovered(image, scene.look.skin_tone);
     return image;
 }
 
