@@ -12,7 +12,7 @@ namespace risorius::app {
 /// The name for sculpt::write_head().
 constexpr const char* kTextureLibrary = "head.mtl";
 
-/// Writes skin.png (with the wall of the mouth), so many pixels wide and high, eyes.png, teeth.png, gums.png and tongue.png, half of it,
+/// Writes skin.png (with the wall of the mouth), so many pixels wide and high, eyes.png, teeth.png, gums.png, tongue.png and lashes.png, half of it,
 /// and the library. `crown_height`: sculpt::HeadModel's. The names of the files. Throws Error for a size outside of 256..4096.
 std::vector<std::string> write_head_textures(const render::Scene& scene, int side_px,
                                              const std::vector<double>& crown_height,

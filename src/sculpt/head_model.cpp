@@ -67,6 +67,24 @@ std::map<std::string, int> name_landmarks(const Skin& skin, const DesignTables& 
     return both;
 }
 
+/// Area-weighted means over the faces around each vertex, unit length.
+std::vector<Vec3> vertex_normals(const geom::PolygonMesh& mesh) {
+    std::vector<Vec3> normals(static_cast<std::size_t>(mesh.vertex_count()), Vec3::Zero());
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const int begin = mesh.face_begin[f], end = mesh.face_begin[f + 1];
+        const auto at = [&](int c) -> Vec3 {
+            return mesh.positions.row(mesh.corner_vertex[c]).transpose();
+        };
+        Vec3 area = Vec3::Zero();
+        for (int c = begin; c + 2 < end; ++c)
+            area += (at(c + 1) - at(begin)).cross(at(c + 2) - at(begin));
+        for (int c = begin; c < end; ++c)
+            normals[static_cast<std::size_t>(mesh.corner_vertex[c])] += area;
+    }
+    for (Vec3& n : normals) n /= std::max(n.norm(), 1e-12);
+    return normals;
+}
+
 void write_file(const std::filesystem::path& file, const std::string& text) {
     const auto half = std::filesystem::path(file.string() + ".part");
     {
@@ -117,7 +135,8 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder,
         "see ORIGIN.md.\n";
     char line[96];
     const auto& mesh = model.mesh;
-    if (!library.empty()) text.append("mtllib ").append(library).append("\n");
+    const bool shown = !library.empty();
+    if (shown) text.append("mtllib ").append(library).append("\n");
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         // Adding zero turns a rounded -0 into 0.
         const auto rounded = [&](int axis) {
@@ -126,6 +145,13 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder,
         std::snprintf(line, sizeof line, "v %.3f %.3f %.3f\n", rounded(0), rounded(1), rounded(2));
         text += line;
     }
+    if (shown)
+        for (const Vec3& n : vertex_normals(mesh)) {
+            const Vec3 rounded = (n * 1000).array().round() / 1000 + 0.0;
+            std::snprintf(line, sizeof line, "vn %.3f %.3f %.3f\n", rounded.x(), rounded.y(),
+                          rounded.z());
+            text += line;
+        }
     // Each place of the layout once
     std::map<std::pair<long, long>, int> numbers;
     std::vector<int> number(mesh.corner_vertex.size());
@@ -143,7 +169,7 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder,
     int written_faces = 0;
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
         text.append("g ").append(mesh.group_names[g]).append("\n");
-        if (!library.empty()) text.append("usemtl ").append(mesh.group_names[g]).append("\n");
+        if (shown) text.append("usemtl ").append(mesh.group_names[g]).append("\n");
         for (int f = 0; f < mesh.face_count(); ++f) {
             if (mesh.face_group[f] != static_cast<int>(g)) continue;
             place_in_file[static_cast<std::size_t>(f)] = written_faces++;
@@ -152,7 +178,8 @@ void write_head(const HeadModel& model, const std::filesystem::path& folder,
                 text.append(" ")
                     .append(std::to_string(mesh.corner_vertex[c] + 1))
                     .append("/")
-                    .append(std::to_string(number[static_cast<std::size_t>(c)]));
+                    .append(std::to_string(number[static_cast<std::size_t>(c)]))
+                    .append(shown ? "/" + std::to_string(mesh.corner_vertex[c] + 1) : "");
             text += "\n";
         }
     }

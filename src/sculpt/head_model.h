@@ -17,7 +17,7 @@ struct HeadModel {
 HeadModel make_head(const DesignTables& tables);
 
 /// OBJ with groups and layout, coordinates to a micrometre; beside it the landmarks, and the regions as runs of faces. With the name of
-/// a material library, which is not written, each group is of the material with its name.
+/// a material library, which is not written, each group is of the material with its name, and vertices have normals.
 void write_head(const HeadModel& model, const std::filesystem::path& folder,
                 const std::string& library = {});
 

@@ -275,54 +275,6 @@ struct Chart {
     }
 };
 
-/// Ribbons: each face along the axis it faces most, the six views side by side in the part's own square.
-void lay_out_part(geom::PolygonMesh& mesh, int group) {
-    struct Corner {
-        int corner, view;
-        Vec2 place;
-    };
-    std::vector<Corner> corners;
-    std::array<Vec2, 6> low, high;
-    low.fill(Vec2(1e9, 1e9));
-    high.fill(Vec2(-1e9, -1e9));
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        if (mesh.face_group[static_cast<std::size_t>(f)] != group) continue;
-        const int begin = mesh.face_begin[f], end = mesh.face_begin[f + 1];
-        const auto at = [&](int c) {
-            return Vec3(
-                mesh.positions.row(mesh.corner_vertex[static_cast<std::size_t>(c)]).transpose());
-        };
-        const Vec3 normal = (at(begin + 1) - at(begin)).cross(at(end - 1) - at(begin));
-        int axis = 0;
-        normal.cwiseAbs().maxCoeff(&axis);
-        const double side = normal[axis] < 0 ? -1 : 1;
-        const int view = 2 * axis + (side < 0 ? 1 : 0);
-        for (int c = begin; c < end; ++c) {
-            const Vec3 p = at(c);
-            const Vec2 place = axis == 0   ? Vec2(-side * p.z(), p.y())
-                               : axis == 1 ? Vec2(p.x(), -side * p.z())
-                                           : Vec2(side * p.x(), p.y());
-            corners.push_back({c, view, place});
-            const auto v = static_cast<std::size_t>(view);
-            low[v] = low[v].cwiseMin(place);
-            high[v] = high[v].cwiseMax(place);
-        }
-    }
-    // Three columns of two views
-    constexpr double kGap_mm = 0.5;
-    double width = 0, height = 0;
-    for (std::size_t v = 0; v < 6; ++v)
-        if (high[v].x() > low[v].x()) {
-            width = std::max(width, high[v].x() - low[v].x() + kGap_mm);
-            height = std::max(height, high[v].y() - low[v].y() + kGap_mm);
-        }
-    const double scale = 1 / std::max({3 * width, 2 * height, 1e-6});
-    for (const Corner& c : corners)
-        mesh.corner_texcoord.row(c.corner) =
-            scale * (c.place - low[static_cast<std::size_t>(c.view)] +
-                     Vec2(width * (c.view / 2), height * (c.view % 2)));
-}
-
 }  // namespace
 
 void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper,
@@ -385,9 +337,6 @@ void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper
                 Vec2(0.5 + scale * p.x(), scale * p.y());
         }
     }
-    for (int g = 0; g < static_cast<int>(mesh.group_names.size()); ++g)
-        if (mesh.group_names[static_cast<std::size_t>(g)].starts_with("lashes"))
-            lay_out_part(mesh, g);
 }
 
 }  // namespace risorius::sculpt

@@ -2,15 +2,14 @@
 //
 // The skin of face, scalp, neck and shoulders is one chart, symmetric about u = 1/2 and cut at the back of the head, from the crown
 // down; the ears are cut off where they leave the head, the nostrils at their rims, the lining of the mouth where the lips meet and in
-// its own middle. All of these share one square at one scale. Lashes have a square of their own, seen along
-// six axes; the other parts bring their layout (part_layout.h).
+// its own middle. All of these share one square at one scale. The other parts bring their layout (part_layout.h).
 #pragma once
 
 #include "sculpt/half_mesh.h"
 
 namespace risorius::sculpt {
 
-/// Gives skin and lashes of `mesh`, which begins with the mirrored `half`, their corner_texcoord. `crown_z` in mm: midline vertices behind it are the seam.
+/// Gives skin and mouth of `mesh`, which begins with the mirrored `half`, their corner_texcoord. `crown_z` in mm: midline vertices behind it are the seam.
 /// The lips are laid out shut: each vertex of `lower` in one place with that of `upper`.
 void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper,
              const std::vector<int>& lower, geom::PolygonMesh& mesh);

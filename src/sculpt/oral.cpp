@@ -265,10 +265,11 @@ geom::PolygonMesh teeth(Arch arch, const std::string& group) {
 
 std::vector<double> crown_heights() {
     std::vector<double> heights;
-    for (int crown = 0; crown < 14; ++crown) {
+    for (int tooth = 0; tooth < 14; ++tooth) {
+        const double most = kUpperCrowns[tooth % 7].molar ? 0.8 : 1.0;
         for (int r = 0; r <= kCrownRings; ++r)
-            heights.insert(heights.end(), kCrownAround, crown_height(r));
-        heights.push_back(1);  // the middle of the edge
+            heights.insert(heights.end(), kCrownAround, std::min(crown_height(r), most));
+        heights.push_back(most);  // the middle of the edge
     }
     return heights;
 }

@@ -1,5 +1,5 @@
 // Texture coordinates of the parts that are swept from rings: eyes and crowns and the tongue as discs about their pole, which have no
-// seam where one sees them, gums as strips. Each kind of part has a square, which the left and the right, the upper and the lower share.
+// seam where one sees them, gums and lashes as strips. Each kind of part has a square, which the left and the right, the upper and the lower share.
 #pragma once
 
 #include <array>
@@ -27,5 +27,8 @@ Disc tongue_disc();
 
 /// Place on the gums' strip: `along` from the right end to the left, `around` from the root over the side of the lips, 0..1 both.
 Vec2 gum_place(bool upper, double along, double around);
+
+/// Place on a ribbon of lashes: `along` the lid from where it begins, `out` from the roots to the tips, 0..1 both.
+Vec2 lash_place(bool upper, double along, double out);
 
 }  // namespace risorius::sculpt

@@ -30,7 +30,7 @@ ViewOptions skull_shown() {
     return options;
 }
 
-int brightness(const Image& image, const Vec2& at) {
+int sum_of_colours(const Image& image, const Vec2& at) {
     const auto* p = image.pixel(static_cast<int>(at.x()), static_cast<int>(at.y()));
     return p[0] + p[1] + p[2];
 }
@@ -40,11 +40,11 @@ TEST(BonesView, BoneIsSeenThroughTheSkinWhereThePoseHasIt) {
     OffscreenView view(head.scene, skull_shown());
     const Vec2 middle = view.project(Vec3(0.004, 0.004, 0)), beside = view.project({0.05, 0, 0});
     const Image there = view.draw(head.pose);
-    EXPECT_GT(brightness(there, middle), brightness(there, beside) + 150);
+    EXPECT_GT(sum_of_colours(there, middle), sum_of_colours(there, beside) + 150);
     EXPECT_EQ(there.rgba, view.draw(head.pose).rgba);
     head.pose.bone_positions.col(0).array() += 0.05;
     const Image moved = view.draw(head.pose);
-    EXPECT_GT(brightness(moved, beside), brightness(moved, middle) + 150);
+    EXPECT_GT(sum_of_colours(moved, beside), sum_of_colours(moved, middle) + 150);
 }
 
 TEST(BonesView, BonesThatDoNotFitAreRefused) {

@@ -8,7 +8,7 @@
 namespace risorius::render {
 namespace {
 
-constexpr int kSide_px = 200;
+constexpr int kPartSide_px = 200;
 constexpr double kPerRadius = 0.4;  ///< of the square's side, for the radius of an eye or the teeth
 
 /// Eyes and teeth laid out as one sees them from ahead, the backs outside of the square.
@@ -36,18 +36,18 @@ RoundHead parts_laid_out() {
     return head;
 }
 
-OffscreenView view_of(const RoundHead& head) {
+OffscreenView small_view_of(const RoundHead& head) {
     return OffscreenView(head.scene, {.width_px = 64, .height_px = 64});
 }
 
 /// Mean in linear light between two distances from the middle, in millimetres of eye or teeth.
-Vec3 ring(const Image& image, double from_mm, double to_mm) {
+Vec3 ring_mean(const Image& image, double from_mm, double to_mm) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
-    for (int y = 0; y < kSide_px; ++y)
-        for (int x = 0; x < kSide_px; ++x) {
-            const double r = 12 / kPerRadius / kSide_px *
-                             std::hypot(x + 0.5 - kSide_px / 2, y + 0.5 - kSide_px / 2);
+    for (int y = 0; y < kPartSide_px; ++y)
+        for (int x = 0; x < kPartSide_px; ++x) {
+            const double r = 12 / kPerRadius / kPartSide_px *
+                             std::hypot(x + 0.5 - kPartSide_px / 2, y + 0.5 - kPartSide_px / 2);
             if (r < from_mm || r > to_mm) continue;
             for (int k = 0; k < 3; ++k) sum[k] += std::pow(image.pixel(x, y)[k] / 255.0, 2.2);
             ++count;
@@ -59,29 +59,30 @@ TEST(PartTexture, TheIrisHasItsToneAroundABlackPupilInAWhiteEye) {
     for (const Vec3& tone : {Vec3(0.35, 0.50, 0.60), Vec3(0.33, 0.20, 0.11)}) {
         RoundHead head = parts_laid_out();
         head.scene.look.iris_tone = tone;
-        const OffscreenView view = view_of(head);
-        const Image eyes = view.part_texture(head.scene, Material::kEye, kSide_px);
-        EXPECT_LT(ring(eyes, 0, 1.2).maxCoeff(), 0.02);
-        const Vec3 white = ring(eyes, 7.5, 10);
+        const OffscreenView view = small_view_of(head);
+        const Image eyes = view.part_texture(head.scene, Material::kEye, kPartSide_px);
+        EXPECT_LT(ring_mean(eyes, 0, 1.2).maxCoeff(), 0.02);
+        const Vec3 white = ring_mean(eyes, 7.5, 10);
         EXPECT_GT(white.minCoeff(), 0.4);
         EXPECT_GT(white.x(), white.z());
         // Fibres leave two thirds of a tone that is greyed by a third; around the pupil it is warmer.
-        const Vec3 linear = tone.array().pow(2.2), iris = ring(eyes, 3.6, 4.4);
+        const Vec3 linear = tone.array().pow(2.2), iris = ring_mean(eyes, 3.6, 4.4);
         const Vec3 greyed = 0.65 * linear + 0.35 * Vec3::Constant(linear.dot(Vec3(0.3, 0.5, 0.2)));
         EXPECT_LT((iris / iris.sum() - greyed / greyed.sum()).cwiseAbs().maxCoeff(), 0.04)
             << iris.transpose() << " for " << greyed.transpose();
         EXPECT_GT(iris.sum(), 0.4 * greyed.sum());
         EXPECT_LT(iris.sum(), 0.9 * greyed.sum());
-        EXPECT_EQ(eyes.rgba, view.part_texture(head.scene, Material::kEye, kSide_px).rgba);
+        EXPECT_EQ(eyes.rgba, view.part_texture(head.scene, Material::kEye, kPartSide_px).rgba);
     }
 }
 
 TEST(PartTexture, TeethAreWarmAtTheNeckAndGreyAtTheEdge) {
     const RoundHead head = parts_laid_out();
-    const OffscreenView view = view_of(head);
+    const OffscreenView view = small_view_of(head);
     const auto colour = [&](double height) {
         const std::vector<double> crown(static_cast<std::size_t>(head.scene.rest.rows()), height);
-        return ring(view.part_texture(head.scene, Material::kTeeth, kSide_px, crown), 0, 8);
+        return ring_mean(view.part_texture(head.scene, Material::kTeeth, kPartSide_px, crown), 0,
+                          8);
     };
     const Vec3 neck = colour(0.2), middle = colour(0.7), edge = colour(1);
     EXPECT_GT(neck.x() / neck.z(), 1.2 * middle.x() / middle.z());
@@ -92,7 +93,7 @@ TEST(PartTexture, TeethAreWarmAtTheNeckAndGreyAtTheEdge) {
 
 TEST(PartTexture, WhatCannotBeLaidOutIsRefused) {
     const RoundHead head = parts_laid_out();
-    const OffscreenView view = view_of(head);
+    const OffscreenView view = small_view_of(head);
     const auto message = [&](Material part, int side_px, const std::vector<double>& crown) {
         return message_of([&] { view.part_texture(head.scene, part, side_px, crown); });
     };

@@ -81,12 +81,12 @@ void main() {
 // Enamel is a clear coat over dentine, which shows yellower at the neck, where the crown is thickest, and ends before the edge,
 // which is grey with the darkness behind it.
 constexpr const char* kTeethTexture = R"(
-const vec3 kNeck = vec3(0.88, 0.76, 0.58);
-const vec3 kEdge = vec3(0.70, 0.78, 0.90);
+const vec3 kNeck = vec3(0.93, 0.83, 0.69);
+const vec3 kEdge = vec3(0.78, 0.83, 0.91);
 void main() {
     float wander = 0.10 * (noise(rest * 700.0 + 40.0) - 0.5);
     vec3 enamel = enamel_at(rest) * mix(kNeck, vec3(1.0), smoothstep(0.15, 0.65, crown_height + wander));
-    colour = vec4(enamel * mix(vec3(1.0), kEdge, smoothstep(0.78, 0.97, crown_height + wander)), 1.0);
+    colour = vec4(enamel * mix(vec3(1.0), kEdge, smoothstep(0.85, 1.0, crown_height + 0.3 * wander)), 1.0);
 }
 )";
 
