@@ -82,7 +82,7 @@ TEST(PartTexture, TeethAreWarmAtTheNeckAndGreyAtTheEdge) {
     const auto colour = [&](double height) {
         const std::vector<double> crown(static_cast<std::size_t>(head.scene.rest.rows()), height);
         return ring_mean(view.part_texture(head.scene, Material::kTeeth, kPartSide_px, crown), 0,
-                          8);
+                         8);
     };
     const Vec3 neck = colour(0.2), middle = colour(0.7), edge = colour(1);
     EXPECT_GT(neck.x() / neck.z(), 1.2 * middle.x() / middle.z());
