@@ -42,6 +42,9 @@ Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
 Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std::uint8_t>& map,
                    int map_side, Image image) {
     const int side_px = image.width_px;
+    // Where a layout has faces upon each other, as insides of lids on lids, those that look outwards can be seen, and of them the outermost.
+    std::vector<float> outermost(
+        static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px), 0.0F);
     for (const Surface& surface : scene.surfaces) {
         if (surface.material != Material::kSkin || surface.texcoords.rows() == 0) continue;
         for (long f = 0; f < surface.triangles.rows(); ++f) {
@@ -53,6 +56,8 @@ Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std
                 rest[static_cast<std::size_t>(k)] =
                     scene.rest.row(surface.triangles(f, k)).transpose();
             }
+            const Vec3 normal = (rest[1] - rest[0]).cross(rest[2] - rest[0]);
+            const double before_all = normal.dot(rest[0] - centre) > 0 ? 1 : 0;  // m
             const Vec2 a = at[1] - at[0], b = at[2] - at[0];
             const double area = a.x() * b.y() - a.y() * b.x();
             if (std::abs(area) < 1e-9) continue;
@@ -68,6 +73,12 @@ Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std
                                  v = (a.x() * d.y() - a.y() * d.x()) / area;
                     if (u < 0 || v < 0 || u + v > 1) continue;
                     const Vec3 p = (1 - u - v) * rest[0] + u * rest[1] + v * rest[2];
+                    float& out =
+                        outermost[static_cast<std::size_t>(y) * static_cast<std::size_t>(side_px) +
+                                  static_cast<std::size_t>(x)];
+                    const auto distance = static_cast<float>(before_all + (p - centre).norm());
+                    if (distance < out) continue;
+                    out = distance;
                     const Vec3 root = sample(map, map_side, within_rim(paint_place(p, centre)));
                     for (int k = 0; k < 3; ++k) image.pixel(x, y)[k] = srgb_byte(root[k] * root[k]);
                     image.pixel(x, y)[3] = 255;
