@@ -73,6 +73,7 @@ Json correctives_json(const Correctives& found, const std::vector<MadeShape>& al
         tried.push_back({{"name", one.name},
                          {"max_mm", 1e3 * one.greatest_m},
                          {"rms_mm", 1e3 * one.rms_m},
+                         {"at_rest", one.at_rest},
                          {"kept", one.kept}});
     return {{"kept", kept}, {"tried", tried}};
 }
@@ -84,6 +85,8 @@ Json tracks_json(const std::vector<TrackError>& tracks) {
                        {"frames", track.frames},
                        {"rms_mm", 1e3 * track.rms_m},
                        {"max_mm", 1e3 * track.greatest_m},
+                       {"worst_frame", track.frame_of(track.worst)},
+                       {"worst_vertex", track.worst_vertex},
                        {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
                        {"max_without_correctives_mm", 1e3 * track.plain_greatest_m}});
     return out;
@@ -129,7 +132,9 @@ std::vector<TrackError> compare_tracks(const RigFiles& files, const ShapeSolver&
     if (!scripted) return out;
     std::vector<Eigen::VectorXd> some;
     drives.clear();
-    for (const long f : some_frames(report.animation->weights.rows(), options.test_frames)) {
+    const std::vector<long> frames =
+        some_frames(report.animation->weights.rows(), options.test_frames);
+    for (const long f : frames) {
         some.push_back(report.animation->weights.row(f).transpose());
         track::Drive drive = report.animation->drives[static_cast<std::size_t>(f)];
         // Blend shapes do not turn the head
@@ -140,6 +145,7 @@ std::vector<TrackError> compare_tracks(const RigFiles& files, const ShapeSolver&
     }
     out.push_back(track_error(report.animation->name, report.correctives.rig, solver, drives, some,
                               part_of(watch, 0.5, 1)));
+    out.back().of_track = frames;
     return out;
 }
 
@@ -199,18 +205,20 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
     const ShapeSolver solver(files, sim::quality_named(options.quality), options.threads);
     const rig::Head& head = solver.face().head();
     ShapesReport report;
-    report.shapes = make_shapes(files, set, solver, part_of(watch, 0, solved));
-    if (options.correctives)
-        report.correctives = find_correctives(files, report.shapes, solver, options.corrective,
-                                              part_of(watch, solved, corrected));
-    else
-        for (const MadeShape& made : report.shapes.list)
-            report.correctives.rig.shapes.push_back(made.shape);
     if (!options.script.empty()) {
         const std::unique_ptr<sim::Face> face = solver.another();
         report.animation = bake_script(options.script, files, set.goals,
                                        ShapeWeights(*face, files.rig.channels(), set.goals));
     }
+    report.shapes = make_shapes(files, set, solver, part_of(watch, 0, solved));
+    if (options.correctives)
+        report.correctives =
+            find_correctives(files, report.shapes, solver, options.corrective,
+                             report.animation ? report.animation->weights : Eigen::MatrixXd(),
+                             part_of(watch, solved, corrected));
+    else
+        for (const MadeShape& made : report.shapes.list)
+            report.correctives.rig.shapes.push_back(made.shape);
     if (options.test_frames > 0)
         report.tracks =
             compare_tracks(files, solver, options, report, part_of(watch, corrected, compared));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "app/expression_score.h"
@@ -74,8 +75,20 @@ struct Candidate {
     double shared = 0;
 };
 
+/// How far two units are there at once in any frame: the greatest square of the product of their weights. Once is enough to be
+/// seen, so that a rare pair counts like one that is always there.
+double met(const Unit& a, const Unit& b, const Eigen::MatrixXd& played) {
+    if (played.rows() == 0) return 0;
+    double most = 0;
+    for (const int i : a.parts)
+        for (const int j : b.parts)
+            most = std::max(most, played.col(i).cwiseProduct(played.col(j)).maxCoeff());
+    return most * most;
+}
+
 std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeShapes& shapes,
-                                     const Eigen::VectorXd& area, int pairs) {
+                                     const Eigen::VectorXd& area, int pairs,
+                                     const Eigen::MatrixXd& played) {
     std::vector<Eigen::VectorXd> moved;
     for (const Unit& unit : units) moved.push_back(unit.field.rowwise().norm());
     std::vector<Candidate> out;
@@ -87,6 +100,7 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
             for (long v = 0; v < area.size(); ++v)
                 if (moved[a][v] > kShares_m && moved[b][v] > kShares_m)
                     shared += area[v] * std::min(moved[a][v], moved[b][v]);
+            shared *= kPairIsMet * kSquareOfProduct + met(units[a], units[b], played);
             if (shared > 0) out.push_back({a, b, shared});
         }
     std::stable_sort(out.begin(), out.end(),
@@ -146,12 +160,13 @@ std::string weight_rule(const shapes::Corrective& corrective) {
 
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const Watch& watch) {
+                             const Eigen::MatrixXd& played, const Watch& watch) {
     const rig::Head& head = solver.face().head();
     const track::ChannelTable channels = files.rig.channels();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
-    const std::vector<Candidate> candidates = candidates_of(units, shapes, area, options.pairs);
+    const std::vector<Candidate> candidates =
+        candidates_of(units, shapes, area, options.pairs, played);
 
     std::vector<track::Drive> drives;
     const track::Drive rest = no_drive(channels);
@@ -186,7 +201,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         const shapes::FieldError error = shapes::error_between(poses[c].moved, sum, area);
         tried.greatest_m = error.greatest_m;
         tried.rms_m = error.rms_m;
-        if (!poses[c].figures.converged || error.greatest_m < options.tolerance_m) continue;
+        tried.at_rest = poses[c].figures.converged;
+        if (!tried.at_rest || error.greatest_m < options.tolerance_m) continue;
         shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
         const auto add = [&](const Points& field, std::vector<int> drivers,
                              std::vector<int> fades_with = {}, const std::string& ending = "") {
@@ -200,8 +216,12 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
             one.corrective.fades_with = std::move(fades_with);
-            one.use = (half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct) *
-                      (area.asDiagonal() * field).cwiseProduct(field).sum();
+            double often = half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct;
+            double seen = 0;
+            for (long f = 0; f < played.rows(); ++f)
+                seen = std::max(seen, one.corrective.weight(played.row(f).transpose()));
+            often += seen * seen;
+            one.use = often * (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
             one.tried = c;
             found.push_back(std::move(one));
@@ -300,14 +320,19 @@ TrackError track_error(const std::string& name, const shapes::LinearRig& rig,
     out.play_s = playing.seconds() / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     const auto add = [&](const shapes::LinearRig& linear, std::size_t f, double& squares,
                          double& greatest) {
+        const double before = greatest;
         Points moved = Points::Zero(head.vertices.rows(), 3);
         linear.add_to(moved, weights[f]);
         const shapes::FieldError error = shapes::error_between(moved, poses[f].moved, area);
         squares += error.rms_m * error.rms_m / static_cast<double>(drives.size());
         greatest = std::max(greatest, error.greatest_m);
+        return greatest > before ? std::optional(error.where) : std::nullopt;
     };
     for (std::size_t f = 0; f < drives.size(); ++f) {
-        add(rig, f, out.rms_m, out.greatest_m);
+        if (const std::optional<long> where = add(rig, f, out.rms_m, out.greatest_m)) {
+            out.worst = static_cast<int>(f);
+            out.worst_vertex = *where;
+        }
         add(plain, f, out.plain_rms_m, out.plain_greatest_m);
     }
     out.rms_m = std::sqrt(out.rms_m);

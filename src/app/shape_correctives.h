@@ -23,6 +23,7 @@ std::string weight_rule(const shapes::Corrective& corrective);
 struct TriedCorrective {
     std::string name;
     double greatest_m = 0, rms_m = 0;  ///< what the sum gets wrong
+    bool at_rest = true;               ///< else what the sum gets wrong is not known
     bool kept = false;
 };
 
@@ -32,9 +33,11 @@ struct Correctives {
     long bytes = 0;
 };
 
+/// `played`: frames x shapes, weights that the rig will be played with: what meets in them is tried and kept before what does not.
+/// Without rows: shapes that share most skin.
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const Watch& watch = {});
+                             const Eigen::MatrixXd& played = {}, const Watch& watch = {});
 
 /// Errors of a linear rig against the simulation over the frames of a track.
 struct TrackError {
@@ -42,6 +45,12 @@ struct TrackError {
     int frames = 0;
     double rms_m = 0, greatest_m = 0;              ///< of all frames
     double plain_rms_m = 0, plain_greatest_m = 0;  ///< without correctives
+    int worst = 0;                                 ///< frame, and vertex, of greatest_m
+    long worst_vertex = 0;
+    std::vector<long> of_track = {};  ///< which frames of the track they are; empty: all
+    long frame_of(int frame) const {
+        return of_track.empty() ? frame : of_track[static_cast<std::size_t>(frame)];
+    }
     double play_s = 0;  ///< time on the core that the linear rig takes for a frame
 };
 

@@ -43,7 +43,10 @@ FieldError error_between(const Points& one, const Points& other, const Eigen::Ve
         const double distance = (one.row(v) - other.row(v)).norm();
         sum += area[v] * distance * distance;
         whole += area[v];
-        out.greatest_m = std::max(out.greatest_m, distance);
+        if (distance > out.greatest_m) {
+            out.greatest_m = distance;
+            out.where = v;
+        }
     }
     if (whole > 0) out.rms_m = std::sqrt(sum / whole);
     return out;

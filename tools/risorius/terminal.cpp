@@ -12,6 +12,8 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+constexpr double kQuiet_s = 2, kBarEvery_s = 0.1, kLineEvery_s = 30;
+
 void note_interrupt(int) { interrupted = 1; }
 
 std::string time_text(double seconds) {
@@ -29,10 +31,10 @@ void catch_interrupts() {
 }
 
 ProgressBar::ProgressBar(const Common& common)
-    : wanted_(!common.quiet && ::isatty(STDERR_FILENO) == 1) {}
+    : wanted_(!common.quiet), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
-    if (shown_) std::fprintf(stderr, "\r\033[K");
+    if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
 }
 
 app::Watch ProgressBar::watch() {
@@ -47,7 +49,8 @@ void ProgressBar::show(double share, const std::string& what) {
     const auto since = [&](Clock::time_point then) {
         return std::chrono::duration<double>(now - then).count();
     };
-    if (since(begin_) < 2 || (shown_ && since(last_) < 0.1)) return;
+    if (since(begin_) < kQuiet_s || since(last_) < (on_terminal_ ? kBarEvery_s : kLineEvery_s))
+        return;
     last_ = now;
     shown_ = true;
     constexpr int kWidth = 30;
@@ -56,8 +59,12 @@ void ProgressBar::show(double share, const std::string& what) {
                             std::string(static_cast<std::size_t>(kWidth - full), '.');
     const std::string left =
         share > 0.01 ? time_text(since(begin_) * (1 - share) / share) + " left" : "";
-    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s  %s", bar.c_str(), static_cast<int>(100 * share),
-                 left.c_str(), what.c_str());
+    const int percent = static_cast<int>(100 * share);
+    if (on_terminal_)
+        std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s  %s", bar.c_str(), percent, left.c_str(),
+                     what.c_str());
+    else
+        std::fprintf(stderr, "%3d %%  %s  %s\n", percent, left.c_str(), what.c_str());
     std::fflush(stderr);
 }
 

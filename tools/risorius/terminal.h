@@ -18,7 +18,7 @@ struct Common {
 /// Lets SIGINT and SIGTERM end the run between two frames instead of killing it.
 void catch_interrupts();
 
-/// Shows itself on standard error, when that is a terminal, for runs longer than two seconds.
+/// On standard error, for runs longer than two seconds; where that is not a terminal but a log, a line every half minute.
 class ProgressBar {
   public:
     explicit ProgressBar(const Common& common);
@@ -29,7 +29,7 @@ class ProgressBar {
     void show(double share, const std::string& what);
 
     using Clock = std::chrono::steady_clock;
-    bool wanted_;
+    bool wanted_, on_terminal_;
     bool shown_ = false;
     Clock::time_point begin_ = Clock::now(), last_ = begin_;
     std::mutex mutex_;  // the stages of a render report from two threads
