@@ -115,10 +115,20 @@ bool wants(const ShapesOptions& options, const char* format) {
                                                 format) != options.formats.end();
 }
 
+// Blend shapes do not turn the head.
+PlayedFrames unturned(const ShapeAnimation& animation) {
+    PlayedFrames out{animation.weights, animation.drives};
+    for (track::Drive& drive : out.drives)
+        for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
+             k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
+            drive.kinematic[static_cast<std::size_t>(k)] = 0;
+    return out;
+}
+
 // The linear rig against the simulation, frame by frame: on weights drawn at random, and on the script.
 std::vector<TrackError> compare_tracks(const RigFiles& files, const ShapeSolver& solver,
                                        const ShapesOptions& options, const ShapesReport& report,
-                                       const Watch& watch) {
+                                       const PlayedFrames& played, const Watch& watch) {
     const track::ChannelTable channels = files.rig.channels();
     std::vector<TrackError> out;
     const std::vector<Eigen::VectorXd> weights =
@@ -132,16 +142,10 @@ std::vector<TrackError> compare_tracks(const RigFiles& files, const ShapeSolver&
     if (!scripted) return out;
     std::vector<Eigen::VectorXd> some;
     drives.clear();
-    const std::vector<long> frames =
-        some_frames(report.animation->weights.rows(), options.test_frames);
+    const std::vector<long> frames = some_frames(played.weights.rows(), options.test_frames);
     for (const long f : frames) {
-        some.push_back(report.animation->weights.row(f).transpose());
-        track::Drive drive = report.animation->drives[static_cast<std::size_t>(f)];
-        // Blend shapes do not turn the head
-        for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
-             k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
-            drive.kinematic[static_cast<std::size_t>(k)] = 0;
-        drives.push_back(std::move(drive));
+        some.push_back(played.weights.row(f).transpose());
+        drives.push_back(played.drives[static_cast<std::size_t>(f)]);
     }
     out.push_back(track_error(report.animation->name, report.correctives.rig, solver, drives, some,
                               part_of(watch, 0.5, 1)));
@@ -210,18 +214,17 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
         report.animation = bake_script(options.script, files, set.goals,
                                        ShapeWeights(*face, files.rig.channels(), set.goals));
     }
+    const PlayedFrames played = report.animation ? unturned(*report.animation) : PlayedFrames();
     report.shapes = make_shapes(files, set, solver, part_of(watch, 0, solved));
     if (options.correctives)
-        report.correctives =
-            find_correctives(files, report.shapes, solver, options.corrective,
-                             report.animation ? report.animation->weights : Eigen::MatrixXd(),
-                             part_of(watch, solved, corrected));
+        report.correctives = find_correctives(files, report.shapes, solver, options.corrective,
+                                              played, part_of(watch, solved, corrected));
     else
         for (const MadeShape& made : report.shapes.list)
             report.correctives.rig.shapes.push_back(made.shape);
     if (options.test_frames > 0)
-        report.tracks =
-            compare_tracks(files, solver, options, report, part_of(watch, corrected, compared));
+        report.tracks = compare_tracks(files, solver, options, report, played,
+                                       part_of(watch, corrected, compared));
     report.solving_s = time.seconds();
     report.name = files.rig.name;
     report.rig = options.rig.generic_string();

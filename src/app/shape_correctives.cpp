@@ -7,6 +7,7 @@
 
 #include "app/expression_score.h"
 #include "app/stopwatch.h"
+#include "shapes/corrective_choice.h"
 
 namespace risorius::app {
 
@@ -22,6 +23,8 @@ constexpr double kSquareOfHalf = 8.0 / 15.0, kSquareOfProduct = 1.0 / 9.0;
 // A shape that is at work is on its way whatever else is there, while a given other one is there in a fifth of its frames
 // (random weights, four of 52 at a time: less; faces that speak and feel: less for most pairs).
 constexpr double kPairIsMet = 0.2;
+
+constexpr long kPlayed = 24;  // frames that are simulated, of those that will be played
 
 /// What is tried together: a shape, or both its halves.
 struct Unit {
@@ -110,44 +113,9 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
     return out;
 }
 
-/// A corrective with what it is good for.
-struct Found {
-    shapes::Corrective corrective;
-    double use = 0;  ///< squares it removes on average, m^4
-    long bytes = 0;
-    std::size_t tried;
-};
-
 // A position of 16-bit numbers and a normal of floats with an index each; every other normal turns too little to be written.
 long bytes_of(const shapes::SparseShape& shape) {
     return static_cast<long>(shape.vertex.size()) * 15;
-}
-
-/// The most useful ones by size until the budget is spent; left and right of what was tried together or not at all.
-void keep_most_useful(std::vector<Found>& found, long budget_bytes, Correctives& out) {
-    struct Group {
-        std::size_t first, end;
-        double use;
-        long bytes;
-    };
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (groups.empty() || found[groups.back().first].tried != found[i].tried)
-            groups.push_back({i, i, 0, 0});
-        groups.back().end = i + 1;
-        groups.back().use += found[i].use;
-        groups.back().bytes += found[i].bytes;
-    }
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
-        return x.use * static_cast<double>(y.bytes) > y.use * static_cast<double>(x.bytes);
-    });
-    for (const Group& group : groups) {
-        if (out.bytes + group.bytes > budget_bytes) continue;
-        out.bytes += group.bytes;
-        out.tried[found[group.first].tried].kept = true;
-        for (std::size_t i = group.first; i < group.end; ++i)
-            out.rig.correctives.push_back(std::move(found[i].corrective));
-    }
 }
 
 }  // namespace
@@ -160,13 +128,13 @@ std::string weight_rule(const shapes::Corrective& corrective) {
 
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const Eigen::MatrixXd& played, const Watch& watch) {
+                             const PlayedFrames& played, const Watch& watch) {
     const rig::Head& head = solver.face().head();
     const track::ChannelTable channels = files.rig.channels();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
     const std::vector<Candidate> candidates =
-        candidates_of(units, shapes, area, options.pairs, played);
+        candidates_of(units, shapes, area, options.pairs, played.weights);
 
     std::vector<track::Drive> drives;
     const track::Drive rest = no_drive(channels);
@@ -174,6 +142,12 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         drives.push_back(one.a == one.b
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
+    // From the first one on, those between the frames that a track is compared at
+    std::vector<long> frames;
+    for (long i = 0; i < std::min(kPlayed, played.weights.rows()); ++i) {
+        frames.push_back(i * played.weights.rows() / std::min(kPlayed, played.weights.rows()));
+        drives.push_back(played.drives[static_cast<std::size_t>(frames.back())]);
+    }
     const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
 
     // Which others move skin that this one moves
@@ -190,7 +164,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
-    std::vector<Found> found;
+    std::vector<shapes::OfferedCorrective> found;
     for (std::size_t c = 0; c < candidates.size(); ++c) {
         const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
         const bool half = candidates[c].a == candidates[c].b;
@@ -206,7 +180,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
         const auto add = [&](const Points& field, std::vector<int> drivers,
                              std::vector<int> fades_with = {}, const std::string& ending = "") {
-            Found one;
+            shapes::OfferedCorrective one;
             one.corrective.shape = shapes::sparse(field);
             if (one.corrective.shape.empty()) return;
             std::sort(drivers.begin(), drivers.end());
@@ -216,14 +190,10 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             if (half) one.corrective.name += "~half" + ending;
             one.corrective.drivers = std::move(drivers);
             one.corrective.fades_with = std::move(fades_with);
-            double often = half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct;
-            double seen = 0;
-            for (long f = 0; f < played.rows(); ++f)
-                seen = std::max(seen, one.corrective.weight(played.row(f).transpose()));
-            often += seen * seen;
-            one.use = often * (area.asDiagonal() * field).cwiseProduct(field).sum();
+            one.use = (half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct) *
+                      (area.asDiagonal() * field).cwiseProduct(field).sum();
             one.bytes = bytes_of(one.corrective.shape);
-            one.tried = c;
+            one.group = c;
             found.push_back(std::move(one));
         };
         const std::vector<std::size_t> others =
@@ -256,7 +226,22 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             add(field, {driver(a, side)}, std::move(fades_with), a.parts.size() > 1 ? "" : ending);
         }
     }
-    keep_most_useful(found, options.budget_bytes, out);
+    std::vector<shapes::PlayedFrame> left;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const SolvedPose& pose = poses[candidates.size() + f];
+        if (!pose.figures.converged) continue;
+        shapes::PlayedFrame& frame = left.emplace_back();
+        frame.weights = played.weights.row(frames[f]).transpose();
+        Points sum = Points::Zero(head.vertices.rows(), 3);
+        out.rig.add_to(sum, frame.weights);
+        frame.left = pose.moved - sum;
+    }
+    for (const std::size_t i :
+         shapes::choose_correctives(found, std::move(left), area, options.budget_bytes)) {
+        out.tried[found[i].group].kept = true;
+        out.bytes += found[i].bytes;
+        out.rig.correctives.push_back(std::move(found[i].corrective));
+    }
     return out;
 }
 

@@ -33,11 +33,17 @@ struct Correctives {
     long bytes = 0;
 };
 
-/// `played`: frames x shapes, weights that the rig will be played with: what meets in them is tried and kept before what does not.
-/// Without rows: shapes that share most skin.
+/// Frames that the rig will be played with, on a head that is not turned.
+struct PlayedFrames {
+    Eigen::MatrixXd weights = {};  ///< frames x shapes
+    std::vector<track::Drive> drives = {};
+};
+
+/// Without frames: of the shapes that share most skin, by how much each is worth for its size. With frames: also of those that meet
+/// in them, and first those that bring simulated frames nearest, one after the other; then others that do them no harm.
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const Eigen::MatrixXd& played = {}, const Watch& watch = {});
+                             const PlayedFrames& played = {}, const Watch& watch = {});
 
 /// Errors of a linear rig against the simulation over the frames of a track.
 struct TrackError {
