@@ -79,8 +79,8 @@ void add_head(CLI::App& app) {
         ->add_option(
             "--texture", arguments->options.texture_px,
             "Write colours on the texture coordinates too, for other programs: skin.png, so "
-            "many pixels wide and high (256 to 4096), eyes, teeth, gums and tongue half of "
-            "it, and head.mtl, which names them")
+            "many pixels wide and high (256 to 4096), eyes, teeth, gums, tongue and lashes half "
+            "of it, and head.mtl, which names them")
         ->check(CLI::Range(256, 4096))
         ->excludes(command->add_flag("--mesh-only", arguments->options.mesh_only,
                                      "Mesh and landmarks alone, without rig and pictures"));
