@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/random_weights.h"
 #include "app/shape_files.h"
 #include "app/shapes_page.h"
 #include "app/staged_file.h"
@@ -56,26 +57,23 @@ Json worst_of(const MadeShapes& shapes) {
     return out;
 }
 
-constexpr unsigned kTestSeed = 20051;  // any would do
+constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // any would do, if they are not the same
+constexpr int kPairs = 48, kPairsOfUnits = 160;
+constexpr long kFittedOfScript = 24;
+constexpr int kFittedRandom = 96;
 
-Json correctives_json(const Correctives& found, const std::vector<MadeShape>& all) {
-    Json kept = Json::array(), tried = Json::array();
-    for (const shapes::Corrective& one : found.rig.correctives) {
-        Json drivers = Json::array();
-        for (const int driver : one.drivers)
-            drivers.push_back(all[static_cast<std::size_t>(driver)].goal.name);
-        kept.push_back({{"name", one.name},
-                        {"drivers", drivers},
-                        {"weight", weight_rule(one)},
-                        {"vertices", one.shape.vertex.size()}});
-    }
+Json correctives_json(const Correctives& found) {
+    Json kept = Json::array(), terms = Json::array(), tried = Json::array();
+    for (const shapes::Corrective& one : found.rig.correctives)
+        kept.push_back({{"name", one.name}, {"vertices", one.shape.vertex.size()}});
+    for (const shapes::Term& term : found.rig.terms) terms.push_back(term.name);
     for (const TriedCorrective& one : found.tried)
         tried.push_back({{"name", one.name},
                          {"max_mm", 1e3 * one.greatest_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
-                         {"kept", one.kept}});
-    return {{"kept", kept}, {"tried", tried}};
+                         {"put_right", one.kept}});
+    return {{"kept", kept}, {"terms", terms}, {"tried", tried}, {"bytes", found.bytes}};
 }
 
 Json tracks_json(const std::vector<TrackError>& tracks) {
@@ -100,56 +98,81 @@ std::vector<long> some_frames(long all, int wanted) {
     return out;
 }
 
-/// Of the whole run, what a part of it tells.
-Watch part_of(const Watch& watch, double from, double to) {
-    Watch out = watch;
-    if (watch.progress)
-        out.progress = [&watch, from, to](double share, const std::string& what) {
-            watch.progress(from + (to - from) * share, what);
-        };
-    return out;
-}
-
 bool wants(const ShapesOptions& options, const char* format) {
     return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(),
                                                 format) != options.formats.end();
 }
 
 // Blend shapes do not turn the head.
-PlayedFrames unturned(const ShapeAnimation& animation) {
-    PlayedFrames out{animation.weights, animation.drives};
-    for (track::Drive& drive : out.drives)
-        for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
-             k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
-            drive.kinematic[static_cast<std::size_t>(k)] = 0;
+track::Drive unturned(track::Drive drive) {
+    for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
+         k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
+        drive.kinematic[static_cast<std::size_t>(k)] = 0;
+    return drive;
+}
+
+// Frames that correctives are to be good for: of the script, and of a set of action units such as meet in faces.
+ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable& channels) {
+    ScriptFrames out;
+    const auto shapes = static_cast<long>(report.shapes.list.size());
+    const std::vector<Eigen::VectorXd> random =
+        random_facs_track(report.shapes, kFittedRandom, kFitSeed);
+    const long scripted = report.animation ? report.animation->weights.rows() : 0;
+    out.weights.resize(scripted + static_cast<long>(random.size()), shapes);
+    if (scripted > 0) out.weights.topRows(scripted) = report.animation->weights;
+    // From the first one on: between the frames that the rig is compared at
+    const long some = std::min(kFittedOfScript, scripted);
+    for (long i = 0; i < some; ++i) {
+        out.simulated.push_back(i * scripted / some);
+        out.drives.push_back(
+            unturned(report.animation->drives[static_cast<std::size_t>(out.simulated.back())]));
+    }
+    for (const Eigen::VectorXd& frame : random) {
+        const long at = scripted + static_cast<long>(out.simulated.size()) - some;
+        out.weights.row(at) = frame.transpose();
+        out.simulated.push_back(at);
+        out.drives.push_back(drive_of_weights(report.shapes, frame, channels));
+    }
     return out;
 }
 
-// The linear rig against the simulation, frame by frame: on weights drawn at random, and on the script.
+// The linear rig against the simulation, frame by frame.
 std::vector<TrackError> compare_tracks(const RigFiles& files, const ShapeSolver& solver,
                                        const ShapesOptions& options, const ShapesReport& report,
-                                       const PlayedFrames& played, const Watch& watch) {
+                                       const Watch& watch) {
     const track::ChannelTable channels = files.rig.channels();
-    std::vector<TrackError> out;
-    const std::vector<Eigen::VectorXd> weights =
-        random_weights(report.shapes, options.test_frames, kTestSeed);
-    std::vector<track::Drive> drives;
-    for (const Eigen::VectorXd& one : weights)
-        drives.push_back(drive_of_weights(report.shapes, one, channels));
-    const bool scripted = report.animation.has_value();
-    out.push_back(track_error("random weights", report.correctives.rig, solver, drives, weights,
-                              part_of(watch, 0, scripted ? 0.5 : 1)));
-    if (!scripted) return out;
-    std::vector<Eigen::VectorXd> some;
-    drives.clear();
-    const std::vector<long> frames = some_frames(played.weights.rows(), options.test_frames);
-    for (const long f : frames) {
-        some.push_back(played.weights.row(f).transpose());
-        drives.push_back(played.drives[static_cast<std::size_t>(f)]);
+    struct Track {
+        std::string name;
+        std::vector<Eigen::VectorXd> weights;
+        std::vector<track::Drive> drives = {};
+        std::vector<long> frames = {};
+    };
+    std::vector<Track> tracks;
+    tracks.push_back(
+        {"random weights", random_weights(report.shapes, options.test_frames, kTestSeed)});
+    std::vector<Eigen::VectorXd> facs =
+        random_facs_track(report.shapes, options.test_frames, kTestSeed);
+    if (!facs.empty()) tracks.push_back({"random FACS track", std::move(facs)});
+    for (Track& track : tracks)
+        for (const Eigen::VectorXd& one : track.weights)
+            track.drives.push_back(drive_of_weights(report.shapes, one, channels));
+    if (report.animation) {
+        const ShapeAnimation& script = *report.animation;
+        Track& track = tracks.emplace_back(Track{script.name, {}});
+        track.frames = some_frames(script.weights.rows(), options.test_frames);
+        for (const long f : track.frames) {
+            track.weights.push_back(script.weights.row(f).transpose());
+            track.drives.push_back(unturned(script.drives[static_cast<std::size_t>(f)]));
+        }
     }
-    out.push_back(track_error(report.animation->name, report.correctives.rig, solver, drives, some,
-                              part_of(watch, 0.5, 1)));
-    out.back().of_track = frames;
+    std::vector<TrackError> out;
+    const auto all = static_cast<double>(tracks.size());
+    for (const Track& track : tracks) {
+        const auto done = static_cast<double>(out.size());
+        out.push_back(track_error(track.name, report.correctives.rig, solver, track.drives,
+                                  track.weights, watch.part(done / all, (done + 1) / all)));
+        out.back().of_track = track.frames;
+    }
     return out;
 }
 
@@ -190,7 +213,7 @@ Json ShapesReport::json() const {
             {"worst", worst_of(shapes)},
             {"shapes", list},
             {"linear_rig", tracks_json(tracks)},
-            {"correctives", correctives_json(correctives, shapes.list)},
+            {"correctives", correctives_json(correctives)},
             {"left_out", left},
             {"bytes", bytes}};
 }
@@ -214,17 +237,19 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
         report.animation = bake_script(options.script, files, set.goals,
                                        ShapeWeights(*face, files.rig.channels(), set.goals));
     }
-    const PlayedFrames played = report.animation ? unturned(*report.animation) : PlayedFrames();
-    report.shapes = make_shapes(files, set, solver, part_of(watch, 0, solved));
+    report.shapes = make_shapes(files, set, solver, watch.part(0, solved));
+    CorrectiveOptions corrective = options.corrective;
+    if (!corrective.pairs) corrective.pairs = set.name == "facs" ? kPairsOfUnits : kPairs;
     if (options.correctives)
-        report.correctives = find_correctives(files, report.shapes, solver, options.corrective,
-                                              played, part_of(watch, solved, corrected));
+        report.correctives = find_correctives(files, report.shapes, solver, corrective,
+                                              frames_to_fit(report, files.rig.channels()),
+                                              watch.part(solved, corrected));
     else
         for (const MadeShape& made : report.shapes.list)
             report.correctives.rig.shapes.push_back(made.shape);
     if (options.test_frames > 0)
-        report.tracks = compare_tracks(files, solver, options, report, played,
-                                       part_of(watch, corrected, compared));
+        report.tracks =
+            compare_tracks(files, solver, options, report, watch.part(corrected, compared));
     report.solving_s = time.seconds();
     report.name = files.rig.name;
     report.rig = options.rig.generic_string();
@@ -267,7 +292,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
     // What people look at
     std::optional<ShapesPictures> pictures;
     if (options.pictures) {
-        pictures = draw_shapes(report, files, head, folder.partial(), part_of(watch, compared, 1));
+        pictures = draw_shapes(report, files, head, folder.partial(), watch.part(compared, 1));
         written.insert(written.end(), pictures->files.begin(), pictures->files.end());
     }
     write_text(folder.partial() / "index.html",

@@ -28,6 +28,18 @@ Eigen::VectorXd vertex_areas(const Triangles& triangles, const Points& rest) {
     return area;
 }
 
+Eigen::VectorXd seen_areas(const sim::Face& face) {
+    constexpr double kOtherThanSkin = 0.2;
+    Eigen::VectorXd out = vertex_areas(face.simulated_skin(), face.head().vertices);
+    const double mean = out.sum() / static_cast<double>((out.array() > 0).count());
+    for (long v = 0; v < out.size(); ++v) {
+        const rig::Carrier carrier = face.head().carrier[static_cast<std::size_t>(v)];
+        if (carrier != rig::Carrier::kSkin && carrier != rig::Carrier::kNone)
+            out[v] += kOtherThanSkin * mean;
+    }
+    return out;
+}
+
 ExpressionScore score(const Points& simulated, const Points& measured, const Eigen::VectorXd& area,
                       const std::vector<int>& landmark_vertices) {
     constexpr double kMoved_m = 0.5e-3;

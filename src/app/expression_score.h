@@ -10,6 +10,7 @@
 
 #include "core/json_cursor.h"
 #include "core/types.h"
+#include "sim/face.h"
 
 namespace risorius::app {
 
@@ -28,6 +29,9 @@ struct ExpressionScore {
 
 /// Skin area per vertex, m^2: a third of each triangle's.
 Eigen::VectorXd vertex_areas(const Triangles& triangles, const Points& rest);
+
+/// The same where the skin is simulated, and a fifth of its mean for every vertex of eyes, teeth and tongue.
+Eigen::VectorXd seen_areas(const sim::Face& face);
 
 ExpressionScore score(const Points& simulated, const Points& measured, const Eigen::VectorXd& area,
                       const std::vector<int>& landmark_vertices);

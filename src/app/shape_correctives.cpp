@@ -1,13 +1,14 @@
 #include "app/shape_correctives.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
-#include <random>
 
 #include "app/expression_score.h"
 #include "app/stopwatch.h"
-#include "shapes/corrective_choice.h"
+#include "shapes/low_rank.h"
 
 namespace risorius::app {
 
@@ -18,13 +19,11 @@ constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves 
 
 constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 
-// Mean squares of the weights of correctives, 4 w (1 - w) and w_a w_b, where those of shapes are anything from 0 to 1.
-constexpr double kSquareOfHalf = 8.0 / 15.0, kSquareOfProduct = 1.0 / 9.0;
+// Mean squares of terms, of a part of a shape's way (the mean of 36 w^4 (1 - w)^4) and w_a w_b, where weights are anything from 0 to 1.
+constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfProduct = 1.0 / 9.0;
 // A shape that is at work is on its way whatever else is there, while a given other one is there in a fifth of its frames
 // (random weights, four of 52 at a time: less; faces that speak and feel: less for most pairs).
 constexpr double kPairIsMet = 0.2;
-
-constexpr long kPlayed = 24;  // frames that are simulated, of those that will be played
 
 /// What is tried together: a shape, or both its halves.
 struct Unit {
@@ -113,28 +112,42 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
     return out;
 }
 
-// A position of 16-bit numbers and a normal of floats with an index each; every other normal turns too little to be written.
-long bytes_of(const shapes::SparseShape& shape) {
-    return static_cast<long>(shape.vertex.size()) * 15;
+// What a shape lacks a quarter, a half and three quarters of its way, as parts of it (shapes/linear_rig.h).
+std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) {
+    Eigen::Matrix3d values;
+    for (int at = 0; at < 3; ++at)
+        for (int part = 1; part <= 3; ++part)
+            values(at, part - 1) =
+                shapes::Term{"", {0}, part}.value(Eigen::VectorXd::Constant(1, 0.25 * (at + 1)));
+    const Eigen::Matrix3d inverse = values.inverse();
+    std::array<Points, 3> out;
+    for (int part = 0; part < 3; ++part) {
+        out[static_cast<std::size_t>(part)] = inverse(part, 0) * *lacking[0];
+        for (std::size_t at : {std::size_t{1}, std::size_t{2}})
+            out[static_cast<std::size_t>(part)] +=
+                inverse(part, static_cast<int>(at)) * *lacking[at];
+    }
+    return out;
 }
 
 }  // namespace
 
-std::string weight_rule(const shapes::Corrective& corrective) {
-    if (corrective.drivers.size() > 1) return "product";
-    return corrective.fades_with.empty() ? "4 w (1 - w)"
-                                         : "4 w (1 - w) product of (1 - fades_with)";
+std::string weight_rule(const shapes::Term& term) {
+    if (term.drivers.size() > 1) return "product";
+    static const std::array<const char*, 3> kRules{"4 w (1 - w)^3", "6 w^2 (1 - w)^2",
+                                                   "4 w^3 (1 - w)"};
+    return kRules.at(static_cast<std::size_t>(term.part - 1));
 }
 
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const PlayedFrames& played, const Watch& watch) {
+                             const ScriptFrames& played, const Watch& watch) {
     const rig::Head& head = solver.face().head();
     const track::ChannelTable channels = files.rig.channels();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
     const std::vector<Candidate> candidates =
-        candidates_of(units, shapes, area, options.pairs, played.weights);
+        candidates_of(units, shapes, area, options.pairs.value_or(0), played.weights);
 
     std::vector<track::Drive> drives;
     const track::Drive rest = no_drive(channels);
@@ -142,13 +155,37 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         drives.push_back(one.a == one.b
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
-    // From the first one on, those between the frames that a track is compared at
-    std::vector<long> frames;
-    for (long i = 0; i < std::min(kPlayed, played.weights.rows()); ++i) {
-        frames.push_back(i * played.weights.rows() / std::min(kPlayed, played.weights.rows()));
-        drives.push_back(played.drives[static_cast<std::size_t>(frames.back())]);
+    for (const track::Drive& drive : played.drives) drives.push_back(drive);
+    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, 0.8), {.again = false});
+
+    Correctives out;
+    for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
+    std::vector<Points> lacking;  // of each candidate; empty: nothing to put right, or not known
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
+        const bool half = candidates[c].a == candidates[c].b;
+        const Points sum = half ? Points(0.5 * a.field) : Points(a.field + b.field);
+        TriedCorrective& tried = out.tried.emplace_back();
+        tried.name = half ? a.name + "~half" : a.name + "*" + b.name;
+        const shapes::FieldError error = shapes::error_between(poses[c].moved, sum, area);
+        tried.greatest_m = error.greatest_m;
+        tried.rms_m = error.rms_m;
+        tried.at_rest = poses[c].figures.converged;
+        tried.kept = tried.at_rest && error.greatest_m >= options.tolerance_m;
+        lacking.push_back(tried.kept ? Points(poses[c].moved - sum) : Points());
     }
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
+
+    // Those that go round a corner, a quarter and three quarters of the way as well
+    std::vector<std::size_t> bent;
+    drives.clear();
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+        if (candidates[c].a == candidates[c].b && lacking[c].size() > 0) {
+            bent.push_back(c);
+            for (const double weight : {0.25, 0.75})
+                drives.push_back(sum_of(rest, units[candidates[c].a].drive, weight, channels));
+        }
+    const std::vector<SolvedPose> quarters =
+        solver.solve(drives, watch.part(0.8, 1), {.again = false});
 
     // Which others move skin that this one moves
     std::vector<Eigen::VectorXd> moved;
@@ -161,112 +198,87 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                 others.push_back(other);
         return others;
     };
-
-    Correctives out;
-    for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
-    std::vector<shapes::OfferedCorrective> found;
+    const auto driver = [](const Unit& unit, std::size_t side) {
+        return unit.parts.size() == 1 ? unit.parts[0] : unit.parts[side];
+    };
+    std::vector<shapes::TermField> terms;
+    const auto add = [&](const Points& field, shapes::Term term, const std::string& ending) {
+        if (field.isZero(0.0)) return;
+        std::sort(term.drivers.begin(), term.drivers.end());
+        for (const int i : term.drivers)
+            term.name +=
+                (term.name.empty() ? "" : "*") + shapes.list[static_cast<std::size_t>(i)].goal.name;
+        const bool single = term.drivers.size() == 1;
+        if (single) term.name += "~" + std::to_string(term.part) + ending;
+        terms.push_back(
+            {std::move(term), field, single ? kSquareOfPart : kPairIsMet * kSquareOfProduct});
+    };
     for (std::size_t c = 0; c < candidates.size(); ++c) {
+        if (lacking[c].size() == 0 || candidates[c].a == candidates[c].b) continue;
         const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
-        const bool half = candidates[c].a == candidates[c].b;
-        const Points sum = half ? Points(0.5 * a.field) : Points(a.field + b.field);
-        TriedCorrective& tried = out.tried.emplace_back();
-        tried.name = half ? a.name + "~half" : a.name + "*" + b.name;
-        Points missing = poses[c].moved - sum;
-        const shapes::FieldError error = shapes::error_between(poses[c].moved, sum, area);
-        tried.greatest_m = error.greatest_m;
-        tried.rms_m = error.rms_m;
-        tried.at_rest = poses[c].figures.converged;
-        if (!tried.at_rest || error.greatest_m < options.tolerance_m) continue;
-        shapes::fade_out(missing, {0.5 * options.fade_m, 1.5 * options.fade_m});
-        const auto add = [&](const Points& field, std::vector<int> drivers,
-                             std::vector<int> fades_with = {}, const std::string& ending = "") {
-            shapes::OfferedCorrective one;
-            one.corrective.shape = shapes::sparse(field);
-            if (one.corrective.shape.empty()) return;
-            std::sort(drivers.begin(), drivers.end());
-            for (const int driver : drivers)
-                one.corrective.name += (one.corrective.name.empty() ? "" : "*") +
-                                       shapes.list[static_cast<std::size_t>(driver)].goal.name;
-            if (half) one.corrective.name += "~half" + ending;
-            one.corrective.drivers = std::move(drivers);
-            one.corrective.fades_with = std::move(fades_with);
-            one.use = (half ? kSquareOfHalf : kPairIsMet * kSquareOfProduct) *
-                      (area.asDiagonal() * field).cwiseProduct(field).sum();
-            one.bytes = bytes_of(one.corrective.shape);
-            one.group = c;
-            found.push_back(std::move(one));
-        };
-        const std::vector<std::size_t> others =
-            half ? sharing(candidates[c].a) : std::vector<std::size_t>{};
-        const bool sided = std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-            return units[other].parts.size() > 1;
-        });
-        if (a.parts.size() == 1 && b.parts.size() == 1 && !sided) {
-            std::vector<int> fades_with;
-            for (const std::size_t other : others) fades_with.push_back(units[other].parts[0]);
-            add(missing,
-                half ? std::vector<int>{a.parts[0]} : std::vector<int>{a.parts[0], b.parts[0]},
-                std::move(fades_with));
+        if (a.parts.size() == 1 && b.parts.size() == 1) {
+            add(lacking[c], {"", {a.parts[0], b.parts[0]}}, "");
             continue;
         }
         const auto [left, right] =
-            shapes::left_and_right(head.vertices, missing, head.mm(kSharedStrip_mm));
-        const auto driver = [](const Unit& unit, std::size_t side) {
-            return unit.parts.size() == 1 ? unit.parts[0] : unit.parts[side];
-        };
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-            const Points& field = side == 0 ? left : right;
-            if (!half) {
-                add(field, {driver(a, side), driver(b, side)});
+            shapes::left_and_right(head.vertices, lacking[c], head.mm(kSharedStrip_mm));
+        add(left, {"", {driver(a, 0), driver(b, 0)}}, "");
+        add(right, {"", {driver(a, 1), driver(b, 1)}}, "");
+    }
+    for (std::size_t n = 0; n < bent.size(); ++n) {
+        const std::size_t c = bent[n];
+        const Unit& unit = units[candidates[c].a];
+        std::array<Points, 2> quarter;
+        for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+            const SolvedPose& pose = quarters[2 * n + k];
+            // Else as if it went there in an even bend
+            quarter[k] = pose.figures.converged
+                             ? Points(pose.moved - (k == 0 ? 0.25 : 0.75) * unit.field)
+                             : Points(0.75 * lacking[c]);
+        }
+        const std::array<Points, 3> parts = parts_of_way({&quarter[0], &lacking[c], &quarter[1]});
+        const std::vector<std::size_t> others = sharing(candidates[c].a);
+        const bool sided = unit.parts.size() > 1 ||
+                           std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+                               return units[other].parts.size() > 1;
+                           });
+        for (int part = 1; part <= 3; ++part) {
+            const Points& field = parts[static_cast<std::size_t>(part - 1)];
+            const auto term = [&](std::size_t side) {
+                shapes::Term out_of{"", {driver(unit, side)}, part};
+                for (const std::size_t other : others)
+                    out_of.fades_with.push_back(driver(units[other], side));
+                return out_of;
+            };
+            if (!sided) {
+                add(field, term(0), "");
                 continue;
             }
-            std::vector<int> fades_with;
-            for (const std::size_t other : others) fades_with.push_back(driver(units[other], side));
-            const char* ending = side == 0 ? "~left" : "~right";
-            add(field, {driver(a, side)}, std::move(fades_with), a.parts.size() > 1 ? "" : ending);
+            const auto [left, right] =
+                shapes::left_and_right(head.vertices, field, head.mm(kSharedStrip_mm));
+            add(left, term(0), unit.parts.size() > 1 ? "" : "left");
+            add(right, term(1), unit.parts.size() > 1 ? "" : "right");
         }
     }
-    std::vector<shapes::PlayedFrame> left;
-    for (std::size_t f = 0; f < frames.size(); ++f) {
+
+    std::vector<shapes::PlayedFrame> frames;
+    for (std::size_t f = 0; f < played.drives.size(); ++f) {
         const SolvedPose& pose = poses[candidates.size() + f];
         if (!pose.figures.converged) continue;
-        shapes::PlayedFrame& frame = left.emplace_back();
-        frame.weights = played.weights.row(frames[f]).transpose();
+        shapes::PlayedFrame& frame = frames.emplace_back();
+        frame.weights = played.weights.row(played.simulated[f]).transpose();
         Points sum = Points::Zero(head.vertices.rows(), 3);
         out.rig.add_to(sum, frame.weights);
         frame.left = pose.moved - sum;
     }
-    for (const std::size_t i :
-         shapes::choose_correctives(found, std::move(left), area, options.budget_bytes)) {
-        out.tried[found[i].group].kept = true;
-        out.bytes += found[i].bytes;
-        out.rig.correctives.push_back(std::move(found[i].corrective));
-    }
-    return out;
-}
-
-std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames, unsigned seed) {
-    std::mt19937 random(seed);
-    const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
-    constexpr int kAtATime = 4;
-    std::vector<Eigen::VectorXd> out;
-    for (int f = 0; f < frames; ++f) {
-        Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes.list.size()));
-        for (int n = 0; n < kAtATime; ++n) {
-            const auto i =
-                static_cast<std::size_t>(uniform() * static_cast<double>(shapes.list.size()));
-            const ShapeGoal& goal = shapes.list[i].goal;
-            const double weight = shapes.list[i].solved_at * uniform();
-            const bool both = uniform() < 0.7;  // faces are more often alike on both sides than not
-            if (goal.sides == Sides::kOpposed && weights[goal.partner] != 0) continue;
-            weights[static_cast<long>(i)] = weight;
-            if (goal.sides == Sides::kHalves && both) weights[goal.partner] = weight;
-            // What shuts lips over an open jaw goes as far as the jaw
-            if (goal.on_top_of >= 0)
-                weights[goal.on_top_of] = std::max(weights[goal.on_top_of], weight);
-        }
-        out.push_back(std::move(weights));
-    }
+    shapes::LowRank made =
+        shapes::low_rank(std::move(terms), frames, head.vertices, seen_areas(solver.face()),
+                         {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
+                          .half_width_m = head.mm(kSharedStrip_mm),
+                          .budget_bytes = options.budget_bytes});
+    out.rig.terms = std::move(made.terms);
+    out.rig.correctives = std::move(made.correctives);
+    out.bytes = made.bytes;
     return out;
 }
 
@@ -293,7 +305,7 @@ TrackError track_error(const std::string& name, const shapes::LinearRig& rig,
     const rig::Head& head = solver.face().head();
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
     const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
-    shapes::LinearRig plain{rig.shapes, {}};
+    shapes::LinearRig plain{rig.shapes};
     TrackError out;
     out.name = name;
     out.frames = static_cast<int>(drives.size());

@@ -1,6 +1,7 @@
 // What adding up blend shapes gets wrong, found by simulating them together, and the correctives that put it right.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,21 +11,23 @@
 namespace risorius::app {
 
 struct CorrectiveOptions {
-    int pairs = 48;               ///< simulated at most: those that share most skin
-    double tolerance_m = 0.7e-3;  ///< a sum that errs by less anywhere is left as it is
-    double fade_m = 0.25e-3;      ///< of a corrective: what moves less does not move
-    long budget_bytes = 800'000;  ///< of all correctives' numbers, the most useful ones first
+    /// Simulated at most: those that share most skin. Without: 48, of action units 160, of which there are more.
+    std::optional<int> pairs = {};
+    double tolerance_m = 0.3e-3;  ///< a sum that errs by less everywhere is left as it is
+    double fade_m = 0.1e-3;       ///< of a corrective: what moves less does not move
+    long budget_bytes =
+        800'000;  ///< of all correctives' numbers, which leave out the finer the less room there is
 };
 
-/// The rule its weight follows, as files state it.
-std::string weight_rule(const shapes::Corrective& corrective);
+/// The rule a term follows, as files state it.
+std::string weight_rule(const shapes::Term& term);
 
 /// A pair, or half a shape, that was simulated.
 struct TriedCorrective {
     std::string name;
     double greatest_m = 0, rms_m = 0;  ///< what the sum gets wrong
     bool at_rest = true;               ///< else what the sum gets wrong is not known
-    bool kept = false;
+    bool kept = false;                 ///< put right by correctives
 };
 
 struct Correctives {
@@ -33,17 +36,18 @@ struct Correctives {
     long bytes = 0;
 };
 
-/// Frames that the rig will be played with, on a head that is not turned.
-struct PlayedFrames {
-    Eigen::MatrixXd weights = {};  ///< frames x shapes
-    std::vector<track::Drive> drives = {};
+/// Frames that are like those that the rig will be played with, on a head that is not turned.
+struct ScriptFrames {
+    Eigen::MatrixXd weights = {};           ///< frames x shapes
+    std::vector<long> simulated = {};       ///< frames that are simulated
+    std::vector<track::Drive> drives = {};  ///< of those
 };
 
-/// Without frames: of the shapes that share most skin, by how much each is worth for its size. With frames: also of those that meet
-/// in them, and first those that bring simulated frames nearest, one after the other; then others that do them no harm.
+/// Pairs are those that share most skin, and those that meet in the frames; of those frames that are simulated correctives take
+/// what can be taken off (shapes/low_rank.h).
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const PlayedFrames& played = {}, const Watch& watch = {});
+                             const ScriptFrames& played = {}, const Watch& watch = {});
 
 /// Errors of a linear rig against the simulation over the frames of a track.
 struct TrackError {
@@ -59,9 +63,6 @@ struct TrackError {
     }
     double play_s = 0;  ///< time on the core that the linear rig takes for a frame
 };
-
-/// Weights drawn at random, a few shapes at a time, of `frames` frames: the same for the same names and seed.
-std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames, unsigned seed);
 
 /// What a face with these weights is driven by.
 track::Drive drive_of_weights(const MadeShapes& shapes, const Eigen::VectorXd& weights,

@@ -100,18 +100,26 @@ io::MorphModel morph_model(const RigFiles& files, const rig::Head& head, const M
     }
     for (const MadeShape& made : shapes.list)
         model.targets.push_back({made.goal.name, made.shape.vertex, made.shape.delta});
-    Json correctives = Json::array();
+    const auto names_of = [&](const std::vector<int>& indices) {
+        Json out = Json::array();
+        for (const int i : indices)
+            out.push_back(shapes.list[static_cast<std::size_t>(i)].goal.name);
+        return out;
+    };
+    Json terms = Json::array(), correctives = Json::array();
+    for (const shapes::Term& term : linear.terms) {
+        Json& rule = terms.emplace_back(Json{{"name", term.name},
+                                             {"drivers", names_of(term.drivers)},
+                                             {"value", weight_rule(term)}});
+        if (term.drivers.size() == 1) rule["part"] = term.part;
+        if (!term.fades_with.empty()) rule["fades_with"] = names_of(term.fades_with);
+    }
     for (const shapes::Corrective& corrective : linear.correctives) {
         model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
-        Json drivers = Json::array();
-        for (const int driver : corrective.drivers)
-            drivers.push_back(shapes.list[static_cast<std::size_t>(driver)].goal.name);
-        Json& rule = correctives.emplace_back(Json{
-            {"name", corrective.name}, {"drivers", drivers}, {"weight", weight_rule(corrective)}});
-        if (corrective.fades_with.empty()) continue;
-        rule["fades_with"] = Json::array();
-        for (const int other : corrective.fades_with)
-            rule["fades_with"].push_back(shapes.list[static_cast<std::size_t>(other)].goal.name);
+        Json of_terms = Json::array();
+        for (const double share : corrective.of_terms)
+            of_terms.push_back(static_cast<float>(share));
+        correctives.push_back({{"name", corrective.name}, {"of_terms", of_terms}});
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)
@@ -123,6 +131,7 @@ io::MorphModel morph_model(const RigFiles& files, const rig::Head& head, const M
                       {"set", set},
                       {"vertices", head.vertices.rows()},
                       {"on_top_of", on_top},
+                      {"terms", terms},
                       {"correctives", correctives}}}};
     if (animation) {
         io::MorphAnimation& out = model.animations.emplace_back();

@@ -63,20 +63,35 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const RigFil
                         "\"" + name + "\" among " + std::to_string(count));
         out.goals.push_back(set.goals[static_cast<std::size_t>(*index)]);
     }
+    const auto indices_of = [&](const JsonCursor& list) {
+        std::vector<int> indices;
+        for (const JsonCursor& name : list.items())
+            indices.push_back(static_cast<int>(index_of_name(name.place(), name.string(), names)));
+        return indices;
+    };
+    const std::vector<JsonCursor> terms = extras.at("terms").items();
+    for (const JsonCursor& json : terms) {
+        shapes::Term& term = out.rig.terms.emplace_back();
+        term.name = json.at("name").string();
+        term.drivers = indices_of(json.at("drivers"));
+        if (term.drivers.empty()) json.at("drivers").fail("at least one shape");
+        if (term.drivers.size() == 1) term.part = json.at("part").integer(1, 3);
+        if (const auto others = json.find("fades_with")) term.fades_with = indices_of(*others);
+    }
     for (std::size_t c = 0; c < correctives.size(); ++c) {
         shapes::Corrective& one = out.rig.correctives.emplace_back();
         const io::MorphTarget& target = model.targets[count + c];
         one.name = correctives[c].at("name").string();
         if (one.name != target.name)
             correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
-        for (const JsonCursor& driver : correctives[c].at("drivers").items())
-            one.drivers.push_back(
-                static_cast<int>(index_of_name(driver.place(), driver.string(), names)));
-        if (one.drivers.empty()) correctives[c].at("drivers").fail("at least one shape");
-        if (const auto others = correctives[c].find("fades_with"))
-            for (const JsonCursor& other : others->items())
-                one.fades_with.push_back(
-                    static_cast<int>(index_of_name(other.place(), other.string(), names)));
+        const std::vector<JsonCursor> shares = correctives[c].at("of_terms").items();
+        if (shares.size() != terms.size())
+            correctives[c]
+                .at("of_terms")
+                .fail("a number for each of " + std::to_string(terms.size()) + " terms");
+        one.of_terms.resize(static_cast<long>(shares.size()));
+        for (std::size_t t = 0; t < shares.size(); ++t)
+            one.of_terms[static_cast<long>(t)] = shares[t].number();
         one.shape = {target.vertex, target.delta};
     }
     return out;

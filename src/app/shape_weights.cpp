@@ -1,5 +1,6 @@
 #include "app/shape_weights.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "app/expression_score.h"
@@ -10,8 +11,7 @@ namespace {
 
 constexpr double kWeightPrice = 1e-3;  // of the largest shape's own square
 constexpr double kWeightRidge = 1e-6;
-constexpr double kOtherThanSkin =
-    0.2;  // weight of a vertex of eyes, teeth and tongue against the skin's mean
+constexpr int kHoldingTurns = 5;
 
 }  // namespace
 
@@ -32,13 +32,7 @@ ShapeWeights::ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
         moving.push_back(channel);
     }
     const std::vector<Points> ways = face.sensitivities(columns, moving);
-    Eigen::VectorXd weight = vertex_areas(face.simulated_skin(), face.head().vertices);
-    const double mean = weight.sum() / static_cast<double>((weight.array() > 0).count());
-    for (long v = 0; v < weight.size(); ++v) {
-        const rig::Carrier carrier = face.head().carrier[static_cast<std::size_t>(v)];
-        if (carrier != rig::Carrier::kSkin && carrier != rig::Carrier::kNone)
-            weight[v] += kOtherThanSkin * mean;
-    }
+    const Eigen::VectorXd weight = seen_areas(face);
     const long count = static_cast<long>(ways.size());
     Eigen::MatrixXd G(count, count);
     const Eigen::VectorXd root = weight.cwiseSqrt();
@@ -49,8 +43,14 @@ ShapeWeights::ShapeWeights(sim::Face& face, const track::ChannelTable& channels,
     }
     G.noalias() = E.transpose() * E;
     Eigen::MatrixXd S(count, static_cast<long>(goals.size()));
-    for (std::size_t s = 0; s < goals.size(); ++s)
+    for (std::size_t s = 0; s < goals.size(); ++s) {
         S.col(static_cast<long>(s)) = vector_of(goals[s].drive);
+        on_top_of_.push_back(goals[s].on_top_of);
+        // It was solved over the jaw of what it lies on, without the muscles of that
+        if (on_top_of_[s] >= 0)
+            S.col(static_cast<long>(s)).head(channels.column_count()) -=
+                goals[static_cast<std::size_t>(on_top_of_[s])].drive.excitation;
+    }
     for (long s = 0; linear && s < S.cols(); ++s) {
         Points& field = linear->emplace_back(Points::Zero(weight.size(), 3));
         for (long c = 0; c < count; ++c)
@@ -77,7 +77,21 @@ Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
     solve::BoxQuadratic problem = problem_;
     problem.b = -by_drive_ * vector_of(drive);
     Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.least.size());
-    solve::minimise(problem, out, 1e-5);
+    // What lies on another shape goes no farther than that: once it is held there the other may give way, hence in turns
+    for (int turn = 0; turn < kHoldingTurns; ++turn) {
+        solve::minimise(problem, out, 1e-5);
+        bool held = true;
+        for (std::size_t s = 0; s < on_top_of_.size(); ++s) {
+            if (on_top_of_[s] < 0) continue;
+            const auto at = static_cast<long>(s);
+            held = held && out[at] <= out[on_top_of_[s]];
+            problem.most[at] = std::min(problem.most[at], out[on_top_of_[s]]);
+        }
+        if (held) break;
+    }
+    for (std::size_t s = 0; s < on_top_of_.size(); ++s)
+        if (on_top_of_[s] >= 0)
+            out[static_cast<long>(s)] = std::min(out[static_cast<long>(s)], out[on_top_of_[s]]);
     return out;
 }
 

@@ -1,7 +1,7 @@
 // Which weights of a set of shapes come nearest to a drive: what turns a script for muscles into one for blend shapes.
 //
 //   S   drive of every shape, one column each        E   displacement of the face per drive, linear at rest
-//   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1
+//   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1; of what lies on top of another shape no more than of that
 #pragma once
 
 #include <vector>
@@ -26,6 +26,7 @@ class ShapeWeights {
     Eigen::VectorXd vector_of(const track::Drive& drive) const;
 
     std::vector<std::size_t> kinematic_;  ///< channels that count
+    std::vector<int> on_top_of_;          ///< of each shape, or -1
     Eigen::MatrixXd by_drive_;            ///< S' G, G = E' E
     solve::BoxQuadratic problem_;
 };

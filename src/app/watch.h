@@ -25,6 +25,15 @@ struct Watch {
         if (stopped && stopped()) throw Interrupted();
         if (progress) progress(share, what);
     }
+    /// For a part of the run, from one share of it to another.
+    Watch part(double from, double to) const {
+        Watch out = *this;
+        if (progress)
+            out.progress = [whole = progress, from, to](double share, const std::string& what) {
+                whole(from + (to - from) * share, what);
+            };
+        return out;
+    }
 };
 
 }  // namespace risorius::app

@@ -6,32 +6,41 @@
 
 namespace risorius::shapes {
 
-double Corrective::weight(const Eigen::VectorXd& shape_weights) const {
+double Term::value(const Eigen::VectorXd& shape_weights) const {
     const auto driver = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
-    if (drivers.size() == 1) {
-        const double w = driver(drivers[0]);
-        double product = 4 * w * (1 - w);
-        for (const int i : fades_with) product *= 1 - driver(i);
+    double product = 1;
+    if (drivers.size() > 1) {
+        for (const int i : drivers) product *= driver(i);
         return product;
     }
-    double product = 1;
-    for (const int i : drivers) product *= driver(i);
-    return product;
+    const double w = driver(drivers[0]);
+    for (int i = 0; i < 4; ++i) product *= i < part ? w : 1 - w;
+    for (const int i : fades_with) product *= 1 - driver(i);
+    return (part == 2 ? 6 : 4) * product;
+}
+
+Eigen::VectorXd LinearRig::term_values(const Eigen::VectorXd& weights) const {
+    Eigen::VectorXd out(static_cast<long>(terms.size()));
+    for (std::size_t t = 0; t < terms.size(); ++t)
+        out[static_cast<long>(t)] = terms[t].value(weights);
+    return out;
 }
 
 void LinearRig::add_to(Points& vertices, const Eigen::VectorXd& weights) const {
+    const Eigen::VectorXd all = all_weights(weights);
     for (std::size_t s = 0; s < shapes.size(); ++s)
-        if (const double w = weights[static_cast<long>(s)]; w != 0) shapes[s].add_to(vertices, w);
-    for (const Corrective& corrective : correctives)
-        if (const double w = corrective.weight(weights); w != 0)
-            corrective.shape.add_to(vertices, w);
+        if (const double w = all[static_cast<long>(s)]; w != 0) shapes[s].add_to(vertices, w);
+    for (std::size_t c = 0; c < correctives.size(); ++c)
+        if (const double w = all[static_cast<long>(shapes.size() + c)]; w != 0)
+            correctives[c].shape.add_to(vertices, w);
 }
 
 Eigen::VectorXd LinearRig::all_weights(const Eigen::VectorXd& weights) const {
+    const Eigen::VectorXd values = term_values(weights);
     Eigen::VectorXd out(weights.size() + static_cast<long>(correctives.size()));
     out.head(weights.size()) = weights;
     for (std::size_t c = 0; c < correctives.size(); ++c)
-        out[weights.size() + static_cast<long>(c)] = correctives[c].weight(weights);
+        out[weights.size() + static_cast<long>(c)] = correctives[c].of_terms.dot(values);
     return out;
 }
 

@@ -1,10 +1,12 @@
 // A linear rig: blend shapes added up by weight, and correctives for what the sum gets wrong.
 //
 //   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
-//   k_c = w_a w_b ...      several drivers: 1 where all are whole, 0 where any is not there
-//   k_c = 4 w (1 - w) (1 - w_a) (1 - w_b) ...      one driver: an in-between, 1 half way, for what goes round a corner on its way;
-//                          it goes as others come that move the same skin, which then takes another way: two shapes that both
-//                          part the lips part them but once
+//   k_c = sum_t a_ct f_t(w)                             terms, shared by all correctives
+//   f_t = w_a w_b ...            several drivers: 1 where all are whole, 0 where any is not there
+//   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one driver: a part of its way, for what goes round a corner; B_k = binomial(4, k)
+//                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which are 0 at rest and where the shape is whole. It goes as
+//                                others come that move the same skin, which then takes another way: two shapes that both part
+//                                the lips part them but once
 //
 // Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
 #pragma once
@@ -17,19 +19,28 @@
 
 namespace risorius::shapes {
 
-struct Corrective {
-    std::string name;          ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~half"
-    std::vector<int> drivers;  ///< shapes
-    SparseShape shape;
-    std::vector<int> fades_with = {};  ///< of an in-between: shapes that it goes with
+/// What correctives hang on.
+struct Term {
+    std::string name;                  ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~1"
+    std::vector<int> drivers;          ///< shapes
+    int part = 0;                      ///< k, of a single driver
+    std::vector<int> fades_with = {};  ///< of a single driver: shapes that it goes with
 
-    double weight(const Eigen::VectorXd& shape_weights) const;
+    double value(const Eigen::VectorXd& shape_weights) const;
+};
+
+struct Corrective {
+    std::string name;
+    SparseShape shape;
+    Eigen::VectorXd of_terms;  ///< a, one number per term
 };
 
 struct LinearRig {
     std::vector<SparseShape> shapes;
-    std::vector<Corrective> correctives;
+    std::vector<Term> terms = {};
+    std::vector<Corrective> correctives = {};
 
+    Eigen::VectorXd term_values(const Eigen::VectorXd& weights) const;
     /// Adds what the weights, one per shape, do to `vertices`.
     void add_to(Points& vertices, const Eigen::VectorXd& weights) const;
     /// Those of the shapes, then those of the correctives that follow from them.

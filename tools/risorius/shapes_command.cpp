@@ -54,7 +54,7 @@ void print(const app::ShapesReport& report, const app::ShapesOptions& options) {
             track.name.c_str(), track.frames, 1e3 * track.rms_m, 1e3 * track.greatest_m,
             1e3 * track.plain_rms_m, 1e3 * track.plain_greatest_m, 1e3 * track.play_s);
     if (!report.correctives.tried.empty())
-        std::printf("%zu correctives kept, of %zu pairs and halves simulated\n",
+        std::printf("%zu correctives for what %zu pairs and halves lack\n",
                     report.correctives.rig.correctives.size(), report.correctives.tried.size());
     for (const auto& [file, bytes] : report.sizes)
         if (!file.starts_with("obj/"))
@@ -122,18 +122,19 @@ void add_shapes(CLI::App& app) {
     command->add_flag("!--no-correctives", options.correctives,
                       "Shapes alone, without looking for what their sums get wrong");
     command
-        ->add_option("--pairs", options.corrective.pairs,
-                     "Pairs of shapes simulated together at most, those that share most skin first")
-        ->check(CLI::Range(0, 10000))
-        ->capture_default_str();
+        ->add_option(
+            "--pairs", options.corrective.pairs,
+            "Pairs of shapes simulated together at most: those that share most skin, or meet in "
+            "the script (48; of facs 160)")
+        ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
         [&options](double mm) { options.corrective.tolerance_m = 1e-3 * mm; },
-        "Sums that err by less get no corrective (0.7)");
+        "Sums that err by less get no corrective (0.3)");
     command->add_option_function<double>(
         "--corrective-megabytes",
         [&options](double mb) { options.corrective.budget_bytes = static_cast<long>(1e6 * mb); },
-        "Room for correctives in shapes.glb, the most useful ones first (0.8)");
+        "Room for correctives in shapes.glb (0.8): they leave out the finer the less it is");
     command
         ->add_option(
             "--test-frames", options.test_frames,
