@@ -58,9 +58,7 @@ Json worst_of(const MadeShapes& shapes) {
 }
 
 constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // any would do, if they are not the same
-constexpr int kPairs = 48, kPairsOfUnits = 160;
 constexpr long kFittedOfScript = 24;
-constexpr int kFittedRandom = 96;
 
 Json correctives_json(const Correctives& found) {
     Json kept = Json::array(), terms = Json::array(), tried = Json::array();
@@ -112,11 +110,12 @@ track::Drive unturned(track::Drive drive) {
 }
 
 // Frames that correctives are to be good for: of the script, and of a set of action units such as meet in faces.
-ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable& channels) {
+ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable& channels,
+                           int random_frames) {
     ScriptFrames out;
     const auto shapes = static_cast<long>(report.shapes.list.size());
     const std::vector<Eigen::VectorXd> random =
-        random_facs_track(report.shapes, kFittedRandom, kFitSeed);
+        random_facs_track(report.shapes, random_frames, kFitSeed);
     const long scripted = report.animation ? report.animation->weights.rows() : 0;
     out.weights.resize(scripted + static_cast<long>(random.size()), shapes);
     if (scripted > 0) out.weights.topRows(scripted) = report.animation->weights;
@@ -238,12 +237,15 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
                                        ShapeWeights(*face, files.rig.channels(), set.goals));
     }
     report.shapes = make_shapes(files, set, solver, watch.part(0, solved));
-    CorrectiveOptions corrective = options.corrective;
-    if (!corrective.pairs) corrective.pairs = set.name == "facs" ? kPairsOfUnits : kPairs;
+    CorrectiveOptions corrective = correctives_of_set(set.name);
+    corrective.pairs = options.pairs.value_or(corrective.pairs);
+    corrective.tolerance_m = options.corrective_tolerance_m.value_or(corrective.tolerance_m);
+    corrective.budget_bytes = options.corrective_bytes.value_or(corrective.budget_bytes);
     if (options.correctives)
-        report.correctives = find_correctives(files, report.shapes, solver, corrective,
-                                              frames_to_fit(report, files.rig.channels()),
-                                              watch.part(solved, corrected));
+        report.correctives =
+            find_correctives(files, report.shapes, solver, corrective,
+                             frames_to_fit(report, files.rig.channels(), corrective.random_frames),
+                             watch.part(solved, corrected));
     else
         for (const MadeShape& made : report.shapes.list)
             report.correctives.rig.shapes.push_back(made.shape);

@@ -23,7 +23,10 @@ struct ShapesOptions {
     bool floats = false;                    ///< in the .glb, in place of 16-bit whole numbers
     bool pictures = true;
     bool correctives = true;
-    CorrectiveOptions corrective = {};
+    /// In place of correctives_of_set()
+    std::optional<int> pairs = {};
+    std::optional<double> corrective_tolerance_m = {};
+    std::optional<long> corrective_bytes = {};
     int test_frames =
         24;  ///< of each track on which the linear rig is compared with the simulation; 0: none
     std::filesystem::path script = {};  ///< to be baked into weights; empty: none

@@ -20,7 +20,9 @@ constexpr double kShares_m = 0.3e-3;    // skin that either of two shapes moves 
 constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 
 // Mean squares of terms, of a part of a shape's way (the mean of 36 w^4 (1 - w)^4) and w_a w_b, where weights are anything from 0 to 1.
-constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfProduct = 1.0 / 9.0;
+// and what w^2 (1 - w)^2 is of w^2.
+constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfProduct = 1.0 / 9.0, kSquareOfFading = 0.1;
+constexpr double kBentPair_m = 1e-3;  // pairs whose sum errs by more are looked at on their way
 // A shape that is at work is on its way whatever else is there, while a given other one is there in a fifth of its frames
 // (random weights, four of 52 at a time: less; faces that speak and feel: less for most pairs).
 constexpr double kPairIsMet = 0.2;
@@ -132,6 +134,16 @@ std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) 
 
 }  // namespace
 
+CorrectiveOptions correctives_of_set(const std::string& set) {
+    CorrectiveOptions out;
+    if (set != "facs") return out;
+    out.pairs = 160;
+    out.bent_pairs = true;
+    out.budget_bytes = 2'000'000;
+    out.random_frames = 192;
+    return out;
+}
+
 std::string weight_rule(const shapes::Term& term) {
     if (term.drivers.size() > 1) return "product";
     static const std::array<const char*, 3> kRules{"4 w (1 - w)^3", "6 w^2 (1 - w)^2",
@@ -147,7 +159,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
     const Eigen::VectorXd area = vertex_areas(solver.face().simulated_skin(), head.vertices);
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
     const std::vector<Candidate> candidates =
-        candidates_of(units, shapes, area, options.pairs.value_or(0), played.weights);
+        candidates_of(units, shapes, area, options.pairs, played.weights);
 
     std::vector<track::Drive> drives;
     const track::Drive rest = no_drive(channels);
@@ -156,7 +168,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
     for (const track::Drive& drive : played.drives) drives.push_back(drive);
-    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, 0.8), {.again = false});
+    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, 0.6), {.again = false});
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
@@ -175,17 +187,31 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         lacking.push_back(tried.kept ? Points(poses[c].moved - sum) : Points());
     }
 
-    // Those that go round a corner, a quarter and three quarters of the way as well
-    std::vector<std::size_t> bent;
+    // Those that go round a corner, on their way: shapes a quarter and three quarters of it, pairs where either or both are half way
+    struct OnTheWay {
+        std::size_t candidate;
+        double a, b;
+    };
+    std::vector<OnTheWay> ways;
     drives.clear();
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-        if (candidates[c].a == candidates[c].b && lacking[c].size() > 0) {
-            bent.push_back(c);
-            for (const double weight : {0.25, 0.75})
-                drives.push_back(sum_of(rest, units[candidates[c].a].drive, weight, channels));
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        if (lacking[c].size() == 0) continue;
+        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
+        if (candidates[c].a == candidates[c].b) {
+            for (const double weight : {0.25, 0.75}) {
+                ways.push_back({c, weight, weight});
+                drives.push_back(sum_of(rest, a.drive, weight, channels));
+            }
+        } else if (options.bent_pairs && out.tried[c].greatest_m >= kBentPair_m) {
+            for (const auto& [wa, wb] : {std::pair{0.5, 1.0}, {1.0, 0.5}, {0.5, 0.5}}) {
+                ways.push_back({c, wa, wb});
+                drives.push_back(
+                    sum_of(sum_of(rest, a.drive, wa, channels), b.drive, wb, channels));
+            }
         }
-    const std::vector<SolvedPose> quarters =
-        solver.solve(drives, watch.part(0.8, 1), {.again = false});
+    }
+    const std::vector<SolvedPose> on_the_way =
+        solver.solve(drives, watch.part(0.6, 1), {.again = false});
 
     // Which others move skin that this one moves
     std::vector<Eigen::VectorXd> moved;
@@ -209,33 +235,25 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
             term.name +=
                 (term.name.empty() ? "" : "*") + shapes.list[static_cast<std::size_t>(i)].goal.name;
         const bool single = term.drivers.size() == 1;
-        if (single) term.name += "~" + std::to_string(term.part) + ending;
+        term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
         terms.push_back(
             {std::move(term), field, single ? kSquareOfPart : kPairIsMet * kSquareOfProduct});
     };
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-        if (lacking[c].size() == 0 || candidates[c].a == candidates[c].b) continue;
-        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
-        if (a.parts.size() == 1 && b.parts.size() == 1) {
-            add(lacking[c], {"", {a.parts[0], b.parts[0]}}, "");
-            continue;
-        }
-        const auto [left, right] =
-            shapes::left_and_right(head.vertices, lacking[c], head.mm(kSharedStrip_mm));
-        add(left, {"", {driver(a, 0), driver(b, 0)}}, "");
-        add(right, {"", {driver(a, 1), driver(b, 1)}}, "");
-    }
-    for (std::size_t n = 0; n < bent.size(); ++n) {
-        const std::size_t c = bent[n];
+    const auto halves_of = [&](const Points& field) {
+        return shapes::left_and_right(head.vertices, field, head.mm(kSharedStrip_mm));
+    };
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+        const std::size_t c = ways[n].candidate;
+        if (candidates[c].a != candidates[c].b) continue;
         const Unit& unit = units[candidates[c].a];
         std::array<Points, 2> quarter;
         for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-            const SolvedPose& pose = quarters[2 * n + k];
+            const SolvedPose& pose = on_the_way[n + k];
             // Else as if it went there in an even bend
-            quarter[k] = pose.figures.converged
-                             ? Points(pose.moved - (k == 0 ? 0.25 : 0.75) * unit.field)
-                             : Points(0.75 * lacking[c]);
+            quarter[k] = pose.figures.converged ? Points(pose.moved - ways[n + k].a * unit.field)
+                                                : Points(0.75 * lacking[c]);
         }
+        ++n;
         const std::array<Points, 3> parts = parts_of_way({&quarter[0], &lacking[c], &quarter[1]});
         const std::vector<std::size_t> others = sharing(candidates[c].a);
         const bool sided = unit.parts.size() > 1 ||
@@ -254,10 +272,52 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                 add(field, term(0), "");
                 continue;
             }
-            const auto [left, right] =
-                shapes::left_and_right(head.vertices, field, head.mm(kSharedStrip_mm));
+            const auto [left, right] = halves_of(field);
             add(left, term(0), unit.parts.size() > 1 ? "" : "left");
             add(right, term(1), unit.parts.size() > 1 ? "" : "right");
+        }
+    }
+    const std::size_t singles = terms.size();
+    for (std::size_t c = 0, n = 0; c < candidates.size(); ++c) {
+        while (n < ways.size() && ways[n].candidate < c) ++n;
+        if (lacking[c].size() == 0 || candidates[c].a == candidates[c].b) continue;
+        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
+        // What a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b) have to put right, from where one is half way to where both are
+        std::array<Points, 4> field;
+        field[0] = lacking[c];
+        for (std::size_t k = 0; n + k < ways.size() && ways[n + k].candidate == c; ++k) {
+            const SolvedPose& pose = on_the_way[n + k];
+            if (!pose.figures.converged) continue;
+            const auto& [one, wa, wb] = ways[n + k];
+            Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes.list.size()));
+            for (const int part : a.parts) weights[part] = wa;
+            for (const int part : b.parts) weights[part] = wb;
+            Points& missing = field[k + 1];
+            missing = pose.moved - wa * a.field - wb * b.field - wa * wb * lacking[c];
+            for (std::size_t t = 0; t < singles; ++t)
+                if (const double value = terms[t].term.value(weights); value != 0)
+                    missing -= value * terms[t].field;
+            if (k == 2)
+                for (const std::size_t before : {std::size_t{1}, std::size_t{2}})
+                    if (field[before].size() > 0) missing -= 0.125 * field[before];
+            missing *= k == 2 ? 16 : 4;
+        }
+        for (std::size_t k = 0; k < field.size(); ++k) {
+            if (field[k].size() == 0) continue;
+            const auto term = [&](std::size_t side) {
+                shapes::Term out_of{"", {driver(a, side), driver(b, side)}};
+                if (k == 1 || k == 3) out_of.fades_with.push_back(driver(a, side));
+                if (k == 2 || k == 3) out_of.fades_with.push_back(driver(b, side));
+                return out_of;
+            };
+            const std::string ending = k == 0 ? "" : "~" + std::to_string(k);
+            if (a.parts.size() == 1 && b.parts.size() == 1) {
+                add(field[k], term(0), ending);
+                continue;
+            }
+            const auto [left, right] = halves_of(field[k]);
+            add(left, term(0), ending);
+            add(right, term(1), ending);
         }
     }
 

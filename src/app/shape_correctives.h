@@ -1,7 +1,6 @@
 // What adding up blend shapes gets wrong, found by simulating them together, and the correctives that put it right.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,17 @@
 namespace risorius::app {
 
 struct CorrectiveOptions {
-    /// Simulated at most: those that share most skin. Without: 48, of action units 160, of which there are more.
-    std::optional<int> pairs = {};
+    int pairs = 48;               ///< simulated at most: those that share most skin
+    bool bent_pairs = false;      ///< those that err much also where one or both are half way
     double tolerance_m = 0.3e-3;  ///< a sum that errs by less everywhere is left as it is
     double fade_m = 0.1e-3;       ///< of a corrective: what moves less does not move
     long budget_bytes =
-        800'000;  ///< of all correctives' numbers, which leave out the finer the less room there is
+        800'000;  ///< of all correctives, which leave out the finer the less room there is
+    int random_frames = 0;  ///< of a random FACS track, fitted to
 };
+
+/// Of a set: action units are more, and meet in more ways, than the shapes of a game's face.
+CorrectiveOptions correctives_of_set(const std::string& set);
 
 /// The rule a term follows, as files state it.
 std::string weight_rule(const shapes::Term& term);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/expression_drive.h"
+#include "app/shape_correctives.h"
 #include "app/folder_name.h"
 #include "app/staged_file.h"
 #include "core/error.h"

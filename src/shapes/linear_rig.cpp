@@ -9,13 +9,13 @@ namespace risorius::shapes {
 double Term::value(const Eigen::VectorXd& shape_weights) const {
     const auto driver = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
     double product = 1;
+    for (const int i : fades_with) product *= 1 - driver(i);
     if (drivers.size() > 1) {
         for (const int i : drivers) product *= driver(i);
         return product;
     }
     const double w = driver(drivers[0]);
     for (int i = 0; i < 4; ++i) product *= i < part ? w : 1 - w;
-    for (const int i : fades_with) product *= 1 - driver(i);
     return (part == 2 ? 6 : 4) * product;
 }
 

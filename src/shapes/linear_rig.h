@@ -2,7 +2,8 @@
 //
 //   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
 //   k_c = sum_t a_ct f_t(w)                             terms, shared by all correctives
-//   f_t = w_a w_b ...            several drivers: 1 where all are whole, 0 where any is not there
+//   f_t = w_a w_b (1 - w_a) ...            several drivers: a product of their weights, 0 where any is not there, and where one that
+//                                it goes with (`fades_with`) is whole
 //   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one driver: a part of its way, for what goes round a corner; B_k = binomial(4, k)
 //                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which are 0 at rest and where the shape is whole. It goes as
 //                                others come that move the same skin, which then takes another way: two shapes that both part
@@ -24,7 +25,7 @@ struct Term {
     std::string name;                  ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~1"
     std::vector<int> drivers;          ///< shapes
     int part = 0;                      ///< k, of a single driver
-    std::vector<int> fades_with = {};  ///< of a single driver: shapes that it goes with
+    std::vector<int> fades_with = {};  ///< shapes that it goes with
 
     double value(const Eigen::VectorXd& shape_weights) const;
 };

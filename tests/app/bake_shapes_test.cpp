@@ -86,7 +86,7 @@ class BakedShapes : public testing::Test {
                 .only = only,
                 .pictures = false,
                 .correctives = threads > 1,
-                .corrective = {.pairs = 1},
+                .pairs = 1,
                 .test_frames = threads > 1 ? 2 : 0,
                 .threads = threads};
     }

@@ -123,18 +123,19 @@ void add_shapes(CLI::App& app) {
                       "Shapes alone, without looking for what their sums get wrong");
     command
         ->add_option(
-            "--pairs", options.corrective.pairs,
+            "--pairs", options.pairs,
             "Pairs of shapes simulated together at most: those that share most skin, or meet in "
             "the script (48; of facs 160)")
         ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
-        [&options](double mm) { options.corrective.tolerance_m = 1e-3 * mm; },
+        [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
         "Sums that err by less get no corrective (0.3)");
     command->add_option_function<double>(
         "--corrective-megabytes",
-        [&options](double mb) { options.corrective.budget_bytes = static_cast<long>(1e6 * mb); },
-        "Room for correctives in shapes.glb (0.8): they leave out the finer the less it is");
+        [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
+        "Room for correctives in shapes.glb (0.8; of facs 2): they leave out the finer the less it "
+        "is");
     command
         ->add_option(
             "--test-frames", options.test_frames,
