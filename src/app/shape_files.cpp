@@ -6,8 +6,8 @@
 #include <set>
 
 #include "app/expression_drive.h"
-#include "app/shape_correctives.h"
 #include "app/folder_name.h"
+#include "app/shape_correctives.h"
 #include "app/staged_file.h"
 #include "core/error.h"
 #include "io/read_mesh.h"

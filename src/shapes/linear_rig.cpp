@@ -31,7 +31,7 @@ void LinearRig::add_to(Points& vertices, const Eigen::VectorXd& weights) const {
     for (std::size_t s = 0; s < shapes.size(); ++s)
         if (const double w = all[static_cast<long>(s)]; w != 0) shapes[s].add_to(vertices, w);
     for (std::size_t c = 0; c < correctives.size(); ++c)
-        if (const double w = all[static_cast<long>(shapes.size() + c)]; w != 0)
+        if (const double w = all[weights.size() + static_cast<long>(c)]; w != 0)
             correctives[c].shape.add_to(vertices, w);
 }
 

@@ -11,6 +11,7 @@
 #include "app/evaluate.h"
 #include "app/landmark_points.h"
 #include "app/shape_player.h"
+#include "app/shape_weights.h"
 #include "app/shot.h"
 #include "app/solve_activations.h"
 #include "core/error.h"
@@ -76,6 +77,25 @@ TEST(ShapeGoals, OtherSetsHaveWhatMovesTheFace) {
                      "--only: expected shapes of the set \"arkit52\" (did you mean "
                      "\"mouthSmile\"?), found \"mouthSmlie\"");
     }
+}
+
+// Lips that are shut over an open jaw are no shape of their own: without a jaw that is open there is none of it, whatever the lips do.
+TEST(ShapeWeights, WhatLiesOnAnotherShapeGoesNoFartherThanThat) {
+    const RigFiles files = read_rig_files(kAdult);
+    const track::ChannelTable channels = files.rig.channels();
+    const ShapeSet set = set_of("arkit52", {"mouthClose", "mouthPucker"});
+    sim::Face face(files.rig, files.mesh, sim::quality_named("preview"), files.place());
+    const ShapeWeights weights(face, channels, set.goals);
+    const long shut = *set.index("mouthClose"), open = *set.index("jawOpen");
+    track::Drive drive = set.goals[static_cast<std::size_t>(shut)].drive;
+    const Eigen::VectorXd lips_alone = weights.of(drive);
+    EXPECT_LE(lips_alone[shut], lips_alone[open]);
+    EXPECT_LT(lips_alone[shut], 0.05);
+    // With the jaw of the other one the drive is what the shape was solved with
+    drive.kinematic = set.goals[static_cast<std::size_t>(open)].drive.kinematic;
+    const Eigen::VectorXd both = weights.of(drive);
+    EXPECT_NEAR(both[shut], 1, 0.1);
+    EXPECT_NEAR(both[open], 1, 0.1);
 }
 
 class BakedShapes : public testing::Test {
