@@ -191,6 +191,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         std::optional<track::Drive> played;
         if (shapes) played = script_drives.at(t_s);
         sim::FacePose pose = shapes ? shapes->pose(*played) : face.pose_at(t_s, drive);
+        if (shapes) face.fold(pose, *played);
         if (options.flipped_motion) flip_motion(face.head().vertices, pose);
         const double angle_rad =
             options.turntable_s ? 2 * std::numbers::pi * (frame + offset) / shot.frames : 0.0;

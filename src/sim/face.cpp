@@ -437,6 +437,10 @@ FacePose Face::posed(Points vertices, const track::Drive& drive) const {
     return impl_->poser->posed(std::move(vertices), drive, impl_->driven_jaw.wanted(drive));
 }
 
+void Face::fold(FacePose& pose, const track::Drive& drive) const {
+    impl_->poser->fold(pose, drive.excitation);
+}
+
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }

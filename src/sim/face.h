@@ -111,6 +111,8 @@ class Face {
     FacePose pose() const;
     /// Of vertices that something else has moved, in the frame of the head: eyes, jaw and the head's own turn as the drive asks for.
     FacePose posed(Points vertices, const track::Drive& drive) const;
+    /// The wrinkles of such a pose, by the strain of its skin. One thread at a time.
+    void fold(FacePose& pose, const track::Drive& drive) const;
     double time_s() const;
     double step_s() const;
     const Eigen::VectorXd& activation() const;        ///< per column, at the last step

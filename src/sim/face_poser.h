@@ -48,8 +48,12 @@ class FacePoser {
 
     /// The jaw is told of as channels place it.
     FacePose pose(const FaceMoment& moment) const { return pose(moment, Folds::kFormed, nullptr); }
-    /// `vertices`: the face from elsewhere; eyes and head are turned as the drive says.
+    /// `vertices`: the face from elsewhere; eyes and head are turned as the drive says, its skin has no folds yet.
     FacePose posed(Points vertices, const track::Drive& drive, const Rigid& mandible) const;
+    /// Folds such a face, by the strain of its own skin.
+    void fold(FacePose& pose, const Eigen::VectorXd& activation) const {
+        pose.fold_depth = skin_.fold_depth(activation, pose.vertices);
+    }
     /// The slope of a number by the vertices (V x 3) to that by the nodes of the tissue, folds left out.
     Points pull_back(const FaceMoment& moment, const Points& slope) const;
 

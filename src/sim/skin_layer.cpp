@@ -80,4 +80,13 @@ Points SkinLayer::apply(const Eigen::VectorXd& activation, Points& vertices) con
     return depth;
 }
 
+Points SkinLayer::fold_depth(const Eigen::VectorXd& activation, Points vertices) const {
+    Points depth;
+    if (!folds_) return depth;
+    depth.setZero(vertices.rows(), kWrinkleSlots);
+    wrinkles_.fold(vertices, depth);
+    cords_.raise(activation, vertices, depth);
+    return depth;
+}
+
 }  // namespace risorius::sim

@@ -32,6 +32,9 @@ class SkinLayer {
     /// wrinkles are off.
     Points apply(const Eigen::VectorXd& activation, Points& vertices) const;
 
+    /// The depth of those folds on a skin that something else has moved, with what its mesh resolves in place already.
+    Points fold_depth(const Eigen::VectorXd& activation, Points vertices) const;
+
     const WrinkleLines& lines() const { return lines_; }
     const Wrinkles& wrinkles() const { return wrinkles_; }
     const SkinSurface& surface() const { return surface_; }

@@ -226,6 +226,16 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
         EXPECT_LT(off.rowwise().norm().maxCoeff(), 0.02 * made.certificate.peak_m)
             << made.goal.name;
     }
+    // Its skin folds by its own strain, and not at rest
+    track::Drive smile = shape("mouthSmileLeft").goal.drive;
+    sim::FacePose folded = player.pose(smile);
+    face.fold(folded, smile);
+    ASSERT_EQ(folded.fold_depth.rows(), rest.rows());
+    EXPECT_GT(folded.fold_depth.maxCoeff(), 0.02e-3);
+    smile.excitation.setZero();
+    sim::FacePose still = player.pose(smile);
+    face.fold(still, smile);
+    EXPECT_LT(still.fold_depth.cwiseAbs().maxCoeff(), 1e-9);
     // The head's own turn and the eyes' are no part of the shapes
     track::Drive turned = shape("mouthSmileLeft").goal.drive;
     turned.excitation.setZero();
