@@ -236,8 +236,9 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                 (term.name.empty() ? "" : "*") + shapes.list[static_cast<std::size_t>(i)].goal.name;
         const bool single = term.drivers.size() == 1;
         term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
-        terms.push_back(
-            {std::move(term), field, single ? kSquareOfPart : kPairIsMet * kSquareOfProduct});
+        double use = single ? kSquareOfPart : kPairIsMet * kSquareOfProduct;
+        for (std::size_t k = 0; !single && k < term.fades_with.size(); ++k) use *= kSquareOfFading;
+        terms.push_back({std::move(term), field, use});
     };
     const auto halves_of = [&](const Points& field) {
         return shapes::left_and_right(head.vertices, field, head.mm(kSharedStrip_mm));
