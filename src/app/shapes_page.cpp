@@ -122,7 +122,7 @@ void write_linear(HtmlWriter& html, const ShapesReport& report) {
     }
     if (!report.correctives.tried.empty()) {
         html.element("p", std::to_string(report.correctives.rig.correctives.size()) +
-                              " correctives are kept of those found in " +
+                              " correctives put right what the sum lacks in the following of " +
                               std::to_string(report.correctives.tried.size()) +
                               " pairs and halves that were simulated:");
         html.open("div", {{"class", "scroll"}}).open("table").open("tr");
