@@ -143,9 +143,16 @@ void Follow::turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices) const 
 
 void Follow::turn_head(const Rigid& head, Points& vertices) const {
     if (head.isApprox(Rigid::Identity(), 0.0)) return;
-    for (long v = 0; v < vertices.rows(); ++v)
-        vertices.row(v) =
-            (neck_.part(head, head_share_[v]) * Vec3(vertices.row(v).transpose())).transpose();
+    // Nearly all vertices go with the head as a whole, one after the other
+    double share = head_share_[0];
+    Rigid part = neck_.part(head, share);
+    for (long v = 0; v < vertices.rows(); ++v) {
+        if (head_share_[v] != share) {
+            share = head_share_[v];
+            part = neck_.part(head, share);
+        }
+        vertices.row(v) = (part * Vec3(vertices.row(v).transpose())).transpose();
+    }
 }
 
 void Follow::apply(const FollowDrive& drive, Points& vertices) const {
