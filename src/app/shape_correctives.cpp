@@ -132,6 +132,143 @@ std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) 
     return out;
 }
 
+// Of pairs that are looked at on their way: the weights of both, and of which of the factors (1 - a), (1 - b) each puts a term right.
+struct PairOnItsWay {
+    double a, b;
+    bool fades_with_a, fades_with_b;
+};
+constexpr std::array<PairOnItsWay, 3> kPairsOnTheirWay{
+    {{0.5, 1.0, true, false}, {1.0, 0.5, false, true}, {0.5, 0.5, true, true}}};
+
+/// Makes terms of what shapes and pairs lack, a left and a right one where they have sides.
+class TermMaker {
+  public:
+    TermMaker(const rig::Head& head, const MadeShapes& shapes, const std::vector<Unit>& units,
+              const Eigen::VectorXd& area)
+        : head_(head), shapes_(shapes), units_(units), area_(area) {
+        for (const Unit& unit : units) moved_.push_back(unit.field.rowwise().norm());
+    }
+
+    /// What a shape lacks half way, and its poses a quarter and three quarters of the way.
+    void add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
+                 const SolvedPose& three_quarters) {
+        // A pose that did not come to rest: as if it went there in an even bend
+        const auto lacking_at = [&](const SolvedPose& pose, double weight) {
+            return pose.figures.converged ? Points(pose.moved - weight * unit.field)
+                                          : Points(0.75 * lacks);
+        };
+        const Points first = lacking_at(quarter, 0.25), last = lacking_at(three_quarters, 0.75);
+        const std::array<Points, 3> parts = parts_of_way({&first, &lacks, &last});
+        const std::vector<std::size_t> others = sharing(unit);
+        const bool of_two = unit.parts.size() > 1,
+                   sided =
+                       of_two || std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+                           return units_[other].parts.size() > 1;
+                       });
+        for (int part = 1; part <= 3; ++part)
+            add(
+                parts[static_cast<std::size_t>(part - 1)], sided,
+                [&](std::size_t side) {
+                    shapes::Term out{"", {driver(unit, side)}, part};
+                    for (const std::size_t other : others)
+                        out.fades_with.push_back(driver(units_[other], side));
+                    return out;
+                },
+                sided && !of_two ? std::array{"left", "right"} : std::array{"", ""});
+    }
+
+    /// From here on pairs, which lack what is left by the shapes' own ways.
+    void shapes_are_done() { of_shapes_ = terms_.size(); }
+
+    /// What a pair lacks where both are whole, and its poses on its way, as many as kPairsOnTheirWay, if it was looked at there.
+    void add_pair(const Unit& a, const Unit& b, const Points& lacks, const SolvedPose* on_its_way) {
+        // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b)
+        std::array<Points, 4> field;
+        field[0] = lacks;
+        for (std::size_t k = 0; on_its_way && k < kPairsOnTheirWay.size(); ++k) {
+            if (!on_its_way[k].figures.converged) continue;
+            const PairOnItsWay& at = kPairsOnTheirWay[k];
+            Points& missing = field[k + 1];
+            missing = on_its_way[k].moved - at.a * a.field - at.b * b.field - at.a * at.b * lacks;
+            Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes_.list.size()));
+            for (const int part : a.parts) weights[part] = at.a;
+            for (const int part : b.parts) weights[part] = at.b;
+            for (std::size_t t = 0; t < of_shapes_; ++t)
+                if (const double value = terms_[t].term.value(weights); value != 0)
+                    missing -= value * terms_[t].field;
+            if (k == 2)
+                for (const std::size_t before : {std::size_t{1}, std::size_t{2}})
+                    if (field[before].size() > 0) missing -= 0.125 * field[before];
+            missing *= k == 2 ? 16 : 4;
+        }
+        const bool sided = a.parts.size() > 1 || b.parts.size() > 1;
+        for (std::size_t k = 0; k < field.size(); ++k) {
+            if (field[k].size() == 0) continue;
+            const std::string ending = k == 0 ? "" : "~" + std::to_string(k);
+            add(
+                field[k], sided,
+                [&](std::size_t side) {
+                    shapes::Term out{"", {driver(a, side), driver(b, side)}};
+                    if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_a)
+                        out.fades_with.push_back(driver(a, side));
+                    if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_b)
+                        out.fades_with.push_back(driver(b, side));
+                    return out;
+                },
+                std::array{ending.c_str(), ending.c_str()});
+        }
+    }
+
+    std::vector<shapes::TermField> take() { return std::move(terms_); }
+
+  private:
+    static int driver(const Unit& unit, std::size_t side) {
+        return unit.parts.size() == 1 ? unit.parts[0] : unit.parts[side];
+    }
+    // Others that move skin that this one moves
+    std::vector<std::size_t> sharing(const Unit& unit) const {
+        const Eigen::VectorXd& own = moved_[static_cast<std::size_t>(&unit - units_.data())];
+        std::vector<std::size_t> others;
+        for (std::size_t other = 0; other < units_.size(); ++other)
+            if (&units_[other] != &unit &&
+                area_.dot(own.cwiseMin(moved_[other])) > kFadesWith * area_.dot(own))
+                others.push_back(other);
+        return others;
+    }
+    template <class TermOfSide>
+    void add(const Points& field, bool sided, const TermOfSide& term,
+             const std::array<const char*, 2>& endings) {
+        if (!sided) {
+            add(field, term(0), endings[0]);
+            return;
+        }
+        const auto [left, right] =
+            shapes::left_and_right(head_.vertices, field, head_.mm(kSharedStrip_mm));
+        add(left, term(0), endings[0]);
+        add(right, term(1), endings[1]);
+    }
+    void add(const Points& field, shapes::Term term, const std::string& ending) {
+        if (field.isZero(0.0)) return;
+        std::sort(term.drivers.begin(), term.drivers.end());
+        for (const int i : term.drivers)
+            term.name += (term.name.empty() ? "" : "*") +
+                         shapes_.list[static_cast<std::size_t>(i)].goal.name;
+        const bool single = term.drivers.size() == 1;
+        term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
+        double use = single ? kSquareOfPart : kPairIsMet * kSquareOfProduct;
+        for (std::size_t k = 0; !single && k < term.fades_with.size(); ++k) use *= kSquareOfFading;
+        terms_.push_back({std::move(term), field, use});
+    }
+
+    const rig::Head& head_;
+    const MadeShapes& shapes_;
+    const std::vector<Unit>& units_;
+    const Eigen::VectorXd& area_;
+    std::vector<Eigen::VectorXd> moved_;  // of each unit, by each vertex
+    std::vector<shapes::TermField> terms_;
+    std::size_t of_shapes_ = 0;
+};
+
 }  // namespace
 
 CorrectiveOptions correctives_of_set(const std::string& set) {
@@ -188,138 +325,41 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
     }
 
     // Those that go round a corner, on their way: shapes a quarter and three quarters of it, pairs where either or both are half way
-    struct OnTheWay {
-        std::size_t candidate;
-        double a, b;
-    };
-    std::vector<OnTheWay> ways;
+    std::vector<std::size_t> ways;  // candidates, of each pose
     drives.clear();
     for (std::size_t c = 0; c < candidates.size(); ++c) {
         if (lacking[c].size() == 0) continue;
         const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
         if (candidates[c].a == candidates[c].b) {
             for (const double weight : {0.25, 0.75}) {
-                ways.push_back({c, weight, weight});
+                ways.push_back(c);
                 drives.push_back(sum_of(rest, a.drive, weight, channels));
             }
         } else if (options.bent_pairs && out.tried[c].greatest_m >= kBentPair_m) {
-            for (const auto& [wa, wb] : {std::pair{0.5, 1.0}, {1.0, 0.5}, {0.5, 0.5}}) {
-                ways.push_back({c, wa, wb});
+            for (const PairOnItsWay& at : kPairsOnTheirWay) {
+                ways.push_back(c);
                 drives.push_back(
-                    sum_of(sum_of(rest, a.drive, wa, channels), b.drive, wb, channels));
+                    sum_of(sum_of(rest, a.drive, at.a, channels), b.drive, at.b, channels));
             }
         }
     }
     const std::vector<SolvedPose> on_the_way =
         solver.solve(drives, watch.part(0.6, 1), {.again = false});
 
-    // Which others move skin that this one moves
-    std::vector<Eigen::VectorXd> moved;
-    for (const Unit& unit : units) moved.push_back(unit.field.rowwise().norm());
-    const auto sharing = [&](std::size_t unit) {
-        std::vector<std::size_t> others;
-        for (std::size_t other = 0; other < units.size(); ++other)
-            if (other != unit &&
-                area.dot(moved[unit].cwiseMin(moved[other])) > kFadesWith * area.dot(moved[unit]))
-                others.push_back(other);
-        return others;
-    };
-    const auto driver = [](const Unit& unit, std::size_t side) {
-        return unit.parts.size() == 1 ? unit.parts[0] : unit.parts[side];
-    };
-    std::vector<shapes::TermField> terms;
-    const auto add = [&](const Points& field, shapes::Term term, const std::string& ending) {
-        if (field.isZero(0.0)) return;
-        std::sort(term.drivers.begin(), term.drivers.end());
-        for (const int i : term.drivers)
-            term.name +=
-                (term.name.empty() ? "" : "*") + shapes.list[static_cast<std::size_t>(i)].goal.name;
-        const bool single = term.drivers.size() == 1;
-        term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
-        double use = single ? kSquareOfPart : kPairIsMet * kSquareOfProduct;
-        for (std::size_t k = 0; !single && k < term.fades_with.size(); ++k) use *= kSquareOfFading;
-        terms.push_back({std::move(term), field, use});
-    };
-    const auto halves_of = [&](const Points& field) {
-        return shapes::left_and_right(head.vertices, field, head.mm(kSharedStrip_mm));
-    };
-    for (std::size_t n = 0; n < ways.size(); ++n) {
-        const std::size_t c = ways[n].candidate;
-        if (candidates[c].a != candidates[c].b) continue;
-        const Unit& unit = units[candidates[c].a];
-        std::array<Points, 2> quarter;
-        for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-            const SolvedPose& pose = on_the_way[n + k];
-            // Else as if it went there in an even bend
-            quarter[k] = pose.figures.converged ? Points(pose.moved - ways[n + k].a * unit.field)
-                                                : Points(0.75 * lacking[c]);
+    TermMaker terms(head, shapes, units, area);
+    for (std::size_t w = 0; w < ways.size(); ++w)
+        if (const Candidate& one = candidates[ways[w]]; one.a == one.b) {
+            terms.add_way(units[one.a], lacking[ways[w]], on_the_way[w], on_the_way[w + 1]);
+            ++w;  // both quarters are done
         }
-        ++n;
-        const std::array<Points, 3> parts = parts_of_way({&quarter[0], &lacking[c], &quarter[1]});
-        const std::vector<std::size_t> others = sharing(candidates[c].a);
-        const bool sided = unit.parts.size() > 1 ||
-                           std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-                               return units[other].parts.size() > 1;
-                           });
-        for (int part = 1; part <= 3; ++part) {
-            const Points& field = parts[static_cast<std::size_t>(part - 1)];
-            const auto term = [&](std::size_t side) {
-                shapes::Term out_of{"", {driver(unit, side)}, part};
-                for (const std::size_t other : others)
-                    out_of.fades_with.push_back(driver(units[other], side));
-                return out_of;
-            };
-            if (!sided) {
-                add(field, term(0), "");
-                continue;
-            }
-            const auto [left, right] = halves_of(field);
-            add(left, term(0), unit.parts.size() > 1 ? "" : "left");
-            add(right, term(1), unit.parts.size() > 1 ? "" : "right");
-        }
-    }
-    const std::size_t singles = terms.size();
-    for (std::size_t c = 0, n = 0; c < candidates.size(); ++c) {
-        while (n < ways.size() && ways[n].candidate < c) ++n;
-        if (lacking[c].size() == 0 || candidates[c].a == candidates[c].b) continue;
-        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
-        // What a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b) have to put right, from where one is half way to where both are
-        std::array<Points, 4> field;
-        field[0] = lacking[c];
-        for (std::size_t k = 0; n + k < ways.size() && ways[n + k].candidate == c; ++k) {
-            const SolvedPose& pose = on_the_way[n + k];
-            if (!pose.figures.converged) continue;
-            const auto& [one, wa, wb] = ways[n + k];
-            Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes.list.size()));
-            for (const int part : a.parts) weights[part] = wa;
-            for (const int part : b.parts) weights[part] = wb;
-            Points& missing = field[k + 1];
-            missing = pose.moved - wa * a.field - wb * b.field - wa * wb * lacking[c];
-            for (std::size_t t = 0; t < singles; ++t)
-                if (const double value = terms[t].term.value(weights); value != 0)
-                    missing -= value * terms[t].field;
-            if (k == 2)
-                for (const std::size_t before : {std::size_t{1}, std::size_t{2}})
-                    if (field[before].size() > 0) missing -= 0.125 * field[before];
-            missing *= k == 2 ? 16 : 4;
-        }
-        for (std::size_t k = 0; k < field.size(); ++k) {
-            if (field[k].size() == 0) continue;
-            const auto term = [&](std::size_t side) {
-                shapes::Term out_of{"", {driver(a, side), driver(b, side)}};
-                if (k == 1 || k == 3) out_of.fades_with.push_back(driver(a, side));
-                if (k == 2 || k == 3) out_of.fades_with.push_back(driver(b, side));
-                return out_of;
-            };
-            const std::string ending = k == 0 ? "" : "~" + std::to_string(k);
-            if (a.parts.size() == 1 && b.parts.size() == 1) {
-                add(field[k], term(0), ending);
-                continue;
-            }
-            const auto [left, right] = halves_of(field[k]);
-            add(left, term(0), ending);
-            add(right, term(1), ending);
-        }
+    terms.shapes_are_done();
+    for (std::size_t c = 0, w = 0; c < candidates.size(); ++c) {
+        while (w < ways.size() && ways[w] < c) ++w;
+        const Candidate& one = candidates[c];
+        if (lacking[c].size() == 0 || one.a == one.b) continue;
+        const bool looked_at = w < ways.size() && ways[w] == c;
+        terms.add_pair(units[one.a], units[one.b], lacking[c],
+                       looked_at ? &on_the_way[w] : nullptr);
     }
 
     std::vector<shapes::PlayedFrame> frames;
@@ -333,7 +373,7 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
         frame.left = pose.moved - sum;
     }
     shapes::LowRank made =
-        shapes::low_rank(std::move(terms), frames, head.vertices, seen_areas(solver.face()),
+        shapes::low_rank(terms.take(), frames, head.vertices, seen_areas(solver.face()),
                          {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
                           .half_width_m = head.mm(kSharedStrip_mm),
                           .budget_bytes = options.budget_bytes});
