@@ -70,7 +70,7 @@ Json correctives_json(const Correctives& found) {
                          {"max_mm", 1e3 * one.greatest_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
-                         {"put_right", one.kept}});
+                         {"put_right", one.put_right}});
     return {{"kept", kept}, {"terms", terms}, {"tried", tried}, {"bytes", found.bytes}};
 }
 

@@ -199,7 +199,7 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watc
     if (options.only_shapes)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
-                {"blend_shapes", bench_shapes(files, watch)}};
+                {"blend_shapes", bench_shapes(files, options.shapes, watch)}};
     if (options.only_pictures)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
@@ -221,7 +221,7 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watc
     out["fine_volume_muscles"] = bench.compare_solids();
     out["steps"] = bench_steps(bench.files, usual_step_benches(), watch);
     out["pictures"] = bench_pictures(bench.files, scratch.path(), watch);
-    out["blend_shapes"] = bench_shapes(bench.files, watch);
+    out["blend_shapes"] = bench_shapes(bench.files, {}, watch);
     out["whole_way"] = bench.whole_way(scratch);
     out["peak_memory_mb"] = peak_memory_mb();
     return out;

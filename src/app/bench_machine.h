@@ -15,10 +15,11 @@ struct BenchOptions {
     bool faces = true;                        ///< or only solids
     int stress_steps = 0;  ///< > 0: only drive the faces at random for so many steps (sim/stress.h)
     int seed = 1;          ///< of that
-    std::string quality = "preview";  ///< of that
-    bool only_steps = false;          ///< of the faces
-    bool only_pictures = false;       ///< and pictures (bench_pictures.h)
-    bool only_shapes = false;         ///< and blend shapes (bench_shapes.h)
+    std::string quality = "preview";    ///< of that
+    bool only_steps = false;            ///< of the faces
+    bool only_pictures = false;         ///< and pictures (bench_pictures.h)
+    bool only_shapes = false;           ///< and blend shapes (bench_shapes.h)
+    std::filesystem::path shapes = {};  ///< of only_shapes; empty: linear ones
 };
 
 /// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality,

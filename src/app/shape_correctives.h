@@ -11,7 +11,7 @@ namespace risorius::app {
 
 struct CorrectiveOptions {
     int pairs = 48;               ///< simulated at most: those that share most skin
-    bool bent_pairs = false;      ///< those that err much also where one or both are half way
+    bool bent_pairs = false;      ///< those that err much also half way and on one side of the face
     double tolerance_m = 0.3e-3;  ///< a sum that errs by less everywhere is left as it is
     double fade_m = 0.1e-3;       ///< of a corrective: what moves less does not move
     long budget_bytes =
@@ -22,15 +22,12 @@ struct CorrectiveOptions {
 /// Of a set: action units are more, and meet in more ways, than the shapes of a game's face.
 CorrectiveOptions correctives_of_set(const std::string& set);
 
-/// The rule a term follows, as files state it.
-std::string weight_rule(const shapes::Term& term);
-
 /// A pair, or half a shape, that was simulated.
 struct TriedCorrective {
     std::string name;
     double greatest_m = 0, rms_m = 0;  ///< what the sum gets wrong
     bool at_rest = true;               ///< else what the sum gets wrong is not known
-    bool kept = false;                 ///< put right by correctives
+    bool put_right = false;            ///< by correctives
 };
 
 struct Correctives {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/corrective_terms.h"
 #include "app/expression_drive.h"
 #include "app/folder_name.h"
 #include "app/shape_correctives.h"

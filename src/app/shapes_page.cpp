@@ -130,7 +130,7 @@ void write_linear(HtmlWriter& html, const ShapesReport& report) {
         html.element("th", "sum is wrong by, mm", {{"class", "number"}});
         html.element("th", "RMS, mm", {{"class", "number"}}).element("th", "").close();
         for (const TriedCorrective& one : report.correctives.tried) {
-            if (!one.kept) continue;
+            if (!one.put_right) continue;
             html.open("tr").element("td", one.name);
             html.element("td", rounded(1e3 * one.greatest_m, 2), {{"class", "number"}});
             html.element("td", rounded(1e3 * one.rms_m, 2), {{"class", "number"}});

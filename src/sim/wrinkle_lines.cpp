@@ -36,6 +36,7 @@ struct Pattern {
     bool along_lines = false;             // the fibres run along the lines instead
     Vec3 anchor = Vec3::Zero();           // where the phase is `anchor_phase`
     double anchor_phase = 0;
+    double stays = 0;               // in old skin at rest, 0..1
     double waver = 0.16;            // of the phase, wavelengths
     double waver_spacing = 3;       // of its random values, wavelengths
     std::vector<Vec3> crease = {};  // instead of fibres: the line itself
@@ -90,7 +91,7 @@ void add_fibres(const rig::Head& head, const rig::Atlas& atlas, const std::strin
 }
 
 // The lines of expression in landmark terms; distances of lines in mm of the average head.
-std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas) {
+std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas, double age) {
     std::vector<Pattern> out;
     const auto mm = [&](double atlas_mm) { return head.mm(atlas_mm); };
 
@@ -98,7 +99,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
     {
         const std::vector<Vec3> brows = across(head, {"bl_l", "bp_l", "bc_l", "bm_l", "g"});
         const double top = head.landmark("tr").y(), side = head.landmark("ft_l").x();
-        Pattern pattern{.slot = 0, .wavelength_m = mm(8.5), .share = 0.62};
+        Pattern pattern{.slot = 0, .wavelength_m = mm(8.5), .share = 0.62, .stays = 0.9};
         pattern.window = [=](const Vec3& p) {
             return smoothstep(mm(1), mm(7), height_over(p, brows)) *
                    (1 - smoothstep(top - mm(14), top - mm(2), p.y())) *
@@ -113,7 +114,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
     {
         const double low = head.landmark("n").y() + mm(4), high = head.landmark("g").y() + mm(16);
         const double wide = head.landmark("bm_l").x() + mm(6);
-        Pattern pattern{.slot = 1, .wavelength_m = mm(11), .share = 0.8};
+        Pattern pattern{.slot = 1, .wavelength_m = mm(11), .share = 0.8, .stays = 0.9};
         pattern.window = [=](const Vec3& p) {
             return p.z() < 0 ? 0.0
                              : smoothstep(low + mm(2), low + mm(12), p.y()) *
@@ -130,7 +131,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
     {
         const double at = head.landmark("n").y();
         const double wide = 0.62 * head.landmark("en_l").x();
-        Pattern pattern{.slot = 2, .wavelength_m = mm(5), .share = 0.4};
+        Pattern pattern{.slot = 2, .wavelength_m = mm(5), .share = 0.4, .stays = 0.7};
         pattern.window = [=](const Vec3& p) {
             return p.z() < 0 ? 0.0
                              : smoothstep(at - mm(9), at - mm(4), p.y()) *
@@ -149,7 +150,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         const double corner = head.landmark("ch_l").x();
         const double end = upper ? head.landmark("sn").y() - head.landmark("ls").y()
                                  : head.landmark("li").y() - head.landmark("sl").y();
-        Pattern pattern{.slot = 0, .wavelength_m = mm(4), .share = 0.3};
+        Pattern pattern{.slot = 0, .wavelength_m = mm(4), .share = 0.3, .stays = 0.8};
         pattern.window = [=](const Vec3& p) {
             if (p.z() < 0) return 0.0;
             const double from_red = (upper ? 1 : -1) * height_over(p, red);
@@ -187,7 +188,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         // Crow's feet: across the outer orbicularis oculi, fanned from the outer canthus
         {
             const Vec3 canthus = at("ex");
-            Pattern pattern{.slot = 0, .wavelength_m = mm(4.2), .share = 0.5};
+            Pattern pattern{.slot = 0, .wavelength_m = mm(4.2), .share = 0.5, .stays = 1};
             pattern.window = [=](const Vec3& p) {
                 const double out_by = sign * (p.x() - canthus.x()), up = p.y() - canthus.y();
                 const double far = (p - canthus).norm();
@@ -216,7 +217,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
         }
         // The nasolabial fold
         {
-            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.5};
+            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.5, .stays = 1};
             pattern.crease =
                 sample_curve({at("ac") + Vec3(sign * mm(2.5), mm(5), 0), at("nl1"), at("nl2"),
                               at("nl3"), at("nl3") + Vec3(sign * mm(3), mm(-9), mm(-2))},
@@ -228,6 +229,43 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas)
                 return (1 - smoothstep(mm(4.5), mm(8.8), distance_to_polyline(p, line))) *
                        smoothstep(low, low + mm(9), p.y()) *
                        (1 - smoothstep(high - mm(5), high + mm(1), p.y()));
+            };
+            out.push_back(pattern);
+        }
+        if (age <= 0) continue;
+        // Of old skin alone: from the corner of the mouth to the jaw, and below the lower lid
+        {
+            Pattern pattern{.slot = 2, .wavelength_m = mm(13), .share = 0.45 * age, .stays = 1};
+            const Vec3 corner = at("ch");
+            pattern.crease = sample_curve({corner + Vec3(sign * mm(2), mm(-3), mm(-1)),
+                                           corner + Vec3(sign * mm(5), mm(-12), mm(-2)),
+                                           corner + Vec3(sign * mm(6), mm(-22), mm(-4))},
+                                          mm(2));
+            const std::vector<Vec3> line = pattern.crease;
+            const double high = line.front().y(), low = line.back().y();
+            pattern.window = [=](const Vec3& p) {
+                if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
+                return (1 - smoothstep(mm(3.5), mm(6.4), distance_to_polyline(p, line))) *
+                       smoothstep(low, low + mm(9), p.y()) *
+                       (1 - smoothstep(high - mm(4), high + mm(1), p.y()));
+            };
+            out.push_back(pattern);
+        }
+        {
+            Pattern pattern{.slot = 2, .wavelength_m = mm(10), .share = 0.28 * age, .stays = 1};
+            const Vec3 inner = at("en"), lid = at("pi"), outer = at("ex");
+            pattern.crease = sample_curve({inner + Vec3(sign * mm(1), mm(-7), mm(2)),
+                                           lid + Vec3(sign * mm(-4), mm(-9.5), mm(0)),
+                                           lid + Vec3(sign * mm(6), mm(-10), mm(-2)),
+                                           outer + Vec3(sign * mm(1), mm(-9), mm(0))},
+                                          mm(2));
+            const std::vector<Vec3> line = pattern.crease;
+            const double from = sign * line.front().x(), to = sign * line.back().x();
+            pattern.window = [=](const Vec3& p) {
+                if (p.z() < 0) return 0.0;
+                return (1 - smoothstep(mm(2.5), mm(4.9), distance_to_polyline(p, line))) *
+                       smoothstep(from - mm(1), from + mm(5), sign * p.x()) *
+                       (1 - smoothstep(to - mm(6), to + mm(1), sign * p.x()));
             };
             out.push_back(pattern);
         }
@@ -286,7 +324,8 @@ using Owners = std::vector<std::array<int, kWrinkleSlots>>;
 
 // The phase of one pattern on the triangles that its window touches.
 void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
-         const std::vector<double>& window, int index, WrinkleLines& lines, Owners& owner) {
+         const std::vector<double>& window, int index, double age, WrinkleLines& lines,
+         Owners& owner) {
     const auto at = [&](int v) { return Vec3(head.vertices.row(v).transpose()); };
     std::vector<int> own(window.size(), -1), vertex;
     std::vector<long> faces;
@@ -359,6 +398,7 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
         lines.phase(v, pattern.slot) = phase(i, 0);
         lines.window(v, pattern.slot) = window[v];
         lines.wavelength(v, pattern.slot) = pattern.wavelength_m;
+        lines.at_rest(v, pattern.slot) = pattern.stays * age;
         owner[v][pattern.slot] = index;
     }
     if (pattern.crease.empty()) return;
@@ -379,10 +419,11 @@ WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription&
     WrinkleLines lines{Points::Zero(count, kWrinkleSlots),
                        Points::Zero(count, kWrinkleSlots),
                        Points::Zero(count, kWrinkleSlots),
-                       {}};
+                       {},
+                       Points::Zero(count, kWrinkleSlots)};
     Owners owner(static_cast<std::size_t>(count), {-1, -1, -1});
     int index = 0;
-    for (const Pattern& pattern : patterns_of(head, rig.atlas)) {
+    for (const Pattern& pattern : patterns_of(head, rig.atlas, rig.look.age)) {
         std::vector<double> window(static_cast<std::size_t>(count), 0.0);
         for (long i = 0; i < skin.size(); ++i) {
             const int v = skin.data()[i];
@@ -394,7 +435,7 @@ WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription&
             else
                 window[v] *= pattern.share;
         }
-        lay(head, skin, pattern, window, index++, lines, owner);
+        lay(head, skin, pattern, window, index++, rig.look.age, lines, owner);
     }
     // Where two patterns of a slot meet, a triangle would run through the phases of both
     for (long f = 0; f < skin.rows(); ++f)

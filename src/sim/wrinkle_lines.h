@@ -35,6 +35,8 @@ struct WrinkleLines {
     Points window;      ///< V x 3, w times the share of its depth that a fold gets here, 0..1
     Points wavelength;  ///< V x 3, l, m
     std::vector<Crease> creases = {};
+    Points at_rest =
+        {};  ///< V x 3 or none, 0..1: how far lines stay in skin that has folded for a lifetime
 };
 
 /// `skin` is the part of the head's skin that moves, over mesh vertices.

@@ -17,6 +17,7 @@ constexpr double kUnlike = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
 constexpr double kSteepestFold = 0.45;              // depth / span: folds steeper than this close
 // Edges per wave from which on vertices carry the fold, and all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
+constexpr double kStays = 0.09;  // compression, of skin of 80 years
 constexpr int kSamples = 64;
 constexpr double kStripPiece = 0.25;  // of a crease's mean, one piece of it
 
@@ -113,10 +114,12 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
     phase_.resize(count, 3);
     window_.resize(count, 3);
     wavelength_.resize(count, 3);
+    stays_.setZero(count, 3);
     for (long i = 0; i < count; ++i) {
         phase_.row(i) = lines.phase.row(vertex_[i]);
         window_.row(i) = lines.window.row(vertex_[i]);
         wavelength_.row(i) = lines.wavelength.row(vertex_[i]);
+        if (lines.at_rest.size() > 0) stays_.row(i) = kStays * lines.at_rest.row(vertex_[i]);
     }
 
     // Strain gauges across the lines, and the mean over their surroundings
@@ -256,6 +259,15 @@ const Points& Wrinkles::compression(const Points& vertices) const {
     return compression_;
 }
 
+double Wrinkles::depth_m(long row, int slot, double compression) const {
+    const double c = std::min(compression, 0.6);
+    const double share = folded_share(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
+    if (share == 0) return 0;
+    const double ratio =
+        std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepestFold);
+    return window_(row, slot) * ratio * (1 - c) * wavelength_(row, slot);
+}
+
 void Wrinkles::fold(Points& vertices, Points& depth) const {
     if (vertex_.empty() || options_.strength == 0) return;
     compression(vertices);
@@ -264,16 +276,13 @@ void Wrinkles::fold(Points& vertices, Points& depth) const {
         const auto row = static_cast<long>(i);
         double out = 0;
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
-            const double c = std::min(compression_(row, slot), 0.6);
             if (window_(row, slot) == 0) continue;
-            const double share = folded_share(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
-            if (share == 0) continue;
-            const double ratio =
-                std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepestFold);
-            const double a = window_(row, slot) * ratio * (1 - c) * wavelength_(row, slot);
-            depth(vertex_[i], slot) += (1 - resolved_(row, slot)) * a;
+            const double c = compression_(row, slot), stays = stays_(row, slot);
+            const double in_place = depth_m(row, slot, c);
+            depth(vertex_[i], slot) += (1 - resolved_(row, slot)) * in_place;
+            if (stays > 0) depth(vertex_[i], slot) += depth_m(row, slot, c + stays) - in_place;
             if (resolved_(row, slot) > 0)
-                out += resolved_(row, slot) * a * fold_height(phase_(row, slot));
+                out += resolved_(row, slot) * in_place * fold_height(phase_(row, slot));
         }
         if (out != 0) vertices.row(vertex_[i]) += out * normals_.row(row);
     }

@@ -9,7 +9,8 @@
 //   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
 // c is the mean over some 3 mm (a screened Poisson equation over the surface), so that it does not depend on the mesh; a
 // crease folds as a whole, by the mean over 9 mm along it and over the strip beside it, and sooner, as its line is there at rest.
-// Where the mesh is fine enough folds displace its vertices; the rest of their depth is for the renderer to show.
+// Where the mesh is fine enough folds displace its vertices; the rest of their depth is for the renderer to show. Lines that stay in
+// old skin are as deep as if it were compressed by more than it is (kStays at most), are shown only, and go as it is stretched.
 #pragma once
 
 #include <Eigen/Core>
@@ -68,6 +69,7 @@ class Wrinkles {
         std::vector<double> place;  // in pieces
         Eigen::MatrixXd mean;       // pieces x pieces
     };
+    double depth_m(long row, int slot, double compression) const;
     void mean_along(const Crease& crease, const std::vector<int>& own);
 
     std::vector<int> vertex_;
@@ -75,7 +77,7 @@ class Wrinkles {
     std::vector<Strip> strips_;
     Points inverse_area_;  // per vertex and slot
     Eigen::VectorXd area_;
-    Points phase_, window_, wavelength_, resolved_;
+    Points phase_, window_, wavelength_, stays_, resolved_;
     Eigen::Matrix<char, Eigen::Dynamic, kWrinkleSlots> creased_;
     bool any_resolved_ = false;
     Triangles triangles_;  // over vertex_

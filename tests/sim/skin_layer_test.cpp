@@ -41,12 +41,13 @@ struct Patch {
                             .held = std::vector<char>(count, 0)});
     }
     // Lines along y in the first slot.
-    Wrinkles wrinkles(double wavelength_m) const {
+    Wrinkles wrinkles(double wavelength_m, double stay = 0) const {
         WrinkleLines lines{Points::Zero(rest.rows(), 3), Points::Zero(rest.rows(), 3),
                            Points::Zero(rest.rows(), 3)};
         lines.phase.col(0) = rest.col(0) / wavelength_m;
         lines.window.col(0).setOnes();
         lines.wavelength.col(0).setConstant(wavelength_m);
+        if (stay > 0) lines.at_rest = Points::Constant(rest.rows(), 3, stay);
         return Wrinkles(lines, triangles, rest, {.strength = 1.0, .mean_over_m = 2e-3});
     }
 };
@@ -133,6 +134,28 @@ TEST(Wrinkles, NeitherMotionNorStretchNorPullAlongTheLinesFoldsSkin) {
         const Folded folded = fold(wrinkles, at);
         EXPECT_EQ(folded.vertices, at);
         EXPECT_EQ(folded.depth.cwiseAbs().maxCoeff(), 0.0);
+    }
+}
+
+TEST(Wrinkles, OfALifetimeAreShownAtRestAndGoAsSkinIsStretched) {
+    for (const double edge_m :
+         {0.5e-3, 2e-3}) {  // of a mesh that carries folds, and of one that does not
+        const Patch patch(edge_m);
+        const auto deepest = [&](double stay, double stretch) {
+            const Points at = stretched(patch.rest, stretch, 1);
+            const Folded folded = fold(patch.wrinkles(6e-3, stay), at);
+            if (stretch >= 1) {
+                EXPECT_EQ(folded.vertices, at);
+            }
+            return folded.depth.col(0).maxCoeff();
+        };
+        EXPECT_EQ(deepest(0.1, 1), 0.0);
+        EXPECT_GT(deepest(0.7, 1), 1e-4);
+        EXPECT_GT(deepest(1, 1), 1.5 * deepest(0.7, 1));
+        EXPECT_EQ(deepest(1, 1.2), 0.0);
+        if (edge_m > 1e-3) {
+            EXPECT_GT(deepest(1, 0.9), deepest(1, 1));
+        }
     }
 }
 
@@ -289,6 +312,25 @@ TEST(SkinLayer, FoldsTheForeheadOfARaisedBrowAndNothingAtRest) {
     const FacePose again = face.pose();
     EXPECT_EQ(again.vertices, pose.vertices);
     EXPECT_EQ(again.fold_depth, pose.fold_depth);
+}
+
+TEST(SkinLayer, OfAnOldFaceHasLinesAtRestThatMoveNoVertex) {
+    rig::RigDescription old = rig::adult().rig;
+    old.look.age = 1;
+    Face face(old, rig::adult().mesh, preview(), "adult");
+    const FacePose pose = settled(face, neutral());
+    EXPECT_LT((pose.vertices - face.head().vertices).rowwise().norm().maxCoeff(), 1e-6);
+    const auto deepest_near = [&](const char* landmark, double reach_m) {
+        double out = 0;
+        for (long v = 0; v < pose.vertices.rows(); ++v)
+            if ((face.head().vertices.row(v).transpose() - face.head().landmark(landmark)).norm() <
+                reach_m)
+                out = std::max(out, pose.fold_depth.row(v).maxCoeff());
+        return 1e3 * out;
+    };
+    EXPECT_GT(deepest_near("mef", 15e-3), 0.15) << "mm, forehead";
+    EXPECT_GT(deepest_near("nl2_l", 8e-3), 0.3) << "mm, beside the mouth";
+    EXPECT_EQ(deepest_near("prn", 5e-3), 0.0) << "tip of the nose";
 }
 
 TEST(SkinLayer, WithoutWrinklesHasNone) {

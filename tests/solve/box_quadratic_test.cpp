@@ -55,6 +55,25 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
     }
 }
 
+TEST(BoxQuadratic, UnknownsThatAreNearlyAlikeTakeFewSweeps) {
+    // Sweeps alone would take thousands: each closes a thousandth of what is left
+    std::srand(7);
+    const Eigen::VectorXd shared = Eigen::VectorXd::Random(40);
+    const Eigen::MatrixXd J =
+        shared * Eigen::RowVectorXd::Ones(8) + 0.03 * Eigen::MatrixXd::Random(40, 8);
+    BoxQuadratic problem = random_problem(8, 1);
+    problem.A = J.transpose() * J;
+    problem.b = -J.transpose() * (J * Eigen::VectorXd::LinSpaced(8, 0.05, 0.35));
+    problem.price.setConstant(1e-4);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(8);
+    EXPECT_LT(minimise(problem, x, 1e-9), 60);
+    const Eigen::VectorXd slope = problem.A * x + problem.b;
+    for (long i = 0; i < 8; ++i)
+        if (x[i] > 0 && x[i] < problem.most[i]) {
+            EXPECT_NEAR(slope[i], -problem.price[i], 1e-9) << i;
+        }
+}
+
 TEST(BoxQuadratic, APriceAboveTheSlopeKeepsAnUnknownAtZero) {
     BoxQuadratic problem;
     problem.A = Eigen::MatrixXd::Identity(2, 2);

@@ -86,10 +86,11 @@ void print_pictures(const Json& cases) {
 
 void print_shapes(const Json& one) {
     std::printf(
-        "  a frame of %d blend shapes of %d vertices: %.2f ms, weights %.2f of them; %.2f at "
-        "most\n",
-        one["shapes"].get<int>(), one["vertices"].get<int>(), one["frame_ms"].get<double>(),
-        one["weights_ms"].get<double>(), one["slowest_frame_ms"].get<double>());
+        "  a frame of %d blend shapes and %d correctives on %d vertices: %.2f ms, weights %.2f of "
+        "them; %.2f at most\n",
+        one["shapes"].get<int>(), one["correctives"].get<int>(), one["vertices"].get<int>(),
+        one["frame_ms"].get<double>(), one["weights_ms"].get<double>(),
+        one["slowest_frame_ms"].get<double>());
 }
 
 void print(const Json& report) {
@@ -157,8 +158,17 @@ void add_bench(CLI::App& app) {
         ->excludes("--solids")
         ->excludes("--steps");
     command
-        ->add_flag("--shapes", arguments->options.only_shapes,
-                   "Only what a frame of blend shapes costs")
+        ->add_option_function<std::string>(
+            "--shapes",
+            [arguments](const std::string& file) {
+                arguments->options.only_shapes = true;
+                arguments->options.shapes = file;
+            },
+            "Only what a frame of blend shapes costs; with a shapes.glb of risorius shapes, of "
+            "those "
+            "and their correctives")
+        ->expected(0, 1)
+        ->type_name("[FILE]")
         ->excludes("--solids")
         ->excludes("--steps")
         ->excludes("--pictures");
