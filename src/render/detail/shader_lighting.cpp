@@ -173,11 +173,17 @@ uniform vec3 scatter;     // m
 uniform vec3 bounce;      // albedo hereabouts
 uniform vec4 finish;      // roughness, reflectance straight on, share of it, layer of the mirror
 
+const vec3 kThroughLips = vec3(0.16, 0.035, 0.03);
+
+vec3 from_lips(vec3 p) {
+    vec3 d = p - mouth_centre.xyz, a = mouth_axis.xyz;
+    return d - a * clamp(dot(d, a) / max(dot(a, a), 1e-9), -0.75, 0.75);
+}
+
 // Share of what comes through the open lips that reaches a point behind them: the gap seen as a disc at the distance of
 // the nearest point of its long axis.
 float seen_through_lips(vec3 p) {
-    vec3 d = p - mouth_centre.xyz, a = mouth_axis.xyz;
-    d -= a * clamp(dot(d, a) / max(dot(a, a), 1e-9), -0.75, 0.75);
+    vec3 d = from_lips(p);
     float share = mouth_centre.w / (mouth_centre.w + 3.1416 * dot(d, d) + 1e-9);
     // The deeper, the more of the gap is hidden by cheeks, teeth and palate.
     return share * sqrt(share);
@@ -202,6 +208,9 @@ void main() {
     // Indirect Occlusion).
     vec3 open = max(vec3(sky_seen), ((sky_seen * (2.0404 * bounce - 0.3324) + (0.6417 - 4.7951 * bounce)) * sky_seen +
                                      (2.7552 * bounce + 0.6903)) * sky_seen);
+    // Lips let red light through: the line between them is not black.
+    vec3 behind = from_lips(in_position);
+    open += inside * kThroughLips * exp(-dot(behind, behind) * 1.6e4);
     soft = open * (fill_card.rgb * scattered(dot(n, fill_direction.xyz), w) + ambient(n));
     soft += behind_seen * rim_card.rgb * scattered(dot(n, rim_direction.xyz), w);
     float nv = clamp(dot(n, v), 0.0, 1.0);
