@@ -117,7 +117,9 @@ void TermMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose&
 
 void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
                          const PairPoses& poses) {
-    // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b)
+    const std::size_t one_sided = terms_.size();
+    if (poses.one_sided) add_one_sided(a, b, lacks, poses.one_sided);
+    // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b), where shapes on their way and pairs on one side have their say too
     std::array<Points, 4> field;
     field[0] = lacks;
     for (std::size_t k = 0; poses.on_its_way && k < kPairsOnTheirWay.size(); ++k) {
@@ -128,9 +130,13 @@ void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
         Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes_.list.size()));
         for (const int part : a.parts) weights[part] = at.a;
         for (const int part : b.parts) weights[part] = at.b;
-        for (std::size_t t = 0; t < of_shapes_; ++t)
-            if (const double value = terms_[t].term.value(weights); value != 0)
-                missing -= value * terms_[t].field;
+        const auto take = [&](std::size_t from, std::size_t to) {
+            for (std::size_t t = from; t < to; ++t)
+                if (const double value = terms_[t].term.value(weights); value != 0)
+                    missing -= value * terms_[t].field;
+        };
+        take(0, of_shapes_);
+        take(one_sided, terms_.size());
         if (k == 2)
             for (const std::size_t before : {std::size_t{1}, std::size_t{2}})
                 if (field[before].size() > 0) missing -= 0.125 * field[before];
@@ -151,7 +157,6 @@ void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
             },
             {ending, ending});
     }
-    if (poses.one_sided) add_one_sided(a, b, lacks, poses.one_sided);
 }
 
 // What a pair lacks of which one shape, or both, are there on one side only, when it is taken for that side's half of both. Each goes
