@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/error.h"
 
@@ -106,6 +108,53 @@ std::vector<FlatTriangle> flat_triangles(const std::vector<Vec3>& points,
             triangles.push_back(t);
         }
     return triangles;
+}
+
+double area_of(const FlatTriangle& t, const std::vector<Vec2>& at) {
+    const auto corner = [&](std::size_t k) { return at[static_cast<std::size_t>(t.corner[k])]; };
+    const Vec2 a = corner(1) - corner(0), b = corner(2) - corner(0);
+    return a.x() * b.y() - a.y() * b.x();
+}
+double area_on_surface(const FlatTriangle& t) { return std::max(1e-6, t.at[1].x() * t.at[2].y()); }
+
+/// As rigid as possible may fold where the surface is curved most. There vertices move, one after the other, until the triangle about
+/// them that is worst off, by its area over that on the surface, is as well off as can be, or well enough.
+void unfold(const std::vector<FlatTriangle>& triangles, const std::vector<bool>& held_u,
+            std::vector<Vec2>& at) {
+    constexpr double kFolded = 0.0, kWell = 0.05;
+    constexpr int kSweeps = 60;
+    std::vector<std::vector<const FlatTriangle*>> about(at.size());
+    for (const FlatTriangle& t : triangles)
+        for (const int v : t.corner) about[static_cast<std::size_t>(v)].push_back(&t);
+    const auto worst = [&](std::size_t v) {
+        double out = 1;
+        for (const FlatTriangle* t : about[v])
+            out = std::min(out, area_of(*t, at) / area_on_surface(*t));
+        return out;
+    };
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        bool folded = false;
+        for (std::size_t v = 0; v < at.size(); ++v) {
+            double best = worst(v);
+
+            if (best > kFolded) continue;
+            folded = true;
+            double reach = 0;
+            for (const FlatTriangle* t : about[v]) reach = std::max(reach, t->at[1].x());
+            for (; reach > 1e-4; reach *= 0.5)
+                for (int turn = 0; turn < 8 && best < kWell; ++turn) {
+                    const Vec2 before = at[v];
+                    const double angle = M_PI / 4 * turn;
+                    at[v] += reach * Vec2(held_u[v] ? 0 : std::cos(angle), std::sin(angle));
+                    const double now = worst(v);
+                    if (now > best)
+                        best = now;
+                    else
+                        at[v] = before;
+                }
+        }
+        if (!folded) return;
+    }
 }
 
 }  // namespace
@@ -232,6 +281,7 @@ std::vector<Vec2> flatten(const std::vector<Vec3>& points,
             if (free_v.index[i] >= 0) at[i].y() = v[free_v.index[i]];
         }
     }
+    unfold(triangles, on_line, at);
     std::vector<Vec2> places(points.size(), Vec2::Zero());
     for (std::size_t i = 0; i < n; ++i) places[static_cast<std::size_t>(global[i])] = at[i];
     return places;
@@ -239,36 +289,94 @@ std::vector<Vec2> flatten(const std::vector<Vec3>& points,
 
 namespace {
 
+using Quads = std::vector<std::array<int, 4>>;
+
+/// Cuts a pit open from its border to the vertex that is farthest from it, so that it need not be pressed to lie flat: vertices on the
+/// left of the cut become new ones at the end of `points`.
+void cut_open(std::vector<Vec3>& points, Quads& faces) {
+    std::map<std::pair<int, int>, std::size_t> face_of;  // of each directed edge
+    std::map<int, std::vector<int>> next_to;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const int a = faces[f][k], b = faces[f][(k + 1) % 4];
+            face_of[{a, b}] = f;
+            next_to[a].push_back(b);
+            next_to[b].push_back(a);
+        }
+    // Shortest ways from the border (Dijkstra 1959)
+    std::map<int, std::pair<double, int>> way;  // length, and from where
+    std::set<std::pair<double, int>> open;
+    for (const int v : outer_loop(faces)) {
+        way[v] = {0.0, -1};
+        open.insert({0.0, v});
+    }
+    int end = -1;
+    while (!open.empty()) {
+        const auto [length, v] = *open.begin();
+        open.erase(open.begin());
+        if (length > way.at(v).first) continue;
+        end = v;
+        for (const int w : next_to[v]) {
+            const double longer =
+                length +
+                (points[static_cast<std::size_t>(w)] - points[static_cast<std::size_t>(v)]).norm();
+            const auto known = way.find(w);
+            if (known != way.end() && known->second.first <= longer) continue;
+            way[w] = {longer, v};
+            open.insert({longer, w});
+        }
+    }
+    const Quads whole = faces;
+    int inner = end;
+    for (int v = way.at(end).second; v >= 0; inner = v, v = way.at(v).second) {
+        // The faces on the left of the way from v inwards, round v to where the way comes from or the border is
+        const int from = way.at(v).second;
+        const auto copy = static_cast<int>(points.size());
+        points.push_back(points[static_cast<std::size_t>(v)]);
+        for (auto found = face_of.find({v, inner}); found != face_of.end();) {
+            const std::array<int, 4>& face = whole[found->second];
+            std::size_t k = 0;
+            while (face[k] != v) ++k;
+            faces[found->second][k] = copy;
+            const int before = face[(k + 3) % 4];
+            if (before == from) break;
+            found = face_of.find({v, before});
+        }
+    }
+}
+
 struct Chart {
-    std::vector<int> faces;   ///< of the half
-    std::vector<Vec2> place;  ///< of each vertex of the half, mm
+    std::vector<int> faces;    ///< of the half
+    Quads corner;              ///< of each of them, into:
+    std::vector<Vec3> points;  ///< mm: those of the half, and more where it is cut
+    std::vector<Vec2> place;   ///< mm
     Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
 
-    void turn_upright(const HalfMesh& half) {
+    void turn_upright() {
         // Up in space is up in the picture, on the average.
         Vec3 middle = Vec3::Zero();
         Vec2 flat_middle = Vec2::Zero();
         double count = 0;
-        for (const int f : faces)
-            for (const int v : half.face[static_cast<std::size_t>(f)]) {
-                middle += half.point[static_cast<std::size_t>(v)];
+        for (const auto& quad : corner)
+            for (const int v : quad) {
+                middle += points[static_cast<std::size_t>(v)];
                 flat_middle += place[static_cast<std::size_t>(v)];
                 ++count;
             }
         middle /= count;
         flat_middle /= count;
         Vec2 up = Vec2::Zero();
-        for (const int f : faces)
-            for (const int v : half.face[static_cast<std::size_t>(f)])
-                up += (half.point[static_cast<std::size_t>(v)].y() - middle.y()) *
+        for (const auto& quad : corner)
+            for (const int v : quad)
+                up += (points[static_cast<std::size_t>(v)].y() - middle.y()) *
                       (place[static_cast<std::size_t>(v)] - flat_middle);
         if (up.norm() < 1e-6) return;
         up.normalize();
         for (Vec2& p : place) p = Vec2(up.y() * p.x() - up.x() * p.y(), up.dot(p));
     }
-    void measure(const HalfMesh& half) {
-        for (const int f : faces)
-            for (const int v : half.face[static_cast<std::size_t>(f)]) {
+    void measure() {
+        for (const auto& quad : corner)
+            for (const int v : quad) {
                 low = low.cwiseMin(place[static_cast<std::size_t>(v)]);
                 high = high.cwiseMax(place[static_cast<std::size_t>(v)]);
             }
@@ -282,34 +390,37 @@ void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper
     std::map<int, int> shut;
     for (std::size_t k = 0; k < upper.size(); ++k) shut[upper[k]] = lower[k];
     // Head, ear, nostril, mouth
+    constexpr std::size_t kNostril = 2;
     std::array<Chart, 4> charts;
     const auto chart_of = [](Region region) -> std::size_t {
         return region == Region::kEar       ? 1
-               : region == Region::kNostril ? 2
+               : region == Region::kNostril ? kNostril
                : region == Region::kLining  ? 3
                                             : 0;
     };
-    for (std::size_t f = 0; f < half.face.size(); ++f)
-        charts[chart_of(half.region[f])].faces.push_back(static_cast<int>(f));
+    std::vector<std::size_t> in_chart;  // of each face of the half
+    for (std::size_t f = 0; f < half.face.size(); ++f) {
+        std::vector<int>& list = charts[chart_of(half.region[f])].faces;
+        in_chart.push_back(list.size());
+        list.push_back(static_cast<int>(f));
+    }
     for (std::size_t c = 0; c < charts.size(); ++c) {
-        std::vector<std::array<int, 4>> faces;
-        for (const int f : charts[c].faces) {
-            faces.push_back(half.face[static_cast<std::size_t>(f)]);
+        Chart& chart = charts[c];
+        chart.points = half.point;
+        for (const int f : chart.faces) {
+            chart.corner.push_back(half.face[static_cast<std::size_t>(f)]);
             if (c > 0) continue;
-            for (int& v : faces.back())
+            for (int& v : chart.corner.back())
                 if (const auto found = shut.find(v); found != shut.end()) v = found->second;
         }
-        std::vector<bool> straight(half.point.size(), false);
+        if (c == kNostril) cut_open(chart.points, chart.corner);
+        std::vector<bool> straight(chart.points.size(), false);
         if (c == 0)
             for (std::size_t v = 0; v < half.point.size(); ++v)
                 straight[v] = half.midline[v] && half.point[v].z() > crown_z;
-        charts[c].place = flatten(half.point, faces, straight);
-        if (c == 0)
-            for (const auto& [from, to] : shut)
-                charts[c].place[static_cast<std::size_t>(from)] =
-                    charts[c].place[static_cast<std::size_t>(to)];
-        if (c > 0) charts[c].turn_upright(half);
-        charts[c].measure(half);
+        chart.place = flatten(chart.points, chart.corner, straight);
+        if (c > 0) chart.turn_upright();
+        chart.measure();
     }
     // The head above, its halves side by side; below it the small ones, mirrored about the middle too.
     constexpr double kGap_mm = 4;
@@ -329,8 +440,9 @@ void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper
         const std::size_t own = f % faces, c = chart_of(half.region[own]);
         const Chart& chart = charts[c];
         const bool mirror = f >= faces;
+        const std::array<int, 4>& corners = chart.corner[in_chart[own]];
         for (std::size_t k = 0; k < 4; ++k) {
-            const int v = half.face[own][mirror ? 3 - k : k];
+            const int v = corners[mirror ? 3 - k : k];
             Vec2 p = chart.place[static_cast<std::size_t>(v)] - chart.low + corner[c];
             if (mirror) p.x() = -p.x();
             mesh.corner_texcoord.row(mesh.face_begin[f] + static_cast<int>(k)) =

@@ -1,7 +1,7 @@
 // Texture coordinates of the head: charts laid flat with as little stretch as may be, and the regions of the skin by name.
 //
 // The skin of face, scalp, neck and shoulders is one chart, symmetric about u = 1/2 and cut at the back of the head, from the crown
-// down; the ears are cut off where they leave the head, the nostrils at their rims, the lining of the mouth where the lips meet and in
+// down; the ears are cut off where they leave the head, the nostrils at their rims and open at one side, the lining of the mouth where the lips meet and in
 // its own middle. All of these share one square at one scale. The other parts bring their layout (part_layout.h).
 #pragma once
 
