@@ -98,11 +98,14 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const RigFil
 }
 
 ShapePlayer::ShapePlayer(ShapesOfFile shapes, sim::Face& face, const track::ChannelTable& channels)
-    : shapes_(std::move(shapes)), face_(face), weights_(face, channels, shapes_.goals) {}
+    : shapes_(std::move(shapes)),
+      played_(shapes_.rig),
+      face_(face),
+      weights_(face, channels, shapes_.goals) {}
 
 sim::FacePose ShapePlayer::pose(const track::Drive& drive) const {
     Points vertices = face_.head().vertices;
-    shapes_.rig.add_to(vertices, weights_.of(drive));
+    played_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
     return face_.posed(std::move(vertices), drive);
 }
 

@@ -11,6 +11,7 @@
 #include "app/shape_goals.h"
 #include "app/shape_weights.h"
 #include "shapes/linear_rig.h"
+#include "shapes/played_rig.h"
 #include "sim/face.h"
 
 namespace risorius::app {
@@ -37,6 +38,7 @@ class ShapePlayer {
 
   private:
     ShapesOfFile shapes_;
+    shapes::PlayedRig played_;
     const sim::Face& face_;
     ShapeWeights weights_;
 };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "shapes/played_rig.h"
 #include "shapes/shape_measures.h"
 
 namespace risorius::shapes {
@@ -87,6 +88,28 @@ TEST(ShapeMeasures, StretchIsThatOfTheDeformationWhicheverWayItTurns) {
     EXPECT_NEAR(found.least, 0.8, 1e-12);
     EXPECT_NEAR(found.greatest_of_99, 1.4, 1e-12);
     EXPECT_NEAR(stretch_of(triangles, rest, rest).greatest, 1, 1e-12);
+}
+
+TEST(PlayedRig, MovesVerticesAsTheLinearRigDoes) {
+    const Points at = row_of(301);
+    LinearRig rig;
+    for (const double centre_m : {-0.05, 0.0, 0.04}) {
+        Points field = bump(at, centre_m, 5e-3);
+        field.row(150).setZero();  // a gap
+        fade_out(field);
+        rig.shapes.push_back(sparse(field));
+    }
+    rig.terms.push_back({"a*b", {0, 1}});
+    rig.correctives.push_back({"c", rig.shapes[1], Eigen::VectorXd::Constant(1, -0.7)});
+    const PlayedRig played(rig);
+    for (const Eigen::Vector3d& weights :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.8, 0), Eigen::Vector3d(1, 1, 1)}) {
+        Points wanted = at, got = at;
+        rig.add_to(wanted, weights);
+        played.add_to(got, rig.all_weights(weights));
+        EXPECT_LT((wanted - got).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_EQ(weights.isZero(), got == at);
+    }
 }
 
 }  // namespace
