@@ -10,7 +10,7 @@
 namespace risorius::app {
 
 struct CorrectiveOptions {
-    int pairs = 48;               ///< simulated at most: those that share most skin
+    int pairs = 48;               ///< simulated at most: those that move the same skin farthest
     bool bent_pairs = false;      ///< those that err much also half way and on one side of the face
     double tolerance_m = 0.3e-3;  ///< a sum that errs by less everywhere is left as it is
     double fade_m = 0.1e-3;       ///< of a corrective: what moves less does not move
@@ -43,7 +43,7 @@ struct ScriptFrames {
     std::vector<track::Drive> drives = {};  ///< of those
 };
 
-/// Pairs are those that share most skin, and those that meet in the frames; of those frames that are simulated correctives take
+/// Pairs are those that move the same skin farthest, and those that meet in the frames; of those frames that are simulated correctives take
 /// what can be taken off (shapes/low_rank.h).
 Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,

@@ -122,10 +122,10 @@ void add_shapes(CLI::App& app) {
     command->add_flag("!--no-correctives", options.correctives,
                       "Shapes alone, without looking for what their sums get wrong");
     command
-        ->add_option(
-            "--pairs", options.pairs,
-            "Pairs of shapes simulated together at most: those that share most skin, or meet in "
-            "the script (48; of facs 160)")
+        ->add_option("--pairs", options.pairs,
+                     "Pairs of shapes simulated together at most: those that move the same skin "
+                     "farthest, or meet in "
+                     "the script (48; of facs 160)")
         ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
