@@ -20,7 +20,7 @@ constexpr double kBentPair_m = 1e-3, kOneSidedPair_m = 2e-3;
 
 struct Candidate {
     std::size_t a, b;  ///< units; the same one: half of it
-    double shared = 0;
+    double matters = 0;
 };
 
 /// How far two units are there at once in any frame: the greatest square of the product of their weights. Once is enough to be
@@ -54,7 +54,7 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
                                (kPairIsMet * kSquareOfProduct + met(units[a], units[b], played))});
         }
     std::stable_sort(out.begin(), out.end(),
-                     [](const Candidate& x, const Candidate& y) { return x.shared > y.shared; });
+                     [](const Candidate& x, const Candidate& y) { return x.matters > y.matters; });
     if (static_cast<int>(out.size()) > pairs) out.resize(static_cast<std::size_t>(pairs));
     for (std::size_t a = 0; a < units.size(); ++a) out.push_back({a, a, 0});
     return out;
@@ -93,7 +93,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                              ? sum_of(rest, units[one.a].drive, 0.5, channels)
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
     for (const track::Drive& drive : played.drives) drives.push_back(drive);
-    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, 0.6), {.again = false});
+    const double first = options.bent_pairs ? 0.4 : 0.6;  // of the poses, for progress
+    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, first), {.again = false});
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
@@ -139,7 +140,8 @@ Correctives find_correctives(const RigFiles& files, const MadeShapes& shapes,
                                     at.b_alone ? drive_of(b.of_side(at.side)) : b.drive, 1,
                                     channels));
     }
-    const std::vector<SolvedPose> near = solver.solve(drives, watch.part(0.6, 1), {.again = false});
+    const std::vector<SolvedPose> near =
+        solver.solve(drives, watch.part(first, 1), {.again = false});
 
     TermMaker terms(head, shapes, units, area);
     for (std::size_t c = 0; c < candidates.size(); ++c)

@@ -129,7 +129,9 @@ class Unpacker {
 
 MorphModel read_glb(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file.string(), "a binary glTF file", "no readable one");
+    if (!std::filesystem::exists(file))
+        throw Error(file.string(), "a binary glTF file", "no such file");
+    if (!in) throw Error(file.string(), "a binary glTF file", "one that cannot be read");
     const std::vector<char> bytes{std::istreambuf_iterator<char>(in),
                                   std::istreambuf_iterator<char>()};
     tinygltf::Model model;
@@ -140,7 +142,9 @@ MorphModel read_glb(const std::filesystem::path& file) {
                                      reinterpret_cast<const unsigned char*>(bytes.data()),
                                      static_cast<unsigned>(bytes.size())))
         throw Error(file.string(), "a binary glTF file",
-                    bytes.empty() ? "nothing in it" : error.substr(0, error.find('\n')));
+                    bytes.empty()                      ? "nothing in it"
+                    : error.starts_with("Invalid mag") ? "another kind of file"
+                                                       : error.substr(0, error.find('\n')));
     const Unpacker from(model, file.string());
     if (model.meshes.size() != 1)
         from.fail("one mesh with blend shapes, as risorius shapes writes it",

@@ -1,5 +1,6 @@
 // The command line: turns arguments into calls of src/app and what they throw into messages and exit codes.
 #include <cstdio>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,17 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
                    ", found " + quoted(text.substr(equals + 3));
         }
     }
+    // "--texture: Value 99999 not in range 256 to 4096", "--quality: best not in {draft,fine}", "--steps excludes --shapes"
+    std::smatch part;
+    if (std::regex_match(text, part, std::regex("(.*): Value (.*) not in range (.*) to (.*)")))
+        return place + " " + part.str(1) + ": expected a number in [" + part.str(3) + ", " +
+               part.str(4) + "], found " + part.str(2);
+    if (std::regex_match(text, part, std::regex("(.*): (.*) not in \\{(.*)\\}")))
+        return place + " " + part.str(1) + ": expected one of " +
+               std::regex_replace(part.str(3), std::regex(","), ", ") + ", found " +
+               quoted(part.str(2));
+    if (std::regex_match(text, part, std::regex("(--[^ ]*) excludes (--[^ ]*)")))
+        return place + ": expected " + part.str(1) + " or " + part.str(2) + ", found both";
     return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
