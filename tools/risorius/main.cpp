@@ -75,6 +75,8 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
                quoted(part.str(2));
     if (std::regex_match(text, part, std::regex("(--[^ ]*) excludes (--[^ ]*)")))
         return place + ": expected " + part.str(1) + " or " + part.str(2) + ", found both";
+    if (std::regex_match(text, part, std::regex("(--[^ ]*) requires (--[^ ]*)")))
+        return place + ": expected " + part.str(2) + " with " + part.str(1) + ", found none";
     return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
