@@ -89,9 +89,10 @@ void add_shapes(CLI::App& app) {
     command->add_option("RIG", options.rig, "The rig whose face is to have blend shapes")
         ->required();
     command
-        ->add_option("-o,--out", options.out,
-                     "Folder: shapes.glb, obj/, shapes.json with shapes.f32, the certificate as "
-                     "index.html and results.json")
+        ->add_option(
+            "-o,--out", options.out,
+            "Folder: shapes.glb, obj/, shapes.json with shapes.f32 (--formats), and always the "
+            "certificate as index.html and results.json")
         ->required();
     command
         ->add_option(
@@ -100,8 +101,10 @@ void add_shapes(CLI::App& app) {
             "left and right; \"muscles\": every muscle; \"visemes\": mouth shapes of speech")
         ->capture_default_str();
     command
-        ->add_option("--only", options.only,
-                     "Names of shapes of the set, separated by commas; all when not given")
+        ->add_option(
+            "--only", options.only,
+            "Names of shapes of the set, separated by commas, mouthSmile for both its sides; all "
+            "when not given")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
