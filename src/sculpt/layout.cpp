@@ -136,7 +136,6 @@ void unfold(const std::vector<FlatTriangle>& triangles, const std::vector<bool>&
         bool folded = false;
         for (std::size_t v = 0; v < at.size(); ++v) {
             double best = worst(v);
-
             if (best > kFolded) continue;
             folded = true;
             double reach = 0;

@@ -185,6 +185,17 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas,
     for (const Side side : {Side::kLeft, Side::kRight}) {
         const Places at{head, side};
         const double sign = at.sign();
+        // Beside a crease that runs down the cheek, which begins over `begin_mm`
+        const auto beside = [=](const std::vector<Vec3>& line, double from_mm, double to_mm,
+                                double begin_mm) {
+            const double high = line.front().y(), low = line.back().y();
+            return [=](const Vec3& p) {
+                if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
+                return (1 - smoothstep(mm(from_mm), mm(to_mm), distance_to_polyline(p, line))) *
+                       smoothstep(low, low + mm(9), p.y()) *
+                       (1 - smoothstep(high - mm(begin_mm), high + mm(1), p.y()));
+            };
+        };
         // Crow's feet: across the outer orbicularis oculi, fanned from the outer canthus
         {
             const Vec3 canthus = at("ex");
@@ -222,14 +233,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas,
                 sample_curve({at("ac") + Vec3(sign * mm(2.5), mm(5), 0), at("nl1"), at("nl2"),
                               at("nl3"), at("nl3") + Vec3(sign * mm(3), mm(-9), mm(-2))},
                              mm(2));
-            const std::vector<Vec3> line = pattern.crease;
-            const double high = line.front().y(), low = line.back().y();
-            pattern.window = [=](const Vec3& p) {
-                if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
-                return (1 - smoothstep(mm(4.5), mm(8.8), distance_to_polyline(p, line))) *
-                       smoothstep(low, low + mm(9), p.y()) *
-                       (1 - smoothstep(high - mm(5), high + mm(1), p.y()));
-            };
+            pattern.window = beside(pattern.crease, 4.5, 8.8, 5);
             out.push_back(pattern);
         }
         if (age <= 0) continue;
@@ -241,14 +245,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas,
                                            corner + Vec3(sign * mm(5), mm(-12), mm(-2)),
                                            corner + Vec3(sign * mm(6), mm(-22), mm(-4))},
                                           mm(2));
-            const std::vector<Vec3> line = pattern.crease;
-            const double high = line.front().y(), low = line.back().y();
-            pattern.window = [=](const Vec3& p) {
-                if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
-                return (1 - smoothstep(mm(3.5), mm(6.4), distance_to_polyline(p, line))) *
-                       smoothstep(low, low + mm(9), p.y()) *
-                       (1 - smoothstep(high - mm(4), high + mm(1), p.y()));
-            };
+            pattern.window = beside(pattern.crease, 3.5, 6.4, 4);
             out.push_back(pattern);
         }
         {
