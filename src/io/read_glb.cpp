@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/error.h"
 #include "io/morph_model.h"
@@ -141,10 +142,12 @@ MorphModel read_glb(const std::filesystem::path& file) {
         !reader.LoadBinaryFromMemory(&model, &error, &warning,
                                      reinterpret_cast<const unsigned char*>(bytes.data()),
                                      static_cast<unsigned>(bytes.size())))
-        throw Error(file.string(), "a binary glTF file",
-                    bytes.empty()                      ? "nothing in it"
-                    : error.starts_with("Invalid mag") ? "another kind of file"
-                                                       : error.substr(0, error.find('\n')));
+        throw Error(
+            file.string(), "a binary glTF file",
+            bytes.empty() ? "nothing in it"
+            : std::string_view(bytes.data(), std::min<std::size_t>(4, bytes.size())) != "glTF"
+                ? "another kind of file"
+                : error.substr(0, error.find('\n')));
     const Unpacker from(model, file.string());
     if (model.meshes.size() != 1)
         from.fail("one mesh with blend shapes, as risorius shapes writes it",

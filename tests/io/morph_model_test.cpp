@@ -255,7 +255,8 @@ TEST(MorphModel, OtherFilesAreRefusedWithWhatIsWrong) {
         }
         return std::string("nothing was thrown");
     };
-    EXPECT_NE(message("solid head").find("expected a binary glTF file"), std::string::npos);
+    EXPECT_NE(message("solid head").find("expected a binary glTF file, found another kind of file"),
+              std::string::npos);
     const std::string whole = glb_bytes(two_quads());
     EXPECT_NE(message(whole.substr(0, whole.size() - 40)).find("other.glb: expected"),
               std::string::npos);
