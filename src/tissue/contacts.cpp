@@ -9,10 +9,13 @@ namespace risorius::tissue {
 
 namespace {
 
-// What cannot be pushed out is not pushed ever harder: letting go, it would leap.
-constexpr double kGreatestShift_m = 1e-3;
-constexpr double kFlow = 0.05;        // of its opening that a bridge gives way per solve
-constexpr double kForgetting = 0.25;  // of the shift that a contact without penetration loses
+// What cannot be pushed out is not pushed ever harder: letting go, it would leap. Lips that press as hard as they can need
+// 4 mm of it against each other (20 kPa at the stiffness of a face's contacts). Far from where it began it changes
+// slowly: lips held in what they cannot do would rattle.
+constexpr double kGreatestShift_m = 6e-3;
+constexpr double kQuickShift_m = 2e-3;  // at twice this it changes a fifth as fast
+constexpr double kFlow = 0.05;          // of its opening that a bridge gives way per solve
+constexpr double kForgetting = 0.25;    // of the shift that a contact without penetration loses
 
 // Of pairs that stick: share dc they have opened, 0 when they do not pull.
 double opened(const Contacts::Contact& contact, double gap) {
@@ -53,7 +56,9 @@ void Contacts::remember(const Points& x) {
         const double now = gap(contact, x), beyond = now - contact.rest_gap_m;
         // Falling back more slowly than it rises keeps contacts that come and go from rattling
         const double change = beyond < 0 ? -beyond : -std::max(kForgetting * beyond, 1e-7);
-        contact.shift_m = std::clamp(contact.shift_m + change, 0.0, kGreatestShift_m);
+        const double far = contact.shift_m / kQuickShift_m;
+        contact.shift_m =
+            std::clamp(contact.shift_m + change / (1 + far * far), 0.0, kGreatestShift_m);
         if (contact.stick_n > 0) {
             const double push = -pull_n(contact, x);
             if (push > 0.1 * contact.stick_n)

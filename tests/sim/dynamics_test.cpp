@@ -231,7 +231,7 @@ TEST(Dynamics, RandomDriveOfEverythingLeavesNothingBehind) {
     EXPECT_EQ(report.steps, 200);
     EXPECT_EQ(report.broken_steps, 0);
     EXPECT_EQ(report.inverted_at_rest, 0);
-    EXPECT_LT(1e3 * report.left_at_rest_m, 0.25);
+    EXPECT_LT(1e3 * report.left_at_rest_m, 0.2);
     EXPECT_LT(report.furthest_m, 0.06);
     EXPECT_LT(1e3 * report.deepest_penetration.lips_m, 0.3);
     EXPECT_LT(1e3 * report.deepest_penetration.bone_m, 0.2);

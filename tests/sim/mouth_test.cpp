@@ -43,7 +43,7 @@ TEST(Mouth, PressedLipsDoNotSinkInAsTimePasses) {
         if (i == 14) early = figures;
     }
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
-    EXPECT_LE(figures.bone_depth_m, 0.5e-3);
+    EXPECT_LE(figures.bone_depth_m, 0.2e-3);
     EXPECT_LE(figures.bone_depth_m, early.bone_depth_m + 0.02e-3);
 }
 
@@ -64,7 +64,9 @@ TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
 
 TEST(Mouth, PeripheralFibresPushTheLipsForwards) {
     const Points moved = moved_mm(adult(), settled(adult(), with_unit("AU18")));
-    for (const char* lip : {"ls", "stos", "stoi", "li"}) EXPECT_GT(at(moved, lip).z(), 2.5) << lip;
+    // The rims turn out, so that they come farther forward than the borders of the red
+    for (const char* rim : {"stos", "stoi"}) EXPECT_GT(at(moved, rim).z(), 8) << rim;
+    for (const char* border : {"ls", "li"}) EXPECT_GT(at(moved, border).z(), 2.5) << border;
     EXPECT_LT(at(moved, "ch_l").x(), -2);
     EXPECT_GT(at(moved, "ch_r").x(), 2);
 }
