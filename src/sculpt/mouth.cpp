@@ -64,8 +64,8 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
     const std::vector<Vec3> upper = border_lip({at("ls"), at("cph_l"), at("ulc_l"), at("ch_l")});
     const std::vector<Vec3> lower = border_lip({at("li"), at("llc_l"), at("ch_l")});
     const std::vector<Vec3> meet =
-        border_lip({Vec3(0, -52.8, 94), Vec3(5, -52.5, 93.8), Vec3(10, -52.2, 92.6),
-                    Vec3(18, -52.6, 88.9), Vec3(24.6, -53, 83.4)});
+        border_lip({Vec3(0, -53.05, 94), Vec3(5.5, -52.65, 93.8), Vec3(11, -52.05, 92.5),
+                    Vec3(18, -52.4, 88.9), Vec3(24.6, -53.05, 83.4)});
     constexpr double kHalfGap = 0.06;
     const auto is_upper = [](int k) { return k > kCorner; };
     const auto border = [&](int k) { return k <= kCorner ? lower[k] : upper[kHalfLoop - k]; };
