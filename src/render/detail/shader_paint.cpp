@@ -77,6 +77,9 @@ void main() {
     tint *= 1.0 - 0.35 * age;
     float spots = smoothstep(0.30, 0.75, noise(p * 0.16 + 200.0) + 0.5 * noise(p * 0.6 + 140.0) - 0.35);
     tint += age * vec3(-0.05, -0.085, -0.12) * spots + age * vec3(0.0, -0.02, -0.05);
+    // A few are well bounded, some millimetres wide.
+    float spot = smoothstep(0.84, 0.94, noise(p * 0.21 + 310.0) + 0.25 * (noise(p * 0.9 + 17.0) - 0.5)) * smoothstep(0.35, 0.65, noise(p * 0.035 + 55.0));
+    tint += age * age * vec3(-0.12, -0.20, -0.27) * spot;
     pigment *= 1.0 + 1.2 * age;
     oil *= 1.0 - 0.35 * age;
     tint += blood * vec3(0.00, -0.060, -0.045) + pigment * vec3(-0.030, -0.040, -0.050) + grain * 0.05;
