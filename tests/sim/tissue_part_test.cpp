@@ -46,13 +46,14 @@ TEST(TissuePart, AStepThatHasConvergedStaysWhereItIs) {
 }
 
 TEST(TissuePart, TheMouthsOwnIterationsBringItNearerToTheConvergedStep) {
-    constexpr int kSteps = 8;
+    constexpr int kSteps = 24;
     const auto skin = [](const Quality& quality) { return played(quality, kSteps).skin_nodes(); };
     const Points converged = skin(with_mouth(500, 0, 1e-9));
-    const auto furthest = [&](int mouth_iterations) {
-        return (skin(with_mouth(6, mouth_iterations, 0)) - converged).rowwise().norm().maxCoeff();
+    // Once it has come: on the way single nodes of lips snap over each other a step sooner or later.
+    const auto off = [&](int mouth_iterations) {
+        return (skin(with_mouth(6, mouth_iterations, 0)) - converged).norm();
     };
-    EXPECT_LT(furthest(10), 0.7 * furthest(0));
+    EXPECT_LT(off(10), 0.5 * off(0));
 }
 
 }  // namespace
