@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace risorius::media {
@@ -29,6 +30,15 @@ const std::array<Table, 3>& luminance_of_byte() {
     return tables;
 }
 
+const std::array<double, 256>& opacity_of_byte() {
+    static const std::array<double, 256> table = [] {
+        std::array<double, 256> out{};
+        for (std::size_t i = 0; i < 256; ++i) out[i] = static_cast<double>(i) / 255.0;
+        return out;
+    }();
+    return table;
+}
+
 }  // namespace
 
 double relative_luminance(const std::uint8_t* rgb) {
@@ -48,31 +58,41 @@ double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask
 }
 
 PictureMeasures LuminanceMeter::measure(const Image& image) {
+    constexpr std::size_t kBlock_px = 64;
     const std::size_t pixels = image.rgba.size() / 4;
-    std::vector<float> now(pixels);
-    // In turn into several sums, which need not wait for each other
-    constexpr std::size_t kSums = 4;
-    std::array<double, kSums> weights{}, sums{}, squares_of{}, changes{};
+    const bool first = before_.size() != image.rgba.size();
+    if (first) blocks_.assign((pixels + kBlock_px - 1) / kBlock_px, {});
     const std::array<Table, 3>& of = luminance_of_byte();
-    const bool first = before_.size() != pixels;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const std::uint8_t* pixel = image.rgba.data() + 4 * i;
-        const double opacity = pixel[3] / 255.0;
-        const double y = of[0][pixel[0]] + of[1][pixel[1]] + of[2][pixel[2]];
-        const std::size_t k = i % kSums;
-        weights[k] += opacity;
-        sums[k] += opacity * y;
-        squares_of[k] += opacity * y * y;
-        now[i] = static_cast<float>(opacity * y);
-        const double difference = first ? 0.0 : static_cast<double>(now[i]) - before_[i];
-        changes[k] += difference * difference;
-    }
-    before_ = std::move(now);
-    const auto all = [](const std::array<double, kSums>& parts) {
-        return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+    const std::array<double, 256>& opacity_of = opacity_of_byte();
+    const auto luminance_at = [&](const std::uint8_t* pixel) {
+        return of[0][pixel[0]] + of[1][pixel[1]] + of[2][pixel[2]];
     };
-    const double weight = all(weights), sum = all(sums), squares = all(squares_of),
-                 change = all(changes);
+    double weight = 0, sum = 0, squares = 0, change = 0;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        Block& block = blocks_[i];
+        const std::size_t begin = 4 * kBlock_px * i,
+                          end = std::min(begin + 4 * kBlock_px, image.rgba.size());
+        const std::uint8_t *now = image.rgba.data(), *before = before_.data();
+        // Most of a picture is as it was: the background always, the face at rest
+        if (first || std::memcmp(now + begin, before + begin, end - begin) != 0) {
+            block = {};
+            for (std::size_t k = begin; k < end; k += 4) {
+                const double opacity = opacity_of[now[k + 3]], y = luminance_at(now + k);
+                block.opacity += opacity;
+                block.sum += opacity * y;
+                block.squares += opacity * y * y;
+                if (!first && std::memcmp(now + k, before + k, 4) != 0) {
+                    const double difference =
+                        opacity * y - opacity_of[before[k + 3]] * luminance_at(before + k);
+                    change += difference * difference;
+                }
+            }
+        }
+        weight += block.opacity;
+        sum += block.sum;
+        squares += block.squares;
+    }
+    before_ = image.rgba;
     PictureMeasures out;
     if (weight == 0) return out;
     out.luminance_mean = sum / weight;

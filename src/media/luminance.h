@@ -25,7 +25,12 @@ class LuminanceMeter {
     PictureMeasures measure(const Image& image);
 
   private:
-    std::vector<float> before_;
+    /// Sums over some neighbouring pixels, which stay what they are while these do.
+    struct Block {
+        double opacity = 0, sum = 0, squares = 0;
+    };
+    std::vector<std::uint8_t> before_;  ///< RGBA of the last picture
+    std::vector<Block> blocks_;
 };
 
 /// Mean of Y where the mask is not 0; not a number where it is 0 everywhere.

@@ -95,6 +95,27 @@ TEST(Luminance, OfHalfBlackHalfWhiteIsAHalfWithFullContrast) {
     EXPECT_EQ(meter.measure(image).motion_energy, 0);
 }
 
+TEST(Luminance, OfAPictureAfterOthersIsWhatItIsAlone) {
+    // Not a whole number of blocks; some pixels change, some become transparent, the rest stay
+    Image image(37, 11);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        image.rgba[i] = static_cast<std::uint8_t>(31 * i + i / 7);
+    LuminanceMeter one_after_another;
+    for (int step = 0; step < 4; ++step) {
+        const Image before = image;
+        for (int x = 5 * step; x < 5 * step + 9; ++x) image.pixel(x, 3 * step)[x % 4] ^= 0x5A;
+        LuminanceMeter alone;
+        const PictureMeasures a = one_after_another.measure(image), b = alone.measure(image);
+        EXPECT_EQ(a.luminance_mean, b.luminance_mean);
+        EXPECT_EQ(a.luminance_sd, b.luminance_sd);
+        if (step == 0) continue;
+        LuminanceMeter of_two;
+        of_two.measure(before);
+        EXPECT_EQ(a.motion_energy, of_two.measure(image).motion_energy);
+        EXPECT_GT(a.motion_energy, 0);
+    }
+}
+
 TEST(Luminance, FollowsTheCurveOfSrgbAndTheWeightsOfBt709) {
     const std::uint8_t grey[] = {118, 118, 118}, green[] = {0, 255, 0};
     EXPECT_NEAR(relative_luminance(grey), 0.1812, 1e-4);  // the grey card of photographers

@@ -117,6 +117,7 @@ void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
     positions_.resize(3 * vertices);
     for (std::size_t i = 0; i < positions_.size(); ++i)
         positions_[i] = static_cast<float>(positions.data()[i]);
+    choice_.moved();
     smooth_.compute(positions_, normals_);
     moving_.resize(6 * vertices);
     for (std::size_t v = 0; v < vertices; ++v)

@@ -12,6 +12,19 @@ bool may_hide(const Batch& batch) {
             batch.material == Material::kMouth);
 }
 
+/// Gives each cell of a square the greatest of those up to `by` beside it.
+void widen(int side, int by, std::vector<float>& cells) {
+    std::vector<float> row(static_cast<std::size_t>(side));
+    for (const int along : {1, side})  // steps from a cell to the next: rows, then columns
+        for (int line = 0; line < side; ++line) {
+            float* const first = cells.data() + line * (along == 1 ? side : 1);
+            for (int i = 0; i < side; ++i) row[static_cast<std::size_t>(i)] = first[i * along];
+            for (int i = 0; i < side; ++i)
+                first[i * along] = *std::max_element(row.begin() + std::max(i - by, 0),
+                                                     row.begin() + std::min(i + by + 1, side));
+        }
+}
+
 }  // namespace
 
 Eigen::Vector4f TriangleChoice::place_in(const Eigen::Matrix4f& clip_from_world,
@@ -21,6 +34,8 @@ Eigen::Vector4f TriangleChoice::place_in(const Eigen::Matrix4f& clip_from_world,
 }
 
 void TriangleChoice::look_from(const Eigen::Matrix4f& clip_from_world) {
+    if (looked_from_ && *looked_from_ == clip_from_world) return;
+    looked_from_ = clip_from_world;
     const std::size_t vertices = positions_.size() / 3;
     clip_places_.resize(4 * vertices);
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -76,6 +91,8 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
                                     const Eigen::Matrix4f* clip_from_world) {
     // What is seen, in cells of the shadow map: how far from the lamp it is at most
     constexpr int kCells = 64;
+    // Cells more on each side, a thirtieth of a picture, for soft edges and for hairs
+    constexpr int kWider = 2;
     constexpr float kNowhere = -1e9F;
     const std::size_t vertices = positions_.size() / 3;
     lit_places_.resize(3 * vertices);
@@ -83,50 +100,49 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
         const Eigen::Vector4f at = place_in(light_from_world, v);
         for (std::size_t k = 0; k < 2; ++k)
             lit_places_[3 * v + k] =
-                std::clamp((0.5F * at[static_cast<Eigen::Index>(k)] + 0.5F) * kCells, -2.0F,
-                           static_cast<float>(kCells) + 1.0F);
+                std::clamp((0.5F * at[static_cast<Eigen::Index>(k)] + 0.5F) * kCells,
+                           -static_cast<float>(kWider), static_cast<float>(kCells) + 1.0F);
         lit_places_[3 * v + 2] = at.z();
     }
     struct Cells {
-        int from_x = kCells, to_x = 0, from_y = kCells, to_y = 0;
+        int from_x = kCells + kWider, to_x = -kWider, from_y = kCells + kWider, to_y = -kWider;
         float nearest = 1e9F, farthest = kNowhere;
     };
-    const auto cells_of = [&](const unsigned* face, int wider) {
+    const auto cells_of = [&](const unsigned* face) {
         Cells cells;
         for (std::size_t k = 0; k < 3; ++k) {
             const float* p = lit_places_.data() + 3 * static_cast<std::size_t>(face[k]);
-            // Counted from -2, so that cutting off rounds down
-            const int x = static_cast<int>(p[0] + 2) - 2, y = static_cast<int>(p[1] + 2) - 2;
-            cells.from_x = std::min(cells.from_x, x - wider);
-            cells.to_x = std::max(cells.to_x, x + wider);
-            cells.from_y = std::min(cells.from_y, y - wider);
-            cells.to_y = std::max(cells.to_y, y + wider);
+            // Counted from there, so that cutting off rounds down
+            const int x = static_cast<int>(p[0] + kWider) - kWider,
+                      y = static_cast<int>(p[1] + kWider) - kWider;
+            cells.from_x = std::min(cells.from_x, x);
+            cells.to_x = std::max(cells.to_x, x);
+            cells.from_y = std::min(cells.from_y, y);
+            cells.to_y = std::max(cells.to_y, y);
             cells.nearest = std::min(cells.nearest, p[2]);
             cells.farthest = std::max(cells.farthest, p[2]);
         }
-        cells.from_x = std::max(cells.from_x, 0);
-        cells.from_y = std::max(cells.from_y, 0);
-        cells.to_x = std::min(cells.to_x, kCells - 1);
-        cells.to_y = std::min(cells.to_y, kCells - 1);
         return cells;
     };
     if (clip_from_world) look_from(*clip_from_world);
-    farthest_lit_.assign(static_cast<std::size_t>(kCells) * kCells, kNowhere);
+    constexpr int kRow = kCells + 2 * kWider;  // with those beside the map
+    farthest_lit_.assign(static_cast<std::size_t>(kRow) * kRow, kNowhere);
+    const auto farthest_at = [&](int x, int y) -> float& {
+        return farthest_lit_[static_cast<std::size_t>((y + kWider) * kRow + x + kWider)];
+    };
     for (const Batch& batch : triangles_.batches()) {
         const std::span<const unsigned> corners =
             triangles_.corners_of(batch, Purpose::kShadow, /*whole=*/false);
         for (std::size_t k = 0; k < corners.size(); k += 3) {
             const unsigned* face = corners.data() + k;
             if (clip_from_world && !is_seen(face, batch.cull_back)) continue;
-            // Two cells more on each side, a thirtieth of a picture, for soft edges and for hairs
-            const Cells cells = cells_of(face, 2);
+            const Cells cells = cells_of(face);
             for (int y = cells.from_y; y <= cells.to_y; ++y)
-                for (int x = cells.from_x; x <= cells.to_x; ++x) {
-                    float& there = farthest_lit_[static_cast<std::size_t>(y * kCells + x)];
-                    there = std::max(there, cells.farthest);
-                }
+                for (int x = cells.from_x; x <= cells.to_x; ++x)
+                    farthest_at(x, y) = std::max(farthest_at(x, y), cells.farthest);
         }
     }
+    widen(kRow, kWider, farthest_lit_);
 
     choice_.clear();
     std::vector<Range>& chosen = ranges(Purpose::kShadow);
@@ -139,12 +155,13 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
             triangles_.corners_of(batch, Purpose::kShadow, /*whole=*/false);
         for (std::size_t k = 0; k < corners.size(); k += 3) {
             const unsigned* face = corners.data() + k;
-            const Cells cells = cells_of(face, 0);
+            const Cells cells = cells_of(face);
             bool throws_any = false;
-            for (int y = cells.from_y; y <= cells.to_y && !throws_any; ++y)
-                for (int x = cells.from_x; x <= cells.to_x && !throws_any; ++x)
-                    throws_any =
-                        cells.nearest <= farthest_lit_[static_cast<std::size_t>(y * kCells + x)];
+            for (int y = std::max(cells.from_y, 0);
+                 y <= std::min(cells.to_y, kCells - 1) && !throws_any; ++y)
+                for (int x = std::max(cells.from_x, 0);
+                     x <= std::min(cells.to_x, kCells - 1) && !throws_any; ++x)
+                    throws_any = cells.nearest <= farthest_at(x, y);
             if (throws_any) choice_.insert(choice_.end(), face, face + 3);
         }
         chosen[i].smooth = static_cast<int>(choice_.size()) - chosen[i].first;

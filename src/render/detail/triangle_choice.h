@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "render/detail/picture_cells.h"
@@ -21,6 +22,8 @@ class TriangleChoice {
                    const std::vector<std::uint8_t>& wrinkled)
         : triangles_(triangles), positions_(positions), wrinkled_(wrinkled) {}
 
+    /// To be told whenever positions are others.
+    void moved() { looked_from_.reset(); }
     /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
     /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest. As coarse as may be unless
     /// `whole`.
@@ -65,7 +68,8 @@ class TriangleChoice {
     const std::vector<std::uint8_t>& wrinkled_;
     std::array<std::vector<Range>, kPurposes> ranges_;
     std::vector<unsigned> choice_, wrinkled_choice_;
-    std::vector<float> clip_places_;  ///< x, y, z over w, and w
+    std::optional<Eigen::Matrix4f> looked_from_;
+    std::vector<float> clip_places_;  ///< x, y, z over w, and w; as looked from there
     std::vector<float> lit_places_, farthest_lit_;
 };
 
