@@ -53,10 +53,16 @@ inline DriveAt always(const track::Drive& drive) {
     return [drive](double) { return drive; };
 }
 
+/// Near enough for what is measured in tenths of a millimetre: lips that are pressed together may circle by micrometres, for
+/// as many iterations as they are given.
+inline const StaticOptions kNearRest{
+    .iterations = kRestIterations, .tolerance_m = 2e-5, .planes_m = 2e-5};
+
 /// The pose in equilibrium with a drive, found from rest.
-inline FacePose settled(Face& face, const track::Drive& drive, StepFigures* figures = nullptr) {
+inline FacePose settled(Face& face, const track::Drive& drive, StepFigures* figures = nullptr,
+                        const StaticOptions& options = {.iterations = kRestIterations}) {
     face.start(always(neutral()));
-    const StepFigures found = face.settle(drive.excitation, drive);
+    const StepFigures found = face.settle(drive.excitation, drive, options);
     if (figures) *figures = found;
     return face.pose();
 }

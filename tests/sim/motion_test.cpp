@@ -137,7 +137,7 @@ TEST(Motion, AFaceStartedAgainForgetsWhatItDid) {
         return face.pose_at(0.5, drive).vertices;
     };
     const Points first = run();
-    settled(face, with_unit("AU27"));
+    settled(face, with_unit("AU27"), nullptr, kNearRest);
     const Points second = run();
     EXPECT_TRUE((first.array() == second.array()).all());
     EXPECT_EQ(face.history().size(), 30u);

@@ -19,7 +19,10 @@ class Muscles : public testing::Test {
         return one;
     }
     static Points moved(const track::Drive& drive) {
-        return moved_mm(face(), settled(face(), drive));
+        StepFigures figures;
+        const FacePose pose = settled(face(), drive, &figures, kNearRest);
+        EXPECT_TRUE(figures.converged);
+        return moved_mm(face(), pose);
     }
     struct Contraction {
         Points moved;         ///< mm
@@ -213,7 +216,7 @@ TEST_F(Muscles, MarginalFibresTurnTheRedLipIn) {
 }
 
 TEST_F(Muscles, TightenedLipsGetNarrowWithoutAKiss) {
-    const Points u = moved_mm(face(), settled(face(), with_unit("AU23")));
+    const Points u = moved(with_unit("AU23"));
     EXPECT_GT(at(u, "li").y() - at(u, "ls").y(), 1.0) << "the red of the lips";
     for (const char* corner : {"ch_l", "ch_r"}) {
         EXPECT_LT(std::abs(at(u, corner).x()), 3.5) << corner;

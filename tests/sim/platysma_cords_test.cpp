@@ -85,7 +85,9 @@ TEST(PlatysmaCords, StandOutFromTheNeckOfTheSideThatPullsAndFromNothingElse) {
 
 TEST(PlatysmaCords, ShowAsLinesThatStandOutInTheFace) {
     Face face = adult_face();
-    const FacePose pose = settled(face, with_unit("AU21"));
+    StepFigures figures;
+    const FacePose pose = settled(face, with_unit("AU21"), &figures, kNearRest);
+    EXPECT_TRUE(figures.converged);
     const Vec3 hyoid = face.head().landmark("hyo");
     double highest = 0;
     for (long v = 0; v < pose.vertices.rows(); ++v)
