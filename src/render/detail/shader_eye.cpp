@@ -47,7 +47,7 @@ vec3 eye_colour(vec3 q, vec3 hit, float caruncle, float gathered, out float is_i
 
     // Sclera: warm white, veined and redder towards the corners, bluish where it thins out over the iris' edge
     float far = smoothstep(1.10, 2.0, surface_r);
-    vec3 white = mix(vec3(0.74, 0.705, 0.665), vec3(0.68, 0.585, 0.53), far);
+    vec3 white = mix(vec3(0.765, 0.73, 0.69), vec3(0.70, 0.605, 0.55), far);
     white *= mix(vec3(1.0), vec3(0.92, 0.46, 0.40), veins(q * 1000.0, far));
     white = mix(white, vec3(0.62, 0.30, 0.26), 0.9 * caruncle);
 

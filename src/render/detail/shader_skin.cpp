@@ -45,7 +45,7 @@ void main() {
     vec3 gloss = key_card.rgb * (s * two_glints(m, v, k, lobes, vec2(0.90 - 0.40 * oil * oil, 0.10 + 0.40 * oil * oil), 0.028));
     // Pores and wrinkles turn to the soft light or away from it.
     float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
-    vec3 diffuse = key * kept + soft * (open * turned);
+    vec3 diffuse = (key * kept + soft * (open * turned)) * min(1.0, 0.3 + 3.5 * sky_seen);
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
     colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
