@@ -66,7 +66,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
     const std::vector<Vec3> meet =
         border_lip({Vec3(0, -53.05, 94), Vec3(5.5, -52.65, 93.8), Vec3(11, -52.05, 92.5),
                     Vec3(18, -52.4, 88.9), Vec3(24.6, -53.05, 83.4)});
-    constexpr double kHalfGap = 0.02;
+    constexpr double kHalfGap = 0.06;
     const auto is_upper = [](int k) { return k > kCorner; };
     const auto border = [&](int k) { return k <= kCorner ? lower[k] : upper[kHalfLoop - k]; };
     const auto contact = [&](int k) {
