@@ -47,8 +47,8 @@ void fit_landmarks(Skin& skin, const DesignTables& tables) {
         if (by.norm() > 4) continue;  // a free margin: named by construction
         candidates.erase(best);
         skin.landmark[id] = best;
-        // The wing of the nose keeps the form of its loops, which were placed by these points.
-        if (id == "al_l" || id == "ac_l" || id == "sbal_l" || id == "c") continue;
+        // Wing of the nose and fold of the lid keep the form of their loops, which were placed by these points.
+        if (id == "al_l" || id == "ac_l" || id == "sbal_l" || id == "c" || id == "ucr_l") continue;
         // Along the skin fully; across it only half, because depth table and landmark differ by their rounding.
         const Vec3& n = normal[static_cast<std::size_t>(best)];
         by -= 0.5 * n * n.dot(by);
