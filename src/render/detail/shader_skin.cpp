@@ -38,7 +38,8 @@ void main() {
     vec3 k = key_direction.xyz;
     float rough = roughness - 0.14 * oil;
     vec2 lobes = sqrt(rough * rough * vec2(1.0, 0.3136) + kLampSize);
-    // What lies in a nostril or in the bowl of an ear is in the dark, also where the shadow map is too coarse to know.
+    // What lies in a nostril or in the bowl of an ear is in the dark, also where the shadow map is too coarse to know, and of
+    // the light there little comes out again.
     float s = key_visibility(position, n) * min(1.0, 2.5 * sky_seen);
     vec3 shade = s + s * (1.0 - s) * bleed;
     vec3 key = key_card.rgb * shade * scattered(mix(dot(n, k), dot(m, k), 0.5), min(scatter * curvature, 0.5));
