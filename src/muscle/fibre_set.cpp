@@ -172,9 +172,11 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
         bool pulls = false;
         for (int p = begin; p < end - 1; ++p) {
             const Lanes d = position_[p + 1] - position_[p];
-            const double l = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            const double l0 = optimal_length_m_[static_cast<std::size_t>(p)];
             // A relaxed, slack segment does nothing; most segments of most frames are that.
-            if (a == 0.0 && l <= optimal_length_m_[static_cast<std::size_t>(p)]) continue;
+            if (a == 0.0 && squared <= l0 * l0) continue;
+            const double l = std::sqrt(squared);
             const Pull pull = step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, l);
             energy += pull.energy_j;
             if (!(l > 0)) continue;  // no direction to pull along

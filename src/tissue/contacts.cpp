@@ -10,12 +10,15 @@ namespace risorius::tissue {
 namespace {
 
 // What cannot be pushed out is not pushed ever harder: letting go, it would leap. Lips that press as hard as they can need
-// 4 mm of it against each other (20 kPa at the stiffness of a face's contacts). Far from where it began it changes
-// slowly: lips held in what they cannot do would rattle.
+// 4 mm of it against each other (20 kPa at the stiffness of a face's contacts). Far from where it began it grows
+// slowly: lips held in what they cannot do would rattle. It shrinks as fast as ever, or lips that part would be pushed on.
 constexpr double kGreatestShift_m = 6e-3;
-constexpr double kQuickShift_m = 2e-3;  // at twice this it changes a fifth as fast
-constexpr double kFlow = 0.05;          // of its opening that a bridge gives way per solve
-constexpr double kForgetting = 0.25;    // of the shift that a contact without penetration loses
+constexpr double kQuickShift_m = 2e-3;  // at twice this it grows a fifth as fast
+// Of a penetration that the shift takes up per solve: with all of it, lips that meet in full motion leap apart by a
+// millimetre, sooner or later by how far the solve has come.
+constexpr double kLearning = 0.5;
+constexpr double kFlow = 0.05;        // of its opening that a bridge gives way per solve
+constexpr double kForgetting = 0.25;  // of the shift that a contact without penetration loses
 
 // Of pairs that stick: share dc they have opened, 0 when they do not pull.
 double opened(const Contacts::Contact& contact, double gap) {
@@ -55,10 +58,10 @@ void Contacts::remember(const Points& x) {
         if (contact.slot < 0) continue;
         const double now = gap(contact, x), beyond = now - contact.rest_gap_m;
         // Falling back more slowly than it rises keeps contacts that come and go from rattling
-        const double change = beyond < 0 ? -beyond : -std::max(kForgetting * beyond, 1e-7);
         const double far = contact.shift_m / kQuickShift_m;
-        contact.shift_m =
-            std::clamp(contact.shift_m + change / (1 + far * far), 0.0, kGreatestShift_m);
+        const double change = beyond < 0 ? -kLearning * beyond / (1 + far * far)
+                                         : -std::max(kForgetting * beyond, 1e-7);
+        contact.shift_m = std::clamp(contact.shift_m + change, 0.0, kGreatestShift_m);
         if (contact.stick_n > 0) {
             const double push = -pull_n(contact, x);
             if (push > 0.1 * contact.stick_n)

@@ -5,9 +5,9 @@
 //
 // The plane is carried by up to four other nodes with weights w (p is then the constant offset from
 // them, usually zero), or by none and p is a point of it. g is the rest gap min(0, gap at rest), so
-// that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by what is left of the
-// penetration, more slowly the farther it has come, so that steps on end press as hard as they must without a stiffness that
-// would slow the solver.
+// that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by half of what is
+// left of the penetration, by less the farther it has come, so that steps on end press as hard as they must without a
+// stiffness that would slow the solver.
 // Contacts that harden have E = kc/(3 h) |d|^3 for d < 0 instead: as firm at d = -h, firmer below, and without the kink at
 // touching on which Newton's method stumbles.
 //
