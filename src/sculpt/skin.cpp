@@ -184,34 +184,53 @@ double philtrum(const Vec3& p) {
     return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
 }
 
-/// The groove that sets the wing of the nose off from its side and the cheek, and the dimple before the tip.
-void carve_wing(Skin& skin) {
+/// A line along which the skin is raised, or carved where its height is below 0.
+struct ReliefLine {
     struct Point {
         Vec3 at;
-        double depth, width;  ///< mm; width where 1/e of the depth is left
+        double height, width;  ///< mm; width where 1/e of the height is left
     };
-    constexpr int kPoints = 6;
-    const Point groove[kPoints] = {
-        {Vec3(18.4, -27, 88.6), 0.5, 1.8}, {Vec3(18.3, -21.5, 89.5), 0.9, 1.8},
-        {Vec3(16.8, -16.6, 92), 1.1, 2},   {Vec3(14.4, -14, 96.5), 1.1, 2.2},
-        {Vec3(12.4, -14, 102), 0.9, 2.4},  {Vec3(11, -17, 108), 0.5, 2.6}};
+    std::vector<Point> points;
+
+    /// The greatest at a place, mm, of what its stretches add there.
+    double height(const Vec3& p) const {
+        double greatest = 0;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const Point &a = points[k], &b = points[k + 1];
+            const Vec3 along = b.at - a.at, from = p - a.at;
+            const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+            const double width = a.width + t * (b.width - a.width),
+                         full = a.height + t * (b.height - a.height);
+            const double here =
+                full * std::exp(-(from - t * along).squaredNorm() / (width * width));
+            if (std::abs(here) > std::abs(greatest)) greatest = here;
+        }
+        return greatest;
+    }
+};
+
+/// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; and the ridge of
+/// lobule and columella, which hangs below the wings and stands out between the nostrils.
+void shape_nose(Skin& skin) {
+    const ReliefLine groove{{{Vec3(18.4, -27, 88.6), -0.5, 1.8},
+                             {Vec3(18.3, -21.5, 89.5), -0.9, 1.8},
+                             {Vec3(16.8, -16.6, 92), -1.1, 2},
+                             {Vec3(14.4, -14, 96.5), -1.1, 2.2},
+                             {Vec3(12.4, -14, 102), -0.9, 2.4},
+                             {Vec3(11, -17, 108), -0.5, 2.6}}},
+        columella{{{Vec3(0, -22.5, 114.6), 0.3, 3.4},
+                   {Vec3(0, -26.5, 110.4), 1.2, 2.8},
+                   {Vec3(0, -29.3, 104.2), 0.8, 2.2},
+                   {Vec3(0, -31, 100.5), 0.2, 2}}};
     const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
     HalfMesh& mesh = skin.mesh;
     const std::vector<Vec3> before = mesh.point;
     const std::vector<Vec3> normal = mesh.normals();
     for (std::size_t v = 0; v < before.size(); ++v) {
         const Vec3& p = before[v];
-        if (fixed.count(static_cast<int>(v)) || (p - Vec3(14, -20, 97)).norm() > 24) continue;
-        double deepest = 0;
-        for (int k = 0; k + 1 < kPoints; ++k) {
-            const Vec3 along = groove[k + 1].at - groove[k].at, from = p - groove[k].at;
-            const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
-            const double width = groove[k].width + t * (groove[k + 1].width - groove[k].width),
-                         depth = groove[k].depth + t * (groove[k + 1].depth - groove[k].depth);
-            deepest = std::max(
-                deepest, depth * std::exp(-(from - t * along).squaredNorm() / (width * width)));
-        }
-        mesh.point[v] -= deepest * normal[v];
+        if (fixed.count(static_cast<int>(v)) || (p - Vec3(9, -20, 102)).norm() > 30) continue;
+        mesh.point[v] += (groove.height(p) + columella.height(p)) * normal[v];
+        if (mesh.midline[v]) mesh.point[v].x() = 0;
     }
 }
 
@@ -317,7 +336,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
     add_skirt(skin);
     smooth_joints(skin);
-    carve_wing(skin);
+    shape_nose(skin);
     fit_landmarks(skin, tables);
     return skin;
 }

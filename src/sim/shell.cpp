@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "geom/closest_point.h"
 #include "geom/decimate.h"
 #include "geom/mirror.h"
 #include "sim/polyline.h"
@@ -52,6 +53,38 @@ Points smooth_normals(const Points& vertices, const Triangles& triangles,
     }
     return out;
 }
+
+// Whether skin is a wall of a cavity, as of a nostril: across from other skin, and little of what it faces is open.
+class Cavities {
+  public:
+    explicit Cavities(const rig::Head& head)
+        : tree_(head.vertices, head.skin), across_m_(head.mm(20)) {
+        // Spread evenly by the cosine law, about +z: Fibonacci's spiral
+        constexpr double kGoldenAngle = 2.399963229728653;
+        for (int k = 0; k < kRays; ++k) {
+            const double squared = (k + 0.5) / kRays, r = std::sqrt(squared);
+            rays_.push_back({r * std::cos(kGoldenAngle * k), r * std::sin(kGoldenAngle * k),
+                             std::sqrt(1 - squared)});
+        }
+    }
+    /// `normal` unit, outwards.
+    bool hold(const Vec3& p, const Vec3& normal) const {
+        const Vec3 origin = p + 1e-3 * across_m_ * normal;
+        if (!tree_.cast(origin, normal, across_m_)) return false;
+        const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u);
+        int open = 0;
+        for (const Vec3& ray : rays_)
+            open += !tree_.cast(origin, ray.x() * u + ray.y() * w + ray.z() * normal, across_m_);
+        return open < kLeastOpen * kRays;
+    }
+
+  private:
+    static constexpr int kRays = 64;
+    static constexpr double kLeastOpen = 0.35;  // at the very edge of a cavity it is a half
+    geom::SurfaceTree tree_;
+    double across_m_;
+    std::vector<Vec3> rays_;
+};
 
 // Largest connected piece of a triangle list.
 Triangles largest_piece(const Triangles& triangles, long vertex_count) {
@@ -166,6 +199,7 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
 
     // Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given
     shell.direction = smooth_normals(head.vertices, head.skin, used, head.mm(7));
+    std::vector<char> direction_given(static_cast<std::size_t>(count), 0);
     for (long v = 0; v < count; ++v) {
         if (!used[v]) continue;
         const Vec3 p = head.vertices.row(v).transpose();
@@ -174,12 +208,15 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
         const Vec3 out_of_mouth = Vec3(0.035 * p.x() / head.mm(1), 0, 1).normalized();
         const double mouth = 1.0 - smoothstep(head.mm(6), head.mm(18), from_mouth);
         d = ((1 - mouth) * d + mouth * out_of_mouth).normalized();
+        double given = mouth;
         for (const EyeLids& lid : lids) {
             const Vec3 r = p - lid.centre();
             const double eye =
                 1.0 - smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
             d = ((1 - eye) * d + eye * r.normalized()).normalized();
+            given = std::max(given, eye);
         }
+        direction_given[v] = given > 0.5;
         shell.direction.row(v) = d.transpose();
     }
 
@@ -199,8 +236,10 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
             shell.direction.row(mirror.partner[v]) = mirror.reflect(d).transpose();
         }
 
-    // Shell rule: what turns away from the direction is left out
+    // Shell rule: what turns away from the direction is left out, and what lies in a nostril: tissue under its walls would bind
+    // the wing to the septum, and leave no depth for either.
     constexpr double kLeastFacing = 0.12;
+    const Cavities cavities(head);
     Triangles facing(face.rows(), 3);
     long rows = 0;
     for (long f = 0; f < face.rows(); ++f) {
@@ -210,7 +249,10 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
         const Vec3 d = (shell.direction.row(a) + shell.direction.row(b) + shell.direction.row(c))
                            .transpose()
                            .normalized();
-        if (n.dot(d) >= kLeastFacing) facing.row(rows++) = face.row(f);
+        if (n.dot(d) < kLeastFacing) continue;
+        const bool given = direction_given[a] && direction_given[b] && direction_given[c];
+        if (!given && cavities.hold((pa + pb + pc) / 3, n)) continue;
+        facing.row(rows++) = face.row(f);
     }
     facing.conservativeResize(rows, 3);
     Triangles half(0, 3);
@@ -232,7 +274,8 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     const auto wanted_mm = [&](const Vec3& p) {
         double near = distance_to_polyline(p, lips);
         for (const EyeLids& lid : lids) near = std::min(near, lid.margin_distance(p));
-        near = std::min(near, (p - head.landmark("sn")).norm() + head.mm(4));
+        for (const char* nose : {"sn", "ac_l", "ac_r"})
+            near = std::min(near, (p - head.landmark(nose)).norm() + head.mm(4));
         return 2.6 + 6.0 * smoothstep(head.mm(3), head.mm(48), near);
     };
     shell.spacing_m.assign(static_cast<std::size_t>(count), 0);

@@ -1,8 +1,8 @@
 // The part of the skin that is simulated: an open shell of triangles facing outwards, coarsened to a size field.
 //
-// Region: the face from hairline to throat and back to the front of the ears. Triangles that turn away from the smooth
-// outward direction (inner lips, nostrils, lid margins) are left out: under them prisms would invert. They follow by
-// harmonic extension (skin_binding.h). On a head that is its own mirror image so is the shell, to the last diagonal. Source: measured face formulation, geometry pipeline.
+// Region: the face from hairline to throat and back to the front of the ears. Triangles that turn away from the smooth outward direction
+// (inner lips, lid margins) are left out: under them prisms would invert; so are the walls of nostrils. They follow by harmonic extension
+// (skin_binding.h). On a head that is its own mirror image so is the shell, to the last diagonal. Source: measured face formulation, geometry pipeline.
 #pragma once
 
 #include <array>
