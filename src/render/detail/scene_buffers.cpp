@@ -36,6 +36,25 @@ void attribute(VertexAttribute index, GLint size, int floats_per_vertex, int off
         reinterpret_cast<const void*>(static_cast<std::size_t>(offset) * sizeof(float)));
 }
 
+/// How much of its pores skin shows whose map is stretched where it faces away from the middle of the head, and towards the
+/// back of the head everywhere.
+std::vector<float> pores_shown(const Points& rest, const std::vector<float>& normals,
+                               const Vec3& paint_centre) {
+    const auto smooth = [](double from, double to, double at) {
+        const double t = std::clamp((at - from) / (to - from), 0.0, 1.0);
+        return t * t * (3 - 2 * t);
+    };
+    std::vector<float> shown;
+    for (long v = 0; v < rest.rows(); ++v) {
+        const Vec3 p = rest.row(v).transpose();
+        const float* n = normals.data() + 3 * v;
+        const double facing = Vec3(n[0], n[1], n[2]).dot((p - paint_centre).normalized());
+        const double aside = (paint_place(p, paint_centre) - Vec2(0.5, 0.5)).norm();
+        shown.push_back(static_cast<float>(smooth(0.3, 0.75, facing) * smooth(0.37, 0.28, aside)));
+    }
+    return shown;
+}
+
 GLsizeiptr bytes(const std::vector<float>& values) {
     return static_cast<GLsizeiptr>(values.size() * sizeof(float));
 }
@@ -84,8 +103,10 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
     attribute(kRest, 3, 5, 0);
     attribute(kPaintPlace, 2, 5, 3);
     curvature_ = curvature(scene.rest, indices());
+    place(scene.rest);
+    pores_ = pores_shown(scene.rest, normals_, paint_centre);
     set_occlusion(std::vector<float>(vertices, 1.0F), std::vector<float>(vertices, 0.0F));
-    attribute(kOcclusion, 3, 3, 0);
+    attribute(kOcclusion, 4, 4, 0);
     if (scene.fold_phase.rows() > 0) {
         std::vector<float> phase(3 * vertices, 0.0F);
         for (std::size_t v = 0; v < vertices; ++v)
@@ -112,13 +133,17 @@ SceneBuffers::~SceneBuffers() {
     glDeleteVertexArrays(1, &array_);
 }
 
-void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
-    const auto vertices = static_cast<std::size_t>(positions.rows());
-    positions_.resize(3 * vertices);
+void SceneBuffers::place(const Points& positions) {
+    positions_.resize(static_cast<std::size_t>(positions.size()));
     for (std::size_t i = 0; i < positions_.size(); ++i)
         positions_[i] = static_cast<float>(positions.data()[i]);
     choice_.moved();
     smooth_.compute(positions_, normals_);
+}
+
+void SceneBuffers::upload(const Points& positions, const Points& fold_depth) {
+    const auto vertices = static_cast<std::size_t>(positions.rows());
+    place(positions);
     moving_.resize(6 * vertices);
     for (std::size_t v = 0; v < vertices; ++v)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -154,12 +179,13 @@ void SceneBuffers::set_colours(const std::vector<float>& rgb) {
 
 void SceneBuffers::set_occlusion(const std::vector<float>& sky_seen,
                                  const std::vector<float>& inside_mouth) {
-    occlusion_.resize(3 * sky_seen.size());
+    occlusion_.resize(4 * sky_seen.size());
     for (std::size_t v = 0; v < sky_seen.size(); ++v) {
-        float* to = occlusion_.data() + 3 * static_cast<std::size_t>(number_[v]);
+        float* to = occlusion_.data() + 4 * static_cast<std::size_t>(number_[v]);
         to[0] = lashes_[v].is_lash ? (lashes_[v].lower_lid ? 1.0F : 0.0F) : sky_seen[v];
         to[1] = inside_mouth[v];
         to[2] = curvature_[v];
+        to[3] = pores_[v];
     }
     glBindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_);
     glBufferData(GL_ARRAY_BUFFER, bytes(occlusion_), occlusion_.data(), GL_STREAM_DRAW);

@@ -57,6 +57,8 @@ class SceneBuffers {
     std::vector<unsigned> elements(const std::vector<unsigned>& vertices) const;
 
   private:
+    /// Positions and normals as they are now, not uploaded yet.
+    void place(const Points& positions);
     void upload_choice(Purpose purpose);
     void draw(const Batch& batch, Purpose purpose, int first, int count) const;
 
@@ -65,7 +67,7 @@ class SceneBuffers {
     std::vector<unsigned> number_;  ///< of each vertex in the vertex array, in the order of drawing
     std::vector<float> paint_;
     std::vector<LashPlace> lashes_;
-    std::vector<float> curvature_, occlusion_;
+    std::vector<float> curvature_, pores_, occlusion_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
     std::vector<std::uint8_t> wrinkled_;  ///< per vertex, now
     TriangleChoice choice_{triangles_, positions_, wrinkled_};

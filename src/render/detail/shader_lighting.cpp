@@ -158,7 +158,7 @@ layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec3 in_rest;
 layout(location = 3) in vec2 in_paint;
-layout(location = 4) in vec3 in_occlusion;
+layout(location = 4) in vec4 in_occlusion;
 out vec3 position;
 out vec3 normal;
 out vec3 rest;
@@ -168,6 +168,7 @@ out float curvature;      // 1/m
 out vec3 soft;            // what fill, rim and surroundings light of a white surface
 out vec3 soft_gloss;      // and what of them it mirrors
 out float kept;           // of a lamp's light, not mirrored
+out float pores;          // how much the skin shows of them
 uniform bool inside_mouth;
 uniform vec3 scatter;     // m
 uniform vec3 bounce;      // albedo hereabouts
@@ -200,6 +201,7 @@ void main() {
     // Light from behind the head never comes in through the lips.
     float behind_seen = (1.0 - inside) * in_occlusion.x;
     curvature = in_occlusion.z;
+    pores = in_occlusion.w;
 
     vec3 v = normalize(camera.xyz - in_position);
     vec3 n = inside_mouth ? faceforward(in_normal, -v, in_normal) : in_normal;

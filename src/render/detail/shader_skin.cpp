@@ -15,6 +15,7 @@ in float curvature;
 in vec3 soft;
 in vec3 soft_gloss;
 in float kept;
+in float pores;
 out vec4 colour;
 )";
 constexpr const char* kSkin = R"(
@@ -53,14 +54,11 @@ void main() {
 }
 )";
 
-// The paint lies almost along world x and y on the face, which is frame enough for pores.
-// Lips have none, and towards the back the map is too stretched for them.
+// The paint lies almost along world x and y on the face, which is frame enough for pores. Lips have none.
 constexpr const char* kPores = R"(
 layout(binding = 2) uniform sampler2D pore_map;    // slope
 vec3 bent_by_pores(vec3 n, float oil) {
-    float aside = length(paint - 0.5);
-    float pores = 0.62 * smoothstep(0.80, 0.60, oil) * smoothstep(0.37, 0.27, aside) + 0.08 * smoothstep(0.38, 0.31, aside);
-    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * pores;
+    vec2 slope = (texture(pore_map, paint * 20.0).rg - 0.5) * (pores * (0.62 * smoothstep(0.80, 0.60, oil) + 0.08));
     vec3 t = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-4, 0.0, 0.0));
     return n - slope.x * t - slope.y * cross(n, t);
 }

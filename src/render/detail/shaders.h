@@ -43,7 +43,7 @@ enum VertexAttribute {
     kFoldPhase = 5,
     kFoldDepth = 6,
     kOcclusion =
-        4,  ///< x: share of the sky seen at rest, y: 1 inside the mouth, z: curvature at rest, 1/m
+        4,  ///< x: share of the sky seen at rest, y: 1 inside the mouth, z: curvature at rest, 1/m; w: of pores
     kColour = 7  ///< of a value on the skin
 };
 
