@@ -23,6 +23,8 @@ layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: 
 uniform vec3 scatter;      // m, of red, green and blue
 uniform vec3 bleed;        // of the shadow's edge
 uniform float roughness;
+// Of the light in a hollow: what comes out again has been in the skin more than once.
+const vec3 kHollow = vec3(0.40, 0.27, 0.23);
 
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
@@ -41,14 +43,14 @@ void main() {
     vec2 lobes = sqrt(rough * rough * vec2(1.0, 0.3136) + kLampSize);
     // What lies in a nostril or in the bowl of an ear is in the dark, also where the shadow map is too coarse to know, and of
     // the light there little comes out again.
-    float hollow = smoothstep(0.0, 0.4, sky_seen);
+    float hollow = smoothstep(0.0, 0.45, sky_seen);
     float s = key_visibility(position, n) * hollow;
     vec3 shade = s + s * (1.0 - s) * bleed;
     vec3 key = key_card.rgb * shade * scattered(mix(dot(n, k), dot(m, k), 0.5), min(scatter * curvature, 0.5));
     vec3 gloss = key_card.rgb * (s * two_glints(m, v, k, lobes, vec2(0.90 - 0.40 * oil * oil, 0.10 + 0.40 * oil * oil), 0.028));
     // Pores and wrinkles turn to the soft light or away from it.
     float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
-    vec3 diffuse = (key * kept + soft * (open * turned)) * mix(0.3, 1.0, hollow);
+    vec3 diffuse = (key * kept + soft * (open * turned)) * mix(kHollow, vec3(1.0), hollow);
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
     colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
