@@ -211,11 +211,13 @@ struct OffscreenView::Impl {
         const auto sky_over = [&](const Points& positions) {
             return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
         };
-        out->sky = sky_over(scene.rest);
-        out->inside = marks.inside_mouth(scene, out->sky);
+        const std::vector<float> sky = sky_over(scene.rest);
+        out->sky = with_neighbours(sky, buffers->indices());
+        out->inside = marks.inside_mouth(scene, sky);
         if (scene.shut.rows() > 0) {
             buffers->upload(scene.shut);
-            out->sky_about_eyes.emplace(scene, out->sky, sky_over(scene.shut));
+            out->sky_about_eyes.emplace(scene, out->sky,
+                                        with_neighbours(sky_over(scene.shut), buffers->indices()));
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};

@@ -83,6 +83,19 @@ std::vector<float> sky_seen(const Points& positions, const std::vector<float>& n
     return seen;
 }
 
+std::vector<float> with_neighbours(const std::vector<float>& seen,
+                                   const std::vector<unsigned>& corners) {
+    std::vector<float> sum(seen.size(), 0.0F), count(seen.size(), 0.0F), out(seen);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum[corners[i + k]] += seen[corners[i + (k + 1) % 3]] + seen[corners[i + (k + 2) % 3]];
+            count[corners[i + k]] += 2;
+        }
+    for (std::size_t v = 0; v < seen.size(); ++v)
+        if (count[v] > 0) out[v] = 0.5F * (seen[v] + sum[v] / count[v]);
+    return out;
+}
+
 SkyAboutEyes::SkyAboutEyes(const Scene& scene, std::vector<float> at_rest,
                            const std::vector<float>& shut)
     : at_rest_(std::move(at_rest)), seen_(at_rest_) {
