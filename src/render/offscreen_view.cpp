@@ -209,7 +209,7 @@ struct OffscreenView::Impl {
         auto out = std::make_shared<Baked>();
         const double reach = 0.75 * camera.portrait_height_m;
         const auto sky_over = [&](const Points& positions) {
-            return sky_seen(positions, buffers->normals(), buffers->index_count(), centre, reach);
+            return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
         };
         const std::vector<float> sky = sky_over(scene.rest);
         out->sky = with_neighbours(sky, buffers->indices());

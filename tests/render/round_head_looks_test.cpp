@@ -144,6 +144,27 @@ TEST_F(RoundHeadLooks, ALidThatHasUnrolledIsNotShadedByTheCreaseItCameFrom) {
     EXPECT_EQ(fingerprint(told.draw(open)), fingerprint(as_at_rest.draw(open)));
 }
 
+// Sheets that stand for lashes would else throw a dark band on the lid below them.
+TEST_F(RoundHeadLooks, LashesTakeNoSkyFromTheSkin) {
+    const Vec3 cheek = RoundHead::on_skin(0.03, -0.015);
+    RoundHead head;
+    const auto first = static_cast<int>(head.scene.rest.rows());
+    head.scene.rest.conservativeResize(first + 4, 3);
+    for (int k = 0; k < 4; ++k)
+        head.scene.rest.row(first + k) =
+            (1.05 * cheek + 0.02 * Vec3(k % 2 == 0 ? -1 : 1, k < 2 ? -1 : 1, 0)).transpose();
+    Surface lashes;
+    lashes.material = Material::kLashes;
+    lashes.triangles.resize(2, 3);
+    lashes.triangles << first, first + 1, first + 3, first, first + 3, first + 2;
+    head.scene.surfaces.push_back(lashes);
+    head.pose.positions = head.scene.rest;
+    head.pose.positions.bottomRows(4).rowwise() -= Eigen::RowVector3d(0, 0, 0.3);  // out of sight
+    OffscreenView view(head.scene, large());
+    const double shaded = brightness_of(mean_colour(view.draw(head.pose), view.project(cheek), 1));
+    EXPECT_NEAR(shaded / plain_brightness(cheek), 1, 0.01);
+}
+
 TEST_F(RoundHeadLooks, AClosedSurfaceHidesTheTeeth) {
     RoundHead without;
     without.scene.surfaces.pop_back();

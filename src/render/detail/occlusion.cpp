@@ -18,7 +18,8 @@ constexpr double kBias_m = 0.0010;
 }  // namespace
 
 std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
-                            int index_count, const Vec3& centre, double radius_m) {
+                            const std::vector<Batch>& batches, const Vec3& centre,
+                            double radius_m) {
     const auto vertices = static_cast<std::size_t>(positions.rows());
     std::vector<float> seen(vertices, 0.0F), weight(vertices, 0.0F);
 
@@ -54,7 +55,11 @@ std::vector<float> sky_seen(const Points& positions, const std::vector<float>& n
         const Eigen::Matrix4f clip_f = clip.cast<float>();
         glUniformMatrix4fv(program.location("clip_from_world"), 1, GL_FALSE, clip_f.data());
         glClear(GL_DEPTH_BUFFER_BIT);
-        glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+        for (const Batch& batch : batches)
+            if (batch.material != Material::kLashes)
+                glDrawElements(GL_TRIANGLES, batch.index_count, GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(
+                                   static_cast<std::size_t>(batch.first_index) * sizeof(unsigned)));
         glReadPixels(0, 0, kSide, kSide, GL_DEPTH_COMPONENT, GL_FLOAT, image.data());
 
         const double bias = kBias_m / (4 * radius_m);

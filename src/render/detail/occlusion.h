@@ -6,14 +6,15 @@
 
 #include "core/types.h"
 #include "render/detail/gl_context.h"
+#include "render/detail/scene_triangles.h"
 #include "render/scene.h"
 
 namespace risorius::render {
 
-/// Cosine-weighted share of unblocked directions, 0..1 per vertex. Draws the bound vertex array with the indices of the bound
-/// element buffer; the context must be current. One depth render of 512 x 512 per direction, 48 directions.
+/// Cosine-weighted share of unblocked directions, 0..1 per vertex. Draws of the bound vertex array what is in the batches but
+/// lashes, whose sheets would darken the lids as if they were solid; the context must be current. One depth render of 512 x 512 per direction, 48 directions.
 std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
-                            int index_count, const Vec3& centre, double radius_m);
+                            const std::vector<Batch>& batches, const Vec3& centre, double radius_m);
 
 /// Half of it, and half of the mean of the vertices around in triangles of `corners`: maps of so few points are noise from one
 /// vertex to the next where a surface folds finely.

@@ -47,7 +47,6 @@ class SceneBuffers {
 
     const std::vector<Batch>& batches() const { return triangles_.batches(); }
     const std::vector<unsigned>& indices() const { return triangles_.indices(); }
-    int index_count() const { return static_cast<int>(indices().size()); }
     int skin_index_count() const { return triangles_.skin_index_count(); }
     const std::vector<float>& normals() const { return normals_; }
 
