@@ -212,12 +212,13 @@ struct OffscreenView::Impl {
             return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
         };
         const std::vector<float> sky = sky_over(scene.rest);
-        out->sky = with_neighbours(sky, buffers->indices());
+        out->sky = with_neighbours(sky, scene.rest, buffers->indices());
         out->inside = marks.inside_mouth(scene, sky);
         if (scene.shut.rows() > 0) {
             buffers->upload(scene.shut);
-            out->sky_about_eyes.emplace(scene, out->sky,
-                                        with_neighbours(sky_over(scene.shut), buffers->indices()));
+            out->sky_about_eyes.emplace(
+                scene, out->sky,
+                with_neighbours(sky_over(scene.shut), scene.shut, buffers->indices()));
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};

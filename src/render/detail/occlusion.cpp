@@ -14,6 +14,7 @@ constexpr int kSide = 512;
 constexpr int kSkyDirections = 48;
 constexpr double kLift_m = 0.0012;  ///< off the surface, against shadowing itself
 constexpr double kBias_m = 0.0010;
+constexpr double kNoise_m = 0.003;  ///< texels of the maps show in what lies nearer together
 
 }  // namespace
 
@@ -88,16 +89,22 @@ std::vector<float> sky_seen(const Points& positions, const std::vector<float>& n
     return seen;
 }
 
-std::vector<float> with_neighbours(const std::vector<float>& seen,
+std::vector<float> with_neighbours(const std::vector<float>& seen, const Points& positions,
                                    const std::vector<unsigned>& corners) {
     std::vector<float> sum(seen.size(), 0.0F), count(seen.size(), 0.0F), out(seen);
     for (std::size_t i = 0; i < corners.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) {
-            sum[corners[i + k]] += seen[corners[i + (k + 1) % 3]] + seen[corners[i + (k + 2) % 3]];
-            count[corners[i + k]] += 2;
+            const unsigned a = corners[i + k];
+            for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) {
+                const unsigned b = corners[i + other];
+                const double apart = (positions.row(a) - positions.row(b)).squaredNorm();
+                sum[a] += static_cast<float>(std::exp(-apart / (kNoise_m * kNoise_m))) *
+                          (seen[b] - seen[a]);
+                ++count[a];
+            }
         }
     for (std::size_t v = 0; v < seen.size(); ++v)
-        if (count[v] > 0) out[v] = 0.5F * (seen[v] + sum[v] / count[v]);
+        if (count[v] > 0) out[v] += 0.5F * sum[v] / count[v];
     return out;
 }
 
