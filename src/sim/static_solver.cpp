@@ -28,6 +28,9 @@ constexpr int kFarRound = 6;          // iterations while it is far
 constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
 constexpr int kRoughRound = 20, kRoughRounds = 6;
 constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
+// Few poses take longer. Those take turns between contacts whatever is mixed; half of each way ends that.
+constexpr int kPatience = 300;  // iterations
+constexpr double kPart = 0.5;
 
 /// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
 /// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
@@ -208,7 +211,8 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
         curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
         if (!solved) fixed_point.forget();
-        where = fixed_point.next(where, x);
+        const Points next = fixed_point.next(where, x);
+        where = figures.iterations < kPatience ? next : Points(where + kPart * (next - where));
     }
     const StepFigures last = tissue_.end_rest(x);
     figures.contact_depth_m = last.contact_depth_m;
