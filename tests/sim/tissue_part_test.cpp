@@ -42,7 +42,7 @@ TEST(TissuePart, AStepThatHasConvergedStaysWhereItIs) {
     const Points whole = played(with_mouth(500, 0, 1e-9), kSteps).nodes();
     const Points both = played(with_mouth(500, 30, 1e-9), kSteps).nodes();
     // What iterations of less than 0.001 micrometres RMS leave at the softest nodes
-    EXPECT_LT((both - whole).rowwise().norm().maxCoeff(), 2e-6);
+    EXPECT_LT((both - whole).rowwise().norm().maxCoeff(), 5e-6);
 }
 
 TEST(TissuePart, TheMouthsOwnIterationsBringItNearerToTheConvergedStep) {
