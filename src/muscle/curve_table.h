@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "muscle/curve.h"
+#include "solve/lanes.h"
 
 namespace risorius::muscle {
 
@@ -22,21 +23,40 @@ class CurveTable {
     Value at(double x) const {
         const double place = (x - low_) * cells_per_unit_;
         if (!(place >= 0 && place < static_cast<double>(cells_.size()))) return beyond(x);
-        const Cell& cell = cells_[static_cast<std::size_t>(place)];
-        const double u = x - cell.begin;
-        return {cell.c1 + u * (2 * cell.c2 + u * 3 * cell.c3),
-                cell.c0 + u * (cell.c1 + u * (cell.c2 + u * cell.c3))};
+        const auto cell = static_cast<std::size_t>(place);
+        const solve::Lanes& c = cells_[cell];
+        const double u = x - (low_ + static_cast<double>(cell) * width_);
+        return {c[1] + u * (2 * c[2] + u * 3 * c[3]), c[0] + u * (c[1] + u * (c[2] + u * c[3]))};
+    }
+
+    struct Values {
+        solve::Lanes value, integral;
+    };
+    /// The same four times, with the same bits.
+    Values at(const solve::Lanes& x) const {
+        const solve::Lanes place = (x - low_) * cells_per_unit_;
+        solve::Lanes row[4], begin;
+        for (int k = 0; k < 4; ++k) {
+            if (!(place[k] >= 0 && place[k] < static_cast<double>(cells_.size())))
+                return one_by_one(x);
+            const auto cell = static_cast<std::size_t>(place[k]);
+            row[k] = cells_[cell];
+            begin[k] = static_cast<double>(cell);
+        }
+        const solve::Lanes u = x - (low_ + begin * width_);
+        solve::Lanes c0, c1, c2, c3;
+        solve::transpose(row, c0, c1, c2, c3);
+        return {c1 + u * (2 * c2 + u * 3 * c3), c0 + u * (c1 + u * (c2 + u * c3))};
     }
 
   private:
-    struct Cell {
-        double begin, c0, c1, c2, c3;
-    };
     Value beyond(double x) const;
+    Values one_by_one(const solve::Lanes& x) const;
 
     Curve curve_;
-    double low_, cells_per_unit_;
-    std::vector<Cell> cells_;
+    double low_, width_, cells_per_unit_;
+    std::vector<solve::Lanes>
+        cells_;  ///< c0 .. c3: c0 + c1 u + c2 u^2 + c3 u^3, u from the begin of a cell
 };
 
 }  // namespace risorius::muscle

@@ -1,5 +1,6 @@
 #include "muscle/fibre_set.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "muscle/muscle_curves.h"
+#include "solve/point_sums.h"
 
 namespace risorius::muscle {
 
@@ -47,7 +49,7 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
             body_place_[p] =
                 Lanes{point.body_rest.x(), point.body_rest.y(), point.body_rest.z(), 0};
     }
-    position_.set_zero(count);
+    position_.set_zero(count + kTogether);  // so that the last segments can be read together
     force_.set_zero(count);
 
     place_points(rest);
@@ -96,7 +98,7 @@ double FibreSet::length(int segment) const {
 void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     assert(h > 0);
     step_s_ = h;
-    in_step_.resize(points_.size());
+    in_step_.resize(points_.size() + kTogether);
     const auto each_segment = [&](const auto& visit) {
         for (const Fibre& fibre : fibres_)
             for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p)
@@ -106,13 +108,16 @@ void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
         const double l0 = optimal_length_m_[segment];
         const double way = h * fibre.greatest_speed_hz * l0;
-        in_step_[segment] = {1 / l0, length(p), 1 / way, 0, 0, fibre.f0_n * l0};
+        in_step_.inverse_optimal[segment] = 1 / l0;
+        in_step_.start_m[segment] = length(p);
+        in_step_.inverse_way[segment] = 1 / way;
+        in_step_.stiffness[segment] = fibre.f0_n * l0;
     });
     if (&expected != &x) place_points(expected);
     each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
-        StepSegment& step = in_step_[segment];
-        step.force = fibre.f0_n * curves_.active(length(p) * step.inverse_optimal).force;
-        step.work = step.force / step.inverse_way;
+        in_step_.force[segment] =
+            fibre.f0_n * curves_.active(length(p) * in_step_.inverse_optimal[segment]).force;
+        in_step_.work[segment] = in_step_.force[segment] / in_step_.inverse_way[segment];
     });
 }
 
@@ -120,40 +125,48 @@ void FibreSet::go_on(const FibreSet& whole, std::span<const int> fibres,
                      std::span<const int> points) {
     assert(fibres.size() == fibres_.size() && points.size() == points_.size());
     step_s_ = whole.step_s_;
-    in_step_.resize(points_.size());
+    in_step_.resize(points_.size() + kTogether);
     for (std::size_t p = 0; p < points.size(); ++p) {
         const auto from = static_cast<std::size_t>(points[p]);
-        if (step_s_ > 0) in_step_[p] = whole.in_step_[from];
+        if (step_s_ > 0)
+            for (const auto column : StepSegments::kColumns)
+                (in_step_.*column)[p] = (whole.in_step_.*column)[from];
         body_place_[static_cast<int>(p)] = whole.body_place_[points[p]];
     }
     for (std::size_t f = 0; f < fibres.size(); ++f)
         fibres_[f].f0_n = whole.fibres_[static_cast<std::size_t>(fibres[f])].f0_n;
 }
 
-inline FibreSet::Pull FibreSet::at_rest(const Fibre& fibre, double a, int segment, double l) const {
-    const double l0 = optimal_length_m_[static_cast<std::size_t>(segment)];
-    const LengthCurves::Value passive = curves_.passive(l / l0);
-    const LengthCurves::Value active =
-        a == 0.0 ? LengthCurves::Value{0.0, 0.0} : curves_.active(l / l0);
-    return {fibre.f0_n * (a * active.force + passive.force),
-            fibre.f0_n * l0 * (a * active.integral + passive.integral)};
+inline FibreSet::Pulls FibreSet::at_rest(const Fibre& fibre, double a, int first, int last,
+                                         const Lanes& l) const {
+    Pulls pulls{};
+    for (int k = 0; k < std::min(kTogether, last - first); ++k) {
+        const double l0 = optimal_length_m_[static_cast<std::size_t>(first + k)];
+        const LengthCurves::Value passive = curves_.passive(l[k] / l0);
+        const LengthCurves::Value active =
+            a == 0.0 ? LengthCurves::Value{0.0, 0.0} : curves_.active(l[k] / l0);
+        pulls.tension_n[k] = fibre.f0_n * (a * active.force + passive.force);
+        pulls.energy_j[k] = fibre.f0_n * l0 * (a * active.integral + passive.integral);
+    }
+    return pulls;
 }
 
-inline FibreSet::Pull FibreSet::in_step(const Fibre& fibre, double a, int segment, double l) const {
-    const StepSegment& step = in_step_[static_cast<std::size_t>(segment)];
-    Pull pull{0.0, 0.0};
-    const double lam = l * step.inverse_optimal;
-    if (lam > 1.0) {
-        const CurveTable::Value passive = passive_table_.at(lam);
-        pull = {fibre.f0_n * passive.value, step.stiffness * passive.integral};
-    }
+inline FibreSet::Pulls FibreSet::in_step(const Fibre& fibre, double a, int first,
+                                         const Lanes& l) const {
+    const auto lanes = [first](const std::vector<double>& column) {
+        return solve::load_lanes(column.data() + first);
+    };
+    const Lanes stretch = l * lanes(in_step_.inverse_optimal);
+    const Lanes speed = (l - lanes(in_step_.start_m)) * lanes(in_step_.inverse_way);
+    // Slack is the begin of the passive curve, where it is zero
+    const CurveTable::Values passive = passive_table_.at(stretch > 1.0 ? stretch : Lanes{} + 1.0);
+    Pulls pulls{fibre.f0_n * passive.value, lanes(in_step_.stiffness) * passive.integral};
     if (a != 0.0) {
-        const CurveTable::Value velocity =
-            velocity_table_.at((l - step.start_m) * step.inverse_way);
-        pull.tension_n += a * step.force * velocity.value;
-        pull.energy_j += a * step.work * velocity.integral;
+        const CurveTable::Values velocity = velocity_table_.at(speed);
+        pulls.tension_n += a * lanes(in_step_.force) * velocity.value;
+        pulls.energy_j += a * lanes(in_step_.work) * velocity.integral;
     }
-    return pull;
+    return pulls;
 }
 
 double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
@@ -164,29 +177,40 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
     double energy = 0;
     for (const Fibre& fibre : fibres_) {
         const double a = activation[fibre.column];
-        const int begin = fibre.first_point, end = begin + fibre.point_count;
-        for (int p = begin; p < end; ++p) {
-            position_[p] = place(static_cast<std::size_t>(p));
-            force_[p] = Lanes{};
-        }
+        const int begin = fibre.first_point, last = begin + fibre.point_count - 1;
+        for (int p = begin; p <= last; ++p) position_[p] = place(static_cast<std::size_t>(p));
         bool pulls = false;
-        for (int p = begin; p < end - 1; ++p) {
-            const Lanes d = position_[p + 1] - position_[p];
-            const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-            const double l0 = optimal_length_m_[static_cast<std::size_t>(p)];
+        Lanes before{};  // what the segment before a point pulls it with
+        for (int p = begin; p < last; p += kTogether) {
+            Lanes d[kTogether], dx, dy, dz;
+            for (int k = 0; k < kTogether; ++k) d[k] = position_[p + k + 1] - position_[p + k];
+            solve::rows_to_lanes(d, dx, dy, dz);
+            const Lanes squared = dx * dx + dy * dy + dz * dz;
+            const int count = std::min(kTogether, last - p);
             // A relaxed, slack segment does nothing; most segments of most frames are that.
-            if (a == 0.0 && squared <= l0 * l0) continue;
-            const double l = std::sqrt(squared);
-            const Pull pull = step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, l);
-            energy += pull.energy_j;
-            if (!(l > 0)) continue;  // no direction to pull along
-            const Lanes along = (pull.tension_n / l) * d;
-            force_[p] -= along;
-            force_[p + 1] += along;
-            pulls = true;
+            bool acts = a != 0.0;
+            for (int k = 0; k < count && !acts; ++k) {
+                const double l0 = optimal_length_m_[static_cast<std::size_t>(p + k)];
+                acts = squared[k] > l0 * l0;
+            }
+            Lanes share{};  // of a segment that it pulls with, N/m; none without a direction
+            if (acts) {
+                const Lanes l = solve::sqrt_lanes(squared);
+                const Pulls pull =
+                    step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, last, l);
+                for (int k = 0; k < count; ++k) energy += pull.energy_j[k];
+                share = l > 0.0 ? pull.tension_n / l : Lanes{};
+                pulls = true;
+            }
+            for (int k = 0; k < count; ++k) {
+                const Lanes along = share[k] * d[k];
+                force_[p + k] = before - along;
+                before = along;
+            }
         }
+        force_[last] = before;
         if (!pulls) continue;
-        for (int p = begin; p < end; ++p) {
+        for (int p = begin; p <= last; ++p) {
             const Embedding& at = embedding_[static_cast<std::size_t>(p)];
             for (int i = 0; i < at.count; ++i) gradient_[at.nodes[i]] += at.weights[i] * force_[p];
         }

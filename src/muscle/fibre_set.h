@@ -111,12 +111,15 @@ class FibreSet {
     }
     void place_points(const Points& x) const;
     double length(int segment) const;
-    /// What a segment pulls with and its energy, J, at length l.
-    struct Pull {
-        double tension_n, energy_j;
+    static constexpr int kTogether =
+        solve::LanesOf<double>::kWidth;  ///< segments worked out at once
+    /// What segments pull with and their energy, J.
+    struct Pulls {
+        solve::Lanes tension_n, energy_j;
     };
-    Pull at_rest(const Fibre& fibre, double a, int segment, double l) const;
-    Pull in_step(const Fibre& fibre, double a, int segment, double l) const;
+    /// Those of the segments from `first` on, of lengths l; at rest only those before `last`.
+    Pulls at_rest(const Fibre& fibre, double a, int first, int last, const solve::Lanes& l) const;
+    Pulls in_step(const Fibre& fibre, double a, int first, const solve::Lanes& l) const;
 
     std::vector<FibrePoint> points_;
     std::vector<Fibre> fibres_;
@@ -125,15 +128,22 @@ class FibreSet {
     CurveTable velocity_table_, passive_table_;  ///< of steps
     std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at a point
     double step_s_ = 0;                          ///< h, 0 at rest
-    struct StepSegment {
-        double inverse_optimal;  ///< 1 / l0
-        double start_m;          ///< l_n
-        double inverse_way;      ///< 1 / (h vmax l0)
-        double force;            ///< F0 fl(lam_n)
-        double work;             ///< that times h vmax l0
-        double stiffness;        ///< F0 l0
+    /// Columns, one number per point: that of the segment that begins there; kTogether more, so that they are read together.
+    struct StepSegments {
+        std::vector<double> inverse_optimal;  ///< 1 / l0
+        std::vector<double> start_m;          ///< l_n
+        std::vector<double> inverse_way;      ///< 1 / (h vmax l0)
+        std::vector<double> force;            ///< F0 fl(lam_n)
+        std::vector<double> work;             ///< that times h vmax l0
+        std::vector<double> stiffness;        ///< F0 l0
+        static constexpr std::vector<double> StepSegments::*kColumns[] = {
+            &StepSegments::inverse_optimal, &StepSegments::start_m, &StepSegments::inverse_way,
+            &StepSegments::force,           &StepSegments::work,    &StepSegments::stiffness};
+        void resize(std::size_t count) {
+            for (const auto column : kColumns) (this->*column).resize(count);
+        }
     };
-    std::vector<StepSegment> in_step_;  ///< likewise
+    StepSegments in_step_;
     std::vector<Embedding> embedding_;
     solve::PaddedPoints body_place_;            ///< of points that ride on bodies; the others: 0
     mutable solve::PaddedPoints x_, gradient_;  ///< nodes

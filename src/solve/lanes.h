@@ -60,16 +60,24 @@ inline FloatLanes sqrt_lanes(const FloatLanes& a) {
 #endif
 }
 
+/// Four rows to their columns.
+inline void transpose(const Lanes (&r)[4], Lanes& c0, Lanes& c1, Lanes& c2, Lanes& c3) {
+    const Lanes a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6);
+    const Lanes b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+    const Lanes c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6);
+    const Lanes d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+    c0 = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+    c1 = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    c2 = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    c3 = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
 /// Rows (x y z -) of four points to their x, y and z lanes.
 inline void rows_to_lanes(const Lanes& r0, const Lanes& r1, const Lanes& r2, const Lanes& r3,
                           Lanes& x, Lanes& y, Lanes& z) {
-    const Lanes a = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);
-    const Lanes b = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
-    const Lanes c = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);
-    const Lanes d = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
-    x = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-    y = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-    z = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    const Lanes rows[4] = {r0, r1, r2, r3};
+    Lanes rest;
+    transpose(rows, x, y, z, rest);
 }
 
 /// The other way round; the fourth column is zero.
