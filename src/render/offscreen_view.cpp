@@ -29,6 +29,7 @@
 #include "render/detail/skin_layer.h"
 #include "render/detail/skin_paint.h"
 #include "render/detail/skin_texture.h"
+#include "render/detail/socket_layer.h"
 #include "render/detail/strand_layer.h"
 #include "render/detail/tear_layer.h"
 #include "render/detail/texture_square.h"
@@ -153,6 +154,7 @@ struct OffscreenView::Impl {
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
+        sockets = std::make_unique<SocketLayer>(scene, marks);
         tears = std::make_unique<TearLayer>(scene);
         buffers->bind();
         shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene, *buffers,
@@ -257,6 +259,7 @@ struct OffscreenView::Impl {
         materials.reset();
         hair.reset();
         tears.reset();
+        sockets.reset();
         shells.reset();
         muscles.reset();
         bones.reset();
@@ -281,6 +284,7 @@ struct OffscreenView::Impl {
             }
         }
         materials->done();
+        sockets->draw();
         buffers->bind();
         shells->draw();
         tears->draw();
@@ -307,6 +311,7 @@ struct OffscreenView::Impl {
                 if (!shells->empty()) marked.mark_all();
                 hair->mark(clip, marked);
                 tears->mark(clip, marked);
+                sockets->mark(clip, marked);
             });
         }
         picture.set_viewport(tile);
@@ -356,6 +361,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<BoneLayer> bones;      ///< likewise
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
+    std::unique_ptr<SocketLayer> sockets;
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
     std::unique_ptr<Lights> lights;
@@ -403,6 +409,7 @@ Image OffscreenView::draw(const Pose& pose) {
     if (view.bones) view.bones->upload(pose);
     view.hair->upload(pose, view.marks);
     view.tears->upload(pose, view.marks);
+    view.sockets->upload(pose, view.marks);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));

@@ -14,7 +14,12 @@ std::vector<Vec3> loop_points(const std::map<std::string, std::vector<LoopPoint>
     const auto found = loops.find(name);
     if (found == loops.end()) throw Error("design loops", "a loop named " + name, "none");
     std::vector<std::pair<double, Vec3>> through;
-    for (const LoopPoint& p : found->second) through.emplace_back(place(p.place), p.point);
+    for (const LoopPoint& p : found->second)
+        through.emplace_back(std::fmod(place(p.place), count), p.point);
+    std::rotate(through.begin(),
+                std::min_element(through.begin(), through.end(),
+                                 [](const auto& a, const auto& b) { return a.first < b.first; }),
+                through.end());
     return curve_points(through, count, true);
 }
 
@@ -103,12 +108,15 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
              const HeadSurface& head) {
     constexpr int kRows = 20, kAcross = 6, kLoop = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
-    // The tables count 36 places, 12 along each long side; the mesh has 20 there.
+    // The tables count 36 places, 12 along each long side. The mesh has its 52 where the outline is long or bends: along the front,
+    // around the lobe, up the back, over the top. They begin after the corner of the block, so that none turns far.
+    constexpr double kFront = 14, kLobe = 9, kBack = 17, kTop = kLoop - kFront - kLobe - kBack,
+                     kBegin = 3;
     const auto place = [](double p) {
-        if (p <= 12) return p * kRows / 12;
-        if (p <= 18) return kRows + (p - 12);
-        if (p <= 30) return kRows + kAcross + (p - 18) * kRows / 12;
-        return 2.0 * kRows + kAcross + (p - 30);
+        if (p <= 12) return kBegin + p * kFront / 12;
+        if (p <= 18) return kBegin + kFront + (p - 12) * kLobe / 6;
+        if (p <= 30) return kBegin + kFront + kLobe + (p - 18) * kBack / 12;
+        return kBegin + kFront + kLobe + kBack + (p - 30) * kTop / 6;
     };
     const Vec3 origin(71, -2, -7);
     const Vec3 up = Vec3(0.05, 0.985, -0.16).normalized();
@@ -131,9 +139,10 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         return in_frame(p);
     };
     // In front the ear grows out of the cheek: there its first loops lie on the head.
-    const auto attached = [](int k) {
-        constexpr double kFrom = 2, kTo = kRows + 0.5, kSoft = 2;
-        return std::clamp(std::min(k - kFrom, kTo - k) / kSoft, 0.0, 1.0);
+    const auto attached = [&](int k) {
+        const double from = place(1.2), to = place(12.6);
+        constexpr double kSoft = 2;
+        return std::clamp(std::min(k - from, to - k) / kSoft, 0.0, 1.0);
     };
     std::vector<Vec3> behind = named("behind"), edge = named("outline");
     const std::vector<Vec3> inner = named("inner");

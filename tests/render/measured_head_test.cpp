@@ -160,6 +160,15 @@ TEST_F(MeasuredHeadTest, HasRedLipsDarkNostrilsAndBrowsDarkerThanTheForehead) {
     EXPECT_LT(darkest, 0.4 * cheek[1]);
 }
 
+TEST_F(MeasuredHeadTest, LipsTuckIntoShadeAtTheCornersOfTheMouth) {
+    OffscreenView view(head_.scene, {.width_px = 512, .height_px = 512});
+    const Image image = view.draw(pose_);
+    const Vec3 corner = head_.scene.landmarks.at("ch_r");
+    const auto beside = mean_colour(image, view, corner + Vec3(-0.0015, 0, 0), 1),
+               farther = mean_colour(image, view, corner + Vec3(-0.010, 0, 0), 1);
+    EXPECT_LT(beside[1], 0.74 * farther[1]);
+}
+
 TEST_F(MeasuredHeadTest, ShowsItsMouthDarkWhenTheJawOpens) {
     OffscreenView view(head_.scene, {.width_px = 512, .height_px = 512});
     const Vec3 gap = head_.scene.landmarks.at("sto") + Vec3(0, -0.012, 0);

@@ -41,6 +41,38 @@ TEST_F(RoundHeadLooks, LipsAreRedderThanTheCheek) {
               1.08 * redness(RoundHead::on_skin(-0.045, -0.035)));
 }
 
+TEST_F(RoundHeadLooks, NobodySeesThroughTheHeadPastAnEye) {
+    // Skin stands 16 mm off the axis of the left eye, whose ball has 12.
+    RoundHead head;
+    const Eye& eye = head.scene.eyes[0];
+    Triangles& skin = head.scene.surfaces[0].triangles;
+    long kept = 0;
+    for (long f = 0; f < skin.rows(); ++f) {
+        Vec3 middle = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) middle += head.scene.rest.row(skin(f, k)).transpose() / 3;
+        if (middle.z() < 0 || (middle - eye.centre).head<2>().norm() > 0.016)
+            skin.row(kept++) = skin.row(f);
+    }
+    skin.conservativeResize(kept, 3);
+    ViewOptions options = large();
+    options.background.transparent = true;
+    const auto beside_the_ball = [&] {
+        OffscreenView view(head.scene, options);
+        const Image image = view.draw(head.pose);
+        const Vec2 p = view.project(eye.centre - Vec3(0, 1.1 * eye.radius_m, 0));
+        const std::uint8_t* pixel = image.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()));
+        return std::array<int, 2>{pixel[3], pixel[0] + pixel[1] + pixel[2]};
+    };
+    EXPECT_EQ(beside_the_ball()[0], 0) << "without lids nobody knows where the eye is open to";
+    head.scene.landmarks["en_l"] = RoundHead::on_skin(0.014, 0.02);
+    head.scene.landmarks["ex_l"] = RoundHead::on_skin(0.046, 0.02);
+    head.scene.landmarks["ps_l"] = RoundHead::on_skin(0.03, 0.036);
+    head.scene.landmarks["pi_l"] = RoundHead::on_skin(0.03, 0.004);
+    const auto [opacity, sum] = beside_the_ball();
+    EXPECT_EQ(opacity, 255);
+    EXPECT_LT(sum, 3 * 60) << "it is dark in there";
+}
+
 TEST_F(RoundHeadLooks, HairOfSomeLengthStandsOffTheScalpAndOnlyThere) {
     RoundHead head;
     head.scene.landmarks["tr"] = RoundHead::on_skin(0, 0.06);

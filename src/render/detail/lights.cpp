@@ -8,8 +8,14 @@ namespace {
 
 constexpr int kShadowSide = 1024;
 constexpr int kLow_px = 640;  ///< pictures whose pixels are wider than places of half a shadow map
+constexpr double kClose_m = 0.12e-3;  ///< pixels of close-ups, which would show places of the map
 constexpr double kShadowReachPerFrame =
     0.62;  ///< half width of the map over the height of the frame
+
+int shadow_side(const Camera& camera, int height_px, bool draft) {
+    if (draft || height_px <= kLow_px) return kShadowSide / 2;
+    return camera.frame_height_m < kClose_m * height_px ? 2 * kShadowSide : kShadowSide;
+}
 
 void put(float* to, const Vec3& v) {
     for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
@@ -21,7 +27,7 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
                int height_px, bool draft)
     : program_("shadow", depth_vertex_shader(), ""),
       clip_location_(program_.location("clip_from_world")),
-      shadow_side_(draft || height_px <= kLow_px ? kShadowSide / 2 : kShadowSide) {
+      shadow_side_(shadow_side(camera, height_px, draft)) {
     const LightPlan plan = plan_light(options, camera.azimuth_rad);
     const Vec3 exposure = exposure_for(plan, options.exposure_ev), key = plan.key.direction;
     shadow_ = plan.key.card.maxCoeff() > 0;
@@ -57,8 +63,9 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
     glGenTextures(1, &shadow_map_);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, shadow_side_, shadow_side_);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const GLint filter = shadow_side_ > kShadowSide ? GL_LINEAR : GL_NEAREST;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -74,9 +74,16 @@ constexpr const char* kWindow = R"(
 // The key as the eye mirrors it: photographers add a low lamp so that the catchlight stays clear of the upper lid.
 vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.32, 0.0)); }
 
-// A large soft lamp mirrored in the tear film: a disc whose edge falls off over a few degrees.
-float window_light(vec3 back, vec3 l, float edge) {
-    return 0.85 * smoothstep(edge, edge + 0.022, dot(back, l));
+// A soft box mirrored in the tear film: higher than wide, with round corners, brightest above its middle, dimmer towards its
+// edges, which fall off over some degrees.
+float window_light(vec3 back, vec3 l) {
+    vec3 right = normalize(vec3(l.z, 0.0, -l.x) + vec3(1e-4, 0.0, 0.0));
+    float ahead = max(dot(back, l), 0.05);
+    vec2 at = vec2(dot(back, right), dot(back, cross(l, right))) / (ahead * vec2(0.20, 0.26));
+    vec2 corner = max(abs(at) - 0.35, 0.0);
+    float edge = length(corner) / 0.65;
+    vec2 off = at - vec2(0.0, 0.25);
+    return smoothstep(1.20, 0.60, edge) * (0.62 - 0.34 * min(dot(off, off), 1.3));
 }
 
 // The furrow around the cornea is too narrow to show a lamp of its own.
@@ -85,8 +92,11 @@ float off_furrow(float r) { return 1.0 - 0.9 * smoothstep(0.86, 0.94, r) * smoot
 // What the tear film mirrors, where `open` of it sees the room.
 vec3 wet_gloss(vec3 n, vec3 v, float open) {
     vec3 back = reflect(-v, n);
-    vec3 gloss = key_card.rgb * sqrt(open) * window_light(back, catchlight(), 0.957);
-    gloss += fill_card.rgb * open * 0.5 * window_light(back, fill_direction.xyz, 0.950);
+    vec3 gloss = key_card.rgb * sqrt(open) * window_light(back, catchlight());
+    // The fill is a wall that throws light back: it has no edge.
+    float wall = max(dot(back, fill_direction.xyz), 0.0);
+    wall *= wall;
+    gloss += fill_card.rgb * (open * 0.10 * wall * wall);
     return gloss + open * mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.08, 0.025) * mirrored(back, 0.0);
 }
 )";
@@ -156,7 +166,7 @@ void main() {
     vec3 light = key_card.rgb * s * scattered(dot(flat_n, k), vec3(0.40, 0.33, 0.28)) + soft * open;
     vec3 c = albedo * light;
 
-    // Wet surface: a window of the key, one of the fill, and the surroundings
+    // Wet surface: the soft box of the key, the glow of the fill, and the surroundings
     if (!separate_cornea) c += wet_gloss(wet, v, open * off_furrow(surface_r));
     colour = vec4(shown(c), 1.0);
 }

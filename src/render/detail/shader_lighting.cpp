@@ -90,7 +90,7 @@ layout(binding = 0) uniform sampler2DShadow shadow_map;
 // Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself.
 float key_visibility(vec3 p, vec3 n) {
     float texel = mouth_axis.w;
-    vec3 c = (shadow_from_world * vec4(p + n * (2.5 * texel), 1.0)).xyz;
+    vec3 c = (shadow_from_world * vec4(p + n * max(2.5 * texel, 0.0007), 1.0)).xyz;   // what throws it is coarse
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);

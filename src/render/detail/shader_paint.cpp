@@ -117,6 +117,7 @@ void main() {
         float fold = noise(vec3(p.x * 1.1, p.y * 0.22, p.z * 0.22)) - 0.5;
         float rim = exp(-d * d / 1.4e-6);      // the pale roll of the border
         vec3 red = mix(lip_tone, skin_tone, 0.45 * age) * (1.0 + 0.16 * fold) * mix(vec3(1.10, 1.16, 1.16), vec3(0.94, 0.84, 0.84), smoothstep(-0.0005, -0.006, d));
+        red *= exp(min(zone_sum.rgb + vec3(0.05, 0.10, 0.10), 0.0));   // what is in the shade of the corners of the mouth
         albedo = mix(albedo * (1.0 + 0.05 * rim), red, lip * 0.92);
         oil = mix(oil, 0.80, lip);
     }

@@ -86,6 +86,8 @@ std::string strand_vertex_shader();
 std::string strand_shader();
 std::string shell_vertex_shader();
 std::string shell_shader();
+std::string socket_vertex_shader();
+std::string socket_shader();
 std::string tear_vertex_shader();
 std::string tear_shader();
 std::string object_vertex_shader();  ///< of ObjectView, which has its own lights

@@ -181,17 +181,24 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
 }
 
 GLuint make_pores(unsigned seed) {
-    constexpr int kSide = 256;  // of a 20 mm tile
-    constexpr int kPores = 1500;
+    constexpr int kSide = 512;  // of a 20 mm tile
+    constexpr int kPores = 5200;
     constexpr auto kCount = static_cast<std::size_t>(kSide) * kSide;
     std::vector<float> height(kCount, 0.0F);
     StrokeRandom random(seed * 7919U + 17U);
     const auto wrap = [](int i) { return static_cast<std::size_t>((i + 4 * kSide) % kSide); };
 
-    // Pits, about a hundredth of a square millimetre each, and the gentle lattice between them
+    // Pits of some hundredths of a square millimetre at most, many small and few large, closer together in some places than in
+    // others, and the gentle lattice between them
+    const auto crowded = [](double x, double y) {
+        const double u = 2 * std::numbers::pi * x / kSide, v = 2 * std::numbers::pi * y / kSide;
+        return 0.60 + 0.20 * std::sin(2 * u + std::sin(v)) + 0.20 * std::sin(3 * v - u + 1.0);
+    };
     for (int i = 0; i < kPores; ++i) {
         const double cx = random.next() * kSide, cy = random.next() * kSide;
-        const double radius = 1.6 + 2.2 * random.next(), depth = 0.5 + 0.7 * random.next();
+        const double large = std::pow(random.next(), 3.0), shallow = random.next();
+        if (random.next() > crowded(cx, cy)) continue;
+        const double radius = 1.7 + 3.6 * large, depth = (0.35 + 0.75 * shallow) * (1 + large);
         const int reach = static_cast<int>(3 * radius);
         for (int dy = -reach; dy <= reach; ++dy)
             for (int dx = -reach; dx <= reach; ++dx) {
@@ -212,7 +219,7 @@ GLuint make_pores(unsigned seed) {
     GLuint texture = 0;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
-    glTexStorage2D(GL_TEXTURE_2D, 9, GL_RG8, kSide, kSide);
+    glTexStorage2D(GL_TEXTURE_2D, 10, GL_RG8, kSide, kSide);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RG, GL_UNSIGNED_BYTE, slopes.data());
     glGenerateMipmap(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
