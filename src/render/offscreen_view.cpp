@@ -39,7 +39,8 @@ namespace risorius::render {
 namespace {
 
 // What drawn skin and eyes may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
-constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2;
+constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2,
+                 kCoarseMovedSamples = 0.2;
 
 ViewOptions checked(ViewOptions options) {
     check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
@@ -173,8 +174,9 @@ struct OffscreenView::Impl {
         const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
                                      : skin_layer ? Materials::Skin::kLayer
                                                   : Materials::Skin::kPlain;
-        materials =
-            std::make_unique<Materials>(scene, *buffers, skin, options.draft, muscles.get());
+        materials = std::make_unique<Materials>(
+            scene, *buffers, skin, options.draft,
+            camera.frame_height_m / (options.height_px * shaded), muscles.get());
         lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
                                           options.draft);
         target = std::make_unique<Framebuffer>(
@@ -203,8 +205,11 @@ struct OffscreenView::Impl {
     Coarseness coarseness() const {
         if (options.deep || looks_inside()) return {};
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        return {kCoarseSamples * sample_m, kCoarseShadow_m, kCoarseEyeSamples * sample_m,
-                !options.draft};
+        return {.seen_m = kCoarseSamples * sample_m,
+                .shadow_m = kCoarseShadow_m,
+                .eyes_m = kCoarseEyeSamples * sample_m,
+                .moved_m = kCoarseMovedSamples * sample_m,
+                .keeps_folds = !options.draft};
     }
 
     std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+
+#include "render/detail/shaders.h"
 
 namespace risorius::render {
 namespace {
@@ -91,7 +94,24 @@ TEST(CoarserFaces, AreTheSameWithoutAnErrorOrAMouth) {
               sheet.faces);
     Scene scene;
     scene.rest = sheet.rest;
-    EXPECT_EQ(coarser_faces(sheet.rest, sheet.faces, 1e-3, much_moved(scene, true)), sheet.faces);
+    EXPECT_EQ(coarser_faces(sheet.rest, sheet.faces, 1e-3, much_moved(scene)), sheet.faces);
+}
+
+TEST(CoarserFaces, SkinThatMayWrinkleIsToldOnlyWhenWanted) {
+    const Sheet sheet;
+    Scene scene;
+    scene.rest = sheet.rest;
+    EXPECT_FALSE(may_fold(scene, true)(sheet.faces[0]));
+    scene.fold_phase = Points::Zero(sheet.rest.rows(), 3);
+    scene.fold_phase(sheet.faces[0][1], 2) = 0.5;
+    EXPECT_TRUE(may_fold(scene, true)(sheet.faces[0]));
+    EXPECT_FALSE(may_fold(scene, true)(sheet.faces.back()));
+    EXPECT_FALSE(may_fold(scene, false)(sheet.faces[0]));
+}
+
+TEST(SkinRelief, WithoutPoresTheirMapIsNotLookedUp) {
+    EXPECT_NE(skin_layer_shader({.pores = true}).find("pore_map"), std::string::npos);
+    EXPECT_EQ(skin_layer_shader({.pores = false}).find("pore_map"), std::string::npos);
 }
 
 }  // namespace

@@ -37,23 +37,28 @@ std::vector<Face> coarser_faces(const Points& rest, const std::vector<Face>& fac
     return out;
 }
 
-std::function<bool(const Face&)> much_moved(const Scene& scene, bool folds) {
+std::function<bool(const Face&)> much_moved(const Scene& scene) {
     const auto left = scene.landmarks.find("ch_l"), right = scene.landmarks.find("ch_r");
     if (left == scene.landmarks.end() || right == scene.landmarks.end())
         return [](const Face&) { return true; };
     const Vec3 mouth = 0.5 * (left->second + right->second);
     const double reach = kAroundMouth * 0.5 * (left->second - right->second).norm();
-    const bool look_for_folds = folds && scene.fold_phase.rows() > 0;
-    return [&scene, mouth, reach, look_for_folds](const Face& face) {
+    return [&scene, mouth, reach](const Face& face) {
         return std::any_of(face.begin(), face.end(), [&](int v) {
             const Vec3 p = scene.rest.row(v).transpose();
             return (p - mouth).norm() < reach ||
-                   std::any_of(scene.eyes.begin(), scene.eyes.end(),
-                               [&](const Eye& eye) {
-                                   return (p - eye.centre).norm() < kAroundEye * eye.radius_m;
-                               }) ||
-                   (look_for_folds && !scene.fold_phase.row(v).isZero(0.0));
+                   std::any_of(scene.eyes.begin(), scene.eyes.end(), [&](const Eye& eye) {
+                       return (p - eye.centre).norm() < kAroundEye * eye.radius_m;
+                   });
         });
+    };
+}
+
+std::function<bool(const Face&)> may_fold(const Scene& scene, bool wanted) {
+    if (!wanted || scene.fold_phase.rows() == 0) return [](const Face&) { return false; };
+    return [&scene](const Face& face) {
+        return std::any_of(face.begin(), face.end(),
+                           [&](int v) { return !scene.fold_phase.row(v).isZero(0.0); });
     };
 }
 

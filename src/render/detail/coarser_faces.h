@@ -12,6 +12,7 @@ namespace risorius::render {
 /// How far drawn skin and eyes may be from the scene's, m; 0: not at all.
 struct Coarseness {
     double seen_m = 0, shadow_m = 0, eyes_m = 0;
+    double moved_m = 0;       ///< where skin is much_moved()
     bool keeps_folds = true;  ///< skin that may wrinkle stays as it is: its wrinkles are drawn
 };
 
@@ -20,8 +21,10 @@ struct Coarseness {
 std::vector<Face> coarser_faces(const Points& rest, const std::vector<Face>& faces, double error_m,
                                 const std::function<bool(const Face&)>& stays);
 
-/// Whether poses bend, open or roll up the skin of a face: around eyes and mouth, and if `folds`, where it may wrinkle.
-/// Everywhere, when the scene does not say where its mouth is.
-std::function<bool(const Face&)> much_moved(const Scene& scene, bool folds);
+/// Whether poses bend, open or roll up the skin of a face: around eyes and mouth. Everywhere, when the scene does not say where
+/// its mouth is.
+std::function<bool(const Face&)> much_moved(const Scene& scene);
+/// Whether skin may wrinkle, if `wanted`.
+std::function<bool(const Face&)> may_fold(const Scene& scene, bool wanted);
 
 }  // namespace risorius::render

@@ -9,12 +9,13 @@
 namespace risorius::render {
 namespace {
 
-std::string fragment_shader(Material material, Materials::Skin skin, bool folds, bool own) {
+std::string fragment_shader(Material material, Materials::Skin skin, const SkinRelief& relief,
+                            bool own) {
     switch (material) {
         case Material::kSkin:
-            return skin == Materials::Skin::kVeil    ? veil_shader(folds)
-                   : skin == Materials::Skin::kLayer ? skin_layer_shader(folds)
-                                                     : skin_shader(folds);
+            return skin == Materials::Skin::kVeil    ? veil_shader(relief)
+                   : skin == Materials::Skin::kLayer ? skin_layer_shader(relief)
+                                                     : skin_shader(relief);
         case Material::kEye:
             return eye_shader(own);
         case Material::kCornea:
@@ -39,6 +40,7 @@ bool inside_mouth(Material material) {
 }
 
 constexpr double kSkinRoughness = 0.52;
+constexpr double kPore_m = 0.5e-3;  ///< with its rim: wider samples show their mean, which is flat
 
 // Linear albedo of the mucosa
 const Vec3 kGums(0.42, 0.12, 0.11), kTongue(0.38, 0.10, 0.09), kMouth(0.24, 0.045, 0.04);
@@ -111,9 +113,10 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
                                                    const MuscleLayer* muscles) const {
     const std::string name = "material " + std::to_string(static_cast<int>(material));
     const bool draft = draft_ && material == Material::kSkin;
-    auto program = std::make_unique<GlProgram>(name, surface_vertex_shader(folds, draft),
-                                               draft ? draft_skin_shader(how == Skin::kLayer)
-                                                     : fragment_shader(material, how, folds, own));
+    auto program = std::make_unique<GlProgram>(
+        name, surface_vertex_shader(folds, draft),
+        draft ? draft_skin_shader(how == Skin::kLayer)
+              : fragment_shader(material, how, {.folds = folds, .pores = pores_}, own));
     program->use();
     if (muscles && material == Material::kSkin) {
         muscles->tell(*program);
@@ -144,8 +147,11 @@ std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material 
 }
 
 Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-                     const MuscleLayer* muscles)
-    : eyes_(scene.eyes), look_(scene.look), draft_(draft && skin != Skin::kVeil) {
+                     double shaded_m, const MuscleLayer* muscles)
+    : eyes_(scene.eyes),
+      look_(scene.look),
+      draft_(draft && skin != Skin::kVeil),
+      pores_(shaded_m < kPore_m) {
     for (const Batch& batch : buffers.batches()) {
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;

@@ -21,9 +21,9 @@ class Materials {
         kVeil,
         kLayer
     };  ///< by itself, over `muscles`, for others to look up
-    /// `draft`: skin that is not a veil is lit at its vertices.
+    /// `draft`: skin that is not a veil is lit at its vertices. `shaded_m`: between places where skin is shaded.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-              const MuscleLayer* muscles);
+              double shaded_m, const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
@@ -47,7 +47,7 @@ class Materials {
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};
     Look look_;
-    bool draft_;
+    bool draft_, pores_;
 };
 
 }  // namespace risorius::render

@@ -38,10 +38,16 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
     }
     if (faces.empty()) return;
     bool cull = false;
+    // Where poses bend the skin, a second time and by less; wrinkles need all of it.
+    const std::function<bool(const Face&)> bent = much_moved(scene),
+                                           folds = may_fold(scene, coarseness.keeps_folds);
+    const auto stays_when_moved = [&](const Face& face) { return !bent(face) || folds(face); };
     const auto coarse = [&](double error_m, const std::function<bool(const Face&)>& stays) {
         std::vector<unsigned> corners;
         if (error_m <= 0) return corners;
         std::vector<Face> fewer = coarser_faces(scene.rest, faces, error_m, stays);
+        if (material == Material::kSkin)
+            fewer = coarser_faces(scene.rest, fewer, coarseness.moved_m, stays_when_moved);
         order_for_drawing(scene.rest, camera, fewer);
         for (const Face& face : fewer)
             for (const int v : face) corners.push_back(static_cast<unsigned>(v));
@@ -49,8 +55,8 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
     };
     if (material == Material::kSkin) {
         cull = is_wound_outwards(scene.rest, faces, paint_centre);
-        coarse_skin_ = {coarse(coarseness.seen_m, much_moved(scene, coarseness.keeps_folds)),
-                        coarse(coarseness.shadow_m, much_moved(scene, false))};
+        const auto moved = [&](const Face& face) { return bent(face) || folds(face); };
+        coarse_skin_ = {coarse(coarseness.seen_m, moved), coarse(coarseness.shadow_m, bent)};
     } else if (material == Material::kEye || material == Material::kTeeth) {
         wind_outwards(scene.rest, faces);
         cull = true;

@@ -66,6 +66,7 @@ vec3 bent_by_pores(vec3 n, float oil) {
     return n - slope.x * t - slope.y * cross(n, t);
 }
 )";
+constexpr const char* kNoPores = "vec3 bent_by_pores(vec3 n, float oil) { return n; }\n";
 // Wrinkles: height A d P(f) over the skin, P = sqrt(sin^2(pi f) + r^2) and d of each line as in sim/wrinkles.cpp, so that
 // valleys are narrow and ridges round; with A < 0 ridges are narrow. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
 // (Mikkelsen 2010, Bump Mapping Unparametrized Surfaces); folds finer than two samples fade out.
@@ -186,25 +187,26 @@ vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, flo
 }
 )";
 
-std::string skin_with(bool folds, const std::string& told) {
-    return std::string(kInputs) + (folds ? kFolds : kNoFolds) + kPores + told + kSkin;
+std::string skin_with(const SkinRelief& relief, const std::string& told) {
+    return std::string(kInputs) + (relief.folds ? kFolds : kNoFolds) +
+           (relief.pores ? kPores : kNoPores) + told + kSkin;
 }
 
 }  // namespace
 
-std::string skin_shader(bool folds) {
-    return lighting_chunk() + kOpaque + skin_with(folds, kCovered);
+std::string skin_shader(const SkinRelief& relief) {
+    return lighting_chunk() + kOpaque + skin_with(relief, kCovered);
 }
-std::string skin_layer_shader(bool folds) {
-    return lighting_chunk() + kOpaque + skin_with(folds, turns_chunk() + kAway);
+std::string skin_layer_shader(const SkinRelief& relief) {
+    return lighting_chunk() + kOpaque + skin_with(relief, turns_chunk() + kAway);
 }
 std::string draft_skin_shader(bool layer) {
     return frame_chunk() + lights_chunk() + "in vec3 position;\n" +
            (layer ? turns_chunk() + kAway : kCovered) + kDraft;
 }
-std::string veil_shader(bool folds) {
+std::string veil_shader(const SkinRelief& relief) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +
-           kTranslucent + skin_with(folds, kCovered);
+           kTranslucent + skin_with(relief, kCovered);
 }
 
 }  // namespace risorius::render

@@ -53,14 +53,21 @@ constexpr double kSkinOverMuscles = 0.16;
 /// For every material; `key`: with the light of the key lamp, for draft_skin_shader.
 std::string surface_vertex_shader(bool folds = false, bool key = false);
 std::string depth_vertex_shader();  ///< shadow map and occlusion
-std::string skin_shader(bool folds);
-std::string skin_layer_shader(bool folds);  ///< of the skin shaded for others to look up
+/// What of the skin's relief is drawn that is finer than the mesh.
+struct SkinRelief {
+    bool folds = false;
+    bool pores = true;
+};
+std::string skin_shader(const SkinRelief& relief);
+std::string skin_layer_shader(
+    const SkinRelief& relief);              ///< of the skin shaded for others to look up
 std::string draft_skin_shader(bool layer);  ///< lit at its vertices, without pores and wrinkles
 std::string clear_vertex_shader();
 std::string clear_shader();
 std::string lookup_vertex_shader();
-std::string lookup_shader();          ///< and of those
-std::string veil_shader(bool folds);  ///< of the skin over the muscles, which shine through
+std::string lookup_shader();  ///< and of those
+std::string veil_shader(
+    const SkinRelief& relief);  ///< of the skin over the muscles, which shine through
 std::string values_vertex_shader();
 std::string values_shader();  ///< of the skin when it shows a quantity
 std::string muscle_vertex_shader();
