@@ -258,8 +258,9 @@ Eigen::VectorXd FibreSet::mean_stretch(const Points& x) const {
 
 Points FibreSet::positions(const Points& x) const {
     place_points(x);
-    Points positions = Points::Zero(static_cast<Eigen::Index>(points_.size()), 3);
-    position_.add_to(positions);
+    Points positions(static_cast<Eigen::Index>(points_.size()), 3);
+    for (int p = 0; p < static_cast<int>(points_.size()); ++p)
+        for (int c = 0; c < 3; ++c) positions(p, c) = position_[p][c];
     return positions;
 }
 
