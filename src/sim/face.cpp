@@ -111,7 +111,7 @@ struct Face::Impl {
           lids{EyeLids(head, 0, rig.eyes.lid_closed_share),
                EyeLids(head, 1, rig.eyes.lid_closed_share)},
           jaw(head, rig.jaw),
-          shell(build_shell(head, jaw, lids, {q.shell_vertices})),
+          shell(borne_by_tissue(build_shell(head, jaw, lids, {q.shell_vertices}), head, rig, lids)),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
           driven_jaw(head, rig, jaw),

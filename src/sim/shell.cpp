@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -314,6 +315,66 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     }
     shell.over_bite_m = bite_heights(head, jaw, shell);
     return shell;
+}
+
+Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone) {
+    const int count = static_cast<int>(shell.vertex.size());
+    const auto stays = [&](long f) {
+        return !gone[shell.triangles(f, 0)] && !gone[shell.triangles(f, 1)] &&
+               !gone[shell.triangles(f, 2)];
+    };
+    std::vector<char> held(static_cast<std::size_t>(count), 0);
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        if (stays(f))
+            for (int k = 0; k < 3; ++k) held[shell.triangles(f, k)] = 1;
+    std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(count));
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            for (int step : {1, 2})
+                neighbours[shell.triangles(f, k)].push_back(shell.triangles(f, (k + step) % 3));
+
+    Shell out = shell;
+    out.vertex.clear();
+    out.fixed.clear();
+    out.over_bite_m.clear();
+    out.mirrored.clear();
+    std::vector<int> index(static_cast<std::size_t>(count), -1);
+    for (int v = 0; v < count; ++v) {
+        if (!held[v]) continue;
+        index[v] = static_cast<int>(out.vertex.size());
+        out.vertex.push_back(shell.vertex[v]);
+        out.fixed.push_back(shell.fixed[v]);
+        out.over_bite_m.push_back(shell.over_bite_m[v]);
+    }
+    if (!shell.mirrored.empty())
+        for (int v = 0; v < count; ++v)
+            if (held[v]) out.mirrored.push_back(index[shell.mirrored[v]]);
+    const auto nearest = [&](int v) {
+        double least = std::numeric_limits<double>::infinity();
+        int best = -1;
+        for (int w : neighbours[v]) {
+            const double squared =
+                (head.vertices.row(shell.vertex[w]) - head.vertices.row(shell.vertex[v]))
+                    .squaredNorm();
+            if (!held[w] || squared >= least) continue;
+            least = squared;
+            best = w;
+        }
+        return best;
+    };
+    std::vector<int> home = index;
+    for (int v = 0; v < count; ++v)
+        if (const int w = held[v] ? -1 : nearest(v); w >= 0) home[v] = index[w];
+    for (int& to : out.collapsed_to)
+        if (to >= 0) to = home[to];
+    long rows = 0;
+    for (long f = 0; f < shell.triangles.rows(); ++f) {
+        if (!stays(f)) continue;
+        for (int k = 0; k < 3; ++k) out.triangles(rows, k) = index[shell.triangles(f, k)];
+        ++rows;
+    }
+    out.triangles.conservativeResize(rows, 3);
+    return out;
 }
 
 }  // namespace risorius::sim

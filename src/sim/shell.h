@@ -35,6 +35,10 @@ struct Shell {
 Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
                   const ShellOptions& options);
 
+/// The shell without the vertices that are flagged, N, and their faces. What had collapsed to one of them belongs to its nearest
+/// neighbour that stays; a vertex that loses its last face goes too.
+Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone);
+
 /// The line between the lips, corner to corner, from landmarks.
 std::vector<Vec3> lip_line(const rig::Head& head);
 

@@ -195,4 +195,16 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
     return mesh;
 }
 
+Shell borne_by_tissue(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
+                      const std::array<EyeLids, 2>& lids) {
+    while (true) {
+        const TissueMesh mesh = build_tissue_mesh(head, rig, shell, lids);
+        std::vector<char> bare(shell.vertex.size(), 1);
+        for (int node : mesh.tets.reshaped())
+            if (node % kLayers == kSkin) bare[static_cast<std::size_t>(node / kLayers)] = 0;
+        if (std::find(bare.begin(), bare.end(), 1) == bare.end()) return shell;
+        shell = without_vertices(shell, head, bare);
+    }
+}
+
 }  // namespace risorius::sim

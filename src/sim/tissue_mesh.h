@@ -38,4 +38,9 @@ double interpolate_thickness(const rig::Head& head,
 TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
                              const Shell& shell, const std::array<EyeLids, 2>& lids);
 
+/// The shell without corners of its rim under which all tetrahedra were too thin: skin that nothing bears has two places of rest,
+/// one on either side of its neighbours.
+Shell borne_by_tissue(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
+                      const std::array<EyeLids, 2>& lids);
+
 }  // namespace risorius::sim

@@ -223,6 +223,15 @@ TEST(Dynamics, AJawMovedByMusclesFeelsWhichWayIsDown) {
     EXPECT_GT(open_mm({0, -3 * kG, 0}), open_mm({0, 3 * kG, 0}) + 0.05);
 }
 
+TEST(Dynamics, AFaceOfUsualSizeSettlesToWhereItBegan) {
+    Face face = adult_face(quality_named("preview"));
+    const StressReport report = stress(face, channels(), {.steps = 40, .settle_steps = 150});
+    EXPECT_EQ(report.broken_steps, 0);
+    EXPECT_EQ(report.inverted_at_rest, 0);
+    EXPECT_GT(report.furthest_m, 0.005);
+    EXPECT_LT(1e3 * report.left_at_rest_m, 0.05);
+}
+
 TEST(Dynamics, RandomDriveOfEverythingLeavesNothingBehind) {
     Face face = adult_face(
         {.name = "small", .shell_vertices = 300, .iterations = 6, .least_iterations = 6});
