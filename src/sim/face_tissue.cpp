@@ -59,9 +59,6 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     mass_.resize(rest_.rows());
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
     find_cheeks(jaw);
-    solve::MetricBuilder laplacian(static_cast<int>(rest_.rows()));
-    tets_->add_laplacian(laplacian, 1.0);
-    damping_ = solve::Laplacian(laplacian.build({}));
 }
 
 // Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
@@ -254,8 +251,7 @@ void FaceTissue::note_contacts() {
 
 double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                              solve::Precision precision) const {
-    double energy = tets_->add_energy(x, gradient, precision);
-    energy += skin_->add_energy(x, gradient, precision);
+    double energy = skin_->add_energy(x, gradient, precision);
     energy += tethers_->add_energy(x, gradient);
     energy += fibres_->add_energy(x, activation, gradient);
     solids_pull_ = {};
@@ -267,22 +263,27 @@ double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation,
     return energy;
 }
 
-double FaceTissue::step_energy(double h, const Points& start, const Points& aim,
-                               const Eigen::VectorXd& activation, const Points& at,
-                               Points& gradient) {
-    const double inertia = 1.0 / (h * h), viscous = rig_.tissue.damping_s / h;
-    double value = damping_.pull(viscous, at, start, gradient);
+double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
+                               const Points& at, Points& gradient) {
+    const double inertia = 1.0 / (h * h);
     double moving = 0;
+    gradient.resize(at.rows(), 3);
     for (long i = 0; i < at.rows(); ++i) {
         const Vec3 off = (at.row(i) - aim.row(i)).transpose();
         moving += mass_[i] * off.squaredNorm();
-        gradient.row(i) += inertia * mass_[i] * off.transpose();
+        gradient.row(i) = inertia * mass_[i] * off.transpose();
     }
-    value += 0.5 * inertia * moving;
+    double value = 0.5 * inertia * moving;
+    value += tets_->add_step_energy(at, gradient, precision_);
     value += potential(at, activation, gradient, precision_);
     for (long i = 0; i < at.rows(); ++i)
         if (fixed_[i]) gradient.row(i).setZero();
     return value;
+}
+
+void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd& activation) {
+    tets_->begin_step(start, rig_.tissue.damping_s / h, precision_);
+    solids_->begin_step(h, start, activation);
 }
 
 StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
@@ -290,9 +291,9 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
                                       const solve::QuasiNewtonOptions& options, Points& x,
                                       std::span<const Points> likely) {
     const auto energy = [&](const Points& at, Points& gradient) {
-        return step_energy(h, start, aim, activation, at, gradient);
+        return step_energy(h, aim, activation, at, gradient);
     };
-    solids_->begin_step(h, start, activation);
+    begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
     const solve::StepReport report = newton_.minimise(energy, solve, x, options, likely);

@@ -1,7 +1,7 @@
 // What deforms in a face as one system of equations: tissue, skin, attachments, fibres, contact and air over the nodes.
 //
 // A step of length h minimises over the node positions x
-//   E = |x - a|^2_M / (2 h^2) + beta/(2 h) |x - x_n|^2_Ks + tissue + skin + attachments + fibres + contact + air,
+//   E = |x - a|^2_M / (2 h^2) + beta/(2 h) sum V mu |F - F_n|^2 + tissue + skin + attachments + fibres + contact + air,
 //   a = x_n + h v_n
 // (implicit Euler) by L-BFGS with one prefactored matrix per h.
 #pragma once
@@ -30,7 +30,6 @@
 #include "sim/tissue_mesh.h"
 #include "sim/tissue_part.h"
 #include "sim/wrench.h"
-#include "solve/laplacian.h"
 #include "solve/quasi_newton.h"
 #include "solve/sparse_cholesky.h"
 #include "tissue/contacts.h"
@@ -188,9 +187,10 @@ class FaceTissue {
     void build_tethers();
     void find_cheeks(const Jaw& jaw);
     const solve::SparseCholesky& metric(double h);
-    /// E and its gradient by the nodes.
-    double step_energy(double h, const Points& start, const Points& aim,
-                       const Eigen::VectorXd& activation, const Points& at, Points& gradient);
+    /// Before step_energy(), which is E and its gradient by the nodes.
+    void begin_step(double h, const Points& start, const Eigen::VectorXd& activation);
+    double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
+                       const Points& at, Points& gradient);
     void note_contacts();
     void put_depths(const Points& x, StepFigures& figures) const;
     /// Of a step of motion, after its iterations.
@@ -202,6 +202,7 @@ class FaceTissue {
     void move_mandible(const Rigid& moved);
     /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
     Wrench mandible_gradient(const Points& x, const Points& gradient) const;
+    /// Of all but the tetrahedra.
     double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                      solve::Precision precision) const;
 
@@ -238,7 +239,6 @@ class FaceTissue {
     std::vector<LidTether> lid_tethers_;
     std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
-    solve::Laplacian damping_;                                // Ks, N/m
     solve::Precision precision_ = solve::Precision::kDouble;  // of steps of motion
     std::vector<Metric> metrics_;                             // one per step length used
     solve::QuasiNewton newton_;

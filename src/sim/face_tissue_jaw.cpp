@@ -97,7 +97,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     const Eigen::VectorXd relaxed = Eigen::VectorXd::Zero(rig_.channels().column_count());
     prescribe({});
     find_contacts(rest);
-    solids_->begin_step(h, rest, relaxed);
+    begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
     // Solids hardly change volume: before they have found their shape they look far stiffer than a held jaw finds them
     solids_relaxed_ = h >= kSettling_s;
@@ -107,7 +107,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
         carried_ = rest;
         carry_with_bone(carried_, Rigid::Identity(), pose.motion);
         move_mandible(pose.motion);
-        step_energy(h, rest, rest, relaxed, carried_, carried_gradient_);
+        step_energy(h, rest, relaxed, carried_, carried_gradient_);
         stiffness.col(k) =
             along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
     }
@@ -132,7 +132,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
         carried_ = unknowns.topRows(rows);
         carry_with_bone(carried_, from, pose.motion);
         carried_gradient_.resize(rows, 3);
-        double sum = step_energy(h, start, aim, activation, carried_, carried_gradient_);
+        double sum = step_energy(h, aim, activation, carried_, carried_gradient_);
         JawVector by_jaw;
         JawMatrix unused;
         sum += jaw.dynamics.energy(jaw.step, q, by_jaw, unused);
@@ -142,7 +142,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
         return sum;
     };
 
-    solids_->begin_step(h, start, activation);
+    begin_step(h, start, activation);
 
     // The jaw alone first, the tissue being linear to it
     Points unknowns(rows + kJawRows, 3), gradient(rows + kJawRows, 3);

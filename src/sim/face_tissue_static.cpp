@@ -14,7 +14,8 @@ constexpr double kHardens_m = 0.0025e-3;
 double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activation,
                                  Points& gradient) const {
     gradient.setZero(x.rows(), 3);
-    const double energy = potential(x, activation, gradient, solve::Precision::kDouble);
+    const double energy = tets_->add_energy(x, gradient) +
+                          potential(x, activation, gradient, solve::Precision::kDouble);
     for (long i = 0; i < x.rows(); ++i)
         if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
     return energy;

@@ -30,9 +30,6 @@ TissuePart::TissuePart(const Whole& whole, const std::vector<char>& moves, doubl
     for (int i = 0; i < count; ++i)
         mass_kg_[i] = whole_.mass_kg[node_[static_cast<std::size_t>(i)]];
 
-    solve::MetricBuilder laplacian(count);
-    tets_->add_laplacian(laplacian, 1.0);
-    damping_ = solve::Laplacian(laplacian.build({}));
     solve::MetricBuilder builder(count);
     tets_->add_metric(builder);
     tets_->add_laplacian(builder, whole_.damping_s / h_);
@@ -154,7 +151,7 @@ Points TissuePart::taken(const Points& x) const {
 }
 
 void TissuePart::begin(const Step& step, const Points& x) {
-    start_ = taken(step.start);
+    tets_->begin_step(taken(step.start), whole_.damping_s / h_, step.precision);
     aim_ = taken(step.aim);
     activation_ = step.activation;
     precision_ = step.precision;
@@ -213,13 +210,14 @@ void TissuePart::begin(const Step& step, const Points& x) {
 
 double TissuePart::energy(const Points& at, Points& gradient) const {
     const double inertia = 1.0 / (h_ * h_);
-    double value = damping_.pull(whole_.damping_s / h_, at, start_, gradient);
+    double value = 0;
+    gradient.setZero(at.rows(), 3);
     for (long i = 0; i < moving_; ++i) {
         const Vec3 off = (at.row(i) - aim_.row(i)).transpose();
         value += 0.5 * inertia * mass_kg_[i] * off.squaredNorm();
-        gradient.row(i) += inertia * mass_kg_[i] * off.transpose();
+        gradient.row(i) = inertia * mass_kg_[i] * off.transpose();
     }
-    value += tets_->add_energy(at, gradient, precision_);
+    value += tets_->add_step_energy(at, gradient, precision_);
     value += skin_->add_energy(at, gradient, precision_);
     value += tethers_.add_energy(at, gradient);
     value += fibres_->add_energy(at, activation_, gradient);

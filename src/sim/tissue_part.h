@@ -14,7 +14,6 @@
 #include "muscle/fibre_set.h"
 #include "sim/lip_drive.h"
 #include "sim/muscle_solids.h"
-#include "solve/laplacian.h"
 #include "solve/quasi_newton.h"
 #include "solve/sparse_cholesky.h"
 #include "tissue/contacts.h"
@@ -98,12 +97,11 @@ class TissuePart {
     tissue::DeadLoads loads_;
     std::vector<MuscleSolids::Spring> springs_;
     Eigen::VectorXd mass_kg_;
-    solve::Laplacian damping_;
     std::optional<solve::SparseCholesky> metric_;
     solve::QuasiNewton newton_;
     solve::Precision precision_ = solve::Precision::kDouble;
     Eigen::VectorXd activation_;
-    Points start_, aim_, x_;
+    Points aim_, x_;
 };
 
 }  // namespace risorius::sim

@@ -1,5 +1,5 @@
 // Four doubles, or eight floats, worked on together. GCC and Clang turn these into AVX2, SSE2, NEON or WASM
-// instructions; the arithmetic is the same in all of them, so the bits are too.
+// instructions; but for fused() the arithmetic is the same in all of them, so the bits are too.
 #pragma once
 
 #include <cmath>
@@ -57,6 +57,22 @@ inline FloatLanes sqrt_lanes(const FloatLanes& a) {
     FloatLanes out;
     for (int k = 0; k < 8; ++k) out[k] = std::sqrt(a[k]);
     return out;
+#endif
+}
+
+/// a b + c, rounded once where the instruction set can.
+inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+    return Lanes(__builtin_ia32_vfmaddpd256(a, b, c));
+#else
+    return a * b + c;
+#endif
+}
+inline FloatLanes fused(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
+#ifdef __FMA__
+    return FloatLanes(__builtin_ia32_vfmaddps256(a, b, c));
+#else
+    return a * b + c;
 #endif
 }
 

@@ -25,137 +25,253 @@ TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& 
     : tets_(tets), rest_(rest), rest_volume_(tets.rows()), mu_(mu_pa), bulk_(bulk_pa) {
     assert(mu_pa.size() == tets.rows() && bulk_pa.size() == tets.rows());
     for (int tet = 0; tet < size(); ++tet) {
-        rest_volume_[tet] = edges(rest_, tets_, tet).determinant() / 6.0;
+        const Mat3 rest_edges = edges(rest_, tets_, tet);
+        rest_volume_[tet] = rest_edges.determinant() / 6.0;
         if (!(rest_volume_[tet] > 0))
             throw std::invalid_argument("TetSolid: tet " + std::to_string(tet) +
                                         " has no positive volume at rest");
+        inverse_.push_back(rest_edges.inverse());
     }
-    fill(double_);
-    fill(single_);
+    const TetFans found = find_fans(tets_);
+    fill(double_, found);
+    fill(single_, found);
 }
 
 template <class Real>
-void TetSolid::fill(Work<Real>& work) const {
-    constexpr int kWidth = Group<Real>::kWidth;
-    const int count = size();
-    work.groups.resize(static_cast<std::size_t>((count + kWidth - 1) / kWidth));
-    for (int slot = 0; slot < kWidth * static_cast<int>(work.groups.size()); ++slot) {
-        // The last group is filled up with copies of the last tet that have no stiffness.
-        const int tet = std::min(slot, count - 1);
-        const Mat3 b = edges(rest_, tets_, tet).inverse();
-        const double weight = slot < count ? rest_volume_[tet] : 0.0;
-        Group<Real>& group = work.groups[static_cast<std::size_t>(slot / kWidth)];
+void TetSolid::fill(Work<Real>& work, const TetFans& found) const {
+    fill(work.fans, found.fans);
+    std::vector<TetFan> alone;
+    for (int tet : found.alone)
+        alone.push_back({{tet}, {tets_(tet, 0), tets_(tet, 1), tets_(tet, 2), tets_(tet, 3)}});
+    fill(work.alone, alone);
+}
+
+template <class Real, int kTets>
+void TetSolid::fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans) const {
+    constexpr int kWidth = Group<Real, kTets>::kWidth;
+    const int count = static_cast<int>(fans.size());
+    groups.list.resize(static_cast<std::size_t>((count + kWidth - 1) / kWidth));
+    groups.start.resize(groups.list.size());
+    for (int slot = 0; slot < kWidth * static_cast<int>(groups.list.size()); ++slot) {
+        // The last group is filled up with copies of the last fan that have no stiffness.
+        const TetFan& fan = fans[static_cast<std::size_t>(std::min(slot, count - 1))];
+        Group<Real, kTets>& group = groups.list[static_cast<std::size_t>(slot / kWidth)];
         const int lane = slot % kWidth;
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) group.b[3 * k + j][lane] = static_cast<Real>(b(k, j));
-        group.shear[lane] = static_cast<Real>(weight * mu_[tet]);
-        group.bulk[lane] = static_cast<Real>(weight * bulk_[tet]);
-        for (int k = 0; k < 4; ++k) group.node[k][lane] = tets_(tet, k);
+        for (int k = 0; k < kTets + 3; ++k) group.node[k][lane] = fan.nodes[k];
+        for (int i = 0; i < kTets; ++i) {
+            Mat3 d;
+            const auto along = [&](int node) -> Vec3 {
+                return (rest_.row(fan.nodes[node]) - rest_.row(fan.nodes[0])).transpose();
+            };
+            d << along(1), along(2 + i), along(3 + i);
+            const Mat3 b = d.inverse();
+            const double weight = slot < count ? rest_volume_[fan.tets[i]] : 0.0;
+            auto& tet = group.tet[i];
+            for (int k = 0; k < 3; ++k)
+                for (int j = 0; j < 3; ++j) tet.b[3 * k + j][lane] = static_cast<Real>(b(k, j));
+            tet.shear[lane] = static_cast<Real>(weight * mu_[fan.tets[i]]);
+            tet.bulk[lane] = static_cast<Real>(weight * bulk_[fan.tets[i]]);
+        }
     }
 }
+
+namespace {
+
+// Coordinates of edges of displacement from node a: [node but a][coordinate]
+template <class Real, class Group, int kEdges>
+[[gnu::always_inline]] inline void gather(const solve::PaddedRows<Real>& u, const Group& g,
+                                          typename Group::Lane (&edge)[kEdges][3]) {
+    using Point = typename solve::LanesOf<Real>::Point;
+    Point origin[Group::kWidth], r[Group::kWidth];
+    for (int lane = 0; lane < Group::kWidth; ++lane) origin[lane] = u[g.node[0][lane]];
+    for (int k = 0; k < kEdges; ++k) {
+        for (int lane = 0; lane < Group::kWidth; ++lane)
+            r[lane] = u[g.node[k + 1][lane]] - origin[lane];
+        solve::rows_to_lanes(r, edge[k][0], edge[k][1], edge[k][2]);
+    }
+}
+
+// Forces on the ends of the edges; a bears the opposite of all of them
+template <class Real, class Group, int kEdges>
+[[gnu::always_inline]] inline void scatter(const typename Group::Lane (&force)[kEdges][3],
+                                           const Group& g, solve::PaddedRows<Real>& out) {
+    using Point = typename solve::LanesOf<Real>::Point;
+    Point sum[Group::kWidth]{}, r[Group::kWidth];
+    for (int k = 0; k < kEdges; ++k) {
+        solve::lanes_to_rows(force[k][0], force[k][1], force[k][2], r);
+        for (int lane = 0; lane < Group::kWidth; ++lane) {
+            out[g.node[k + 1][lane]] += r[lane];
+            sum[lane] += r[lane];
+        }
+    }
+    for (int lane = 0; lane < Group::kWidth; ++lane) out[g.node[0][lane]] -= sum[lane];
+}
+
+template <class Lane>
+Lane dot(const Lane& a0, const Lane& b0, const Lane& a1, const Lane& b1, const Lane& a2,
+         const Lane& b2) {
+    return solve::fused(a2, b2, solve::fused(a1, b1, a0 * b0));
+}
+
+// H = D B, D the edges of displacement as columns
+template <class Lane>
+[[gnu::always_inline]] inline void gradient_of(const Lane (&d0)[3], const Lane (&d1)[3],
+                                               const Lane (&d2)[3], const Lane (&b)[9],
+                                               Lane (&h)[3][3]) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) h[i][j] = dot(d0[i], b[j], d1[i], b[3 + j], d2[i], b[6 + j]);
+}
+
+// Energy of a tet, and its first Piola-Kirchhoff stress P, both times V:
+//   P = mu F C + K (J - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
+// F - I, C and J - 1 are worked out from H = F - I, so that they are exact near rest.
+template <class Real, class Lane>
+[[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& shear,
+                                             const Lane& bulk, Lane (&p)[3][3]) {
+    constexpr Real kHalf = Real(0.5);
+    constexpr Real kSpare = Real(1 - TetSolid::kCrushed), kMore = Real(TetSolid::kHardens);
+    // C = H + H^T + H^T H
+    Lane c[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) {
+            c[i][j] = h[i][j] + h[j][i];
+            for (int k = 0; k < 3; ++k) c[i][j] = solve::fused(h[k][i], h[k][j], c[i][j]);
+        }
+
+    // cof F = (1 + tr H) I - H^T + cof H,   J - 1 = tr H + tr cof H + det H
+    Lane cof[3][3];
+    for (int i = 0; i < 3; ++i) {
+        const int m = (i + 1) % 3, n = (i + 2) % 3;
+        for (int j = 0; j < 3; ++j) {
+            const int q = (j + 1) % 3, r = (j + 2) % 3;
+            cof[i][j] = solve::fused(h[m][q], h[n][r], -(h[m][r] * h[n][q]));
+        }
+    }
+    const Lane trace = h[0][0] + h[1][1] + h[2][2];
+    const Lane j_minus_1 = trace + (cof[0][0] + cof[1][1] + cof[2][2]) +
+                           dot(h[0][0], cof[0][0], h[0][1], cof[0][1], h[0][2], cof[0][2]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            cof[i][j] = i == j ? cof[i][j] + (trace - h[i][i] + Real(1)) : cof[i][j] - h[j][i];
+
+    const Lane spare = j_minus_1 + kSpare;
+    const Lane crushed = kMore * (spare < Real(0) ? spare : Lane{});
+    const Lane pressure = bulk * (j_minus_1 + crushed);
+
+    const Lane off_diagonal = dot(c[0][1], c[0][1], c[0][2], c[0][2], c[1][2], c[1][2]);
+    const Lane squares =
+        dot(c[0][0], c[0][0], c[1][1], c[1][1], c[2][2], c[2][2]) + off_diagonal + off_diagonal;
+    const Lane twice =
+        solve::fused(shear * kHalf, squares,
+                     bulk * solve::fused(j_minus_1, j_minus_1, (1 / kMore) * crushed * crushed));
+
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) c[j][i] = c[i][j] = shear * c[i][j];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            p[i][j] = solve::fused(pressure, cof[i][j], c[i][j]);
+            for (int k = 0; k < 3; ++k) p[i][j] = solve::fused(h[i][k], c[k][j], p[i][j]);
+        }
+    return kHalf * twice;
+}
+
+}  // namespace
 
 double TetSolid::add_energy(const Points& x, Points& gradient, solve::Precision precision) const {
     assert(gradient.rows() == x.rows());
-    return precision == solve::Precision::kSingle ? add_energy_in(single_, x, gradient)
-                                                  : add_energy_in(double_, x, gradient);
+    return precision == solve::Precision::kSingle
+               ? add_energy_in<float, false>(single_, x, gradient)
+               : add_energy_in<double, false>(double_, x, gradient);
+}
+
+void TetSolid::begin_step(const Points& start, double viscosity, solve::Precision precision) {
+    viscosity_s_ = viscosity;
+    if (precision == solve::Precision::kSingle)
+        begin_step_in(single_, start);
+    else
+        begin_step_in(double_, start);
+}
+
+double TetSolid::add_step_energy(const Points& x, Points& gradient,
+                                 solve::Precision precision) const {
+    assert(gradient.rows() == x.rows());
+    return precision == solve::Precision::kSingle
+               ? add_energy_in<float, true>(single_, x, gradient)
+               : add_energy_in<double, true>(double_, x, gradient);
 }
 
 template <class Real>
+void TetSolid::begin_step_in(Work<Real>& work, const Points& start) const {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    solve::PaddedRows<Real>& u = work.displacement;
+    u.copy_difference(start, rest_);
+    const auto note = [&]<int kTets>(Groups<Real, kTets>& groups) {
+        for (std::size_t n = 0; n < groups.list.size(); ++n) {
+            const Group<Real, kTets>& g = groups.list[n];
+            Lane edge[kTets + 2][3], h[3][3];
+            gather(u, g, edge);
+            for (int t = 0; t < kTets; ++t) {
+                gradient_of(edge[0], edge[1 + t], edge[2 + t], g.tet[t].b, h);
+                for (int k = 0; k < 9; ++k) groups.start[n][t][k] = h[k / 3][k % 3];
+            }
+        }
+    };
+    note(work.fans);
+    note(work.alone);
+}
+
+template <class Real, bool kInStep>
 double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
     using Lane = typename solve::LanesOf<Real>::Lane;
-    using Point = typename solve::LanesOf<Real>::Point;
-    constexpr int kWidth = Group<Real>::kWidth;
-    constexpr Real kHalf = Real(0.5), kQuarter = Real(0.25);
-    constexpr Real kSpare = Real(1 - kCrushed), kMore = Real(kHardens);
+    const Real viscosity = static_cast<Real>(viscosity_s_);
     solve::PaddedRows<Real>& u = work.displacement;
     solve::PaddedRows<Real>& out = work.gradient;
     u.copy_difference(x, rest_);
     out.set_zero(rest_.rows());
     Lanes energy{};
-
-    for (const Group<Real>& g : work.groups) {
-        // Differences d[i][k] of displacement: coordinate i along edge k
-        Lane d[3][3];
-        {
-            Point r[3][kWidth];
-            for (int lane = 0; lane < kWidth; ++lane) {
-                const Point p0 = u[g.node[0][lane]];
-                for (int k = 0; k < 3; ++k) r[k][lane] = u[g.node[k + 1][lane]] - p0;
+    const auto add = [&]<int kTets>(const Groups<Real, kTets>& groups) {
+        for (std::size_t n = 0; n < groups.list.size(); ++n) {
+            const Group<Real, kTets>& g = groups.list[n];
+            Lane edge[kTets + 2][3], force[kTets + 2][3]{};
+            gather(u, g, edge);
+            Lane of_fan{};
+            for (int t = 0; t < kTets; ++t) {
+                const auto& tet = g.tet[t];
+                Lane h[3][3], p[3][3];
+                gradient_of(edge[0], edge[1 + t], edge[2 + t], tet.b, h);
+                of_fan += stress_of<Real>(h, tet.shear, tet.bulk, p);
+                if constexpr (kInStep) {
+                    Lane squares{};
+                    const Lane damping = viscosity * tet.shear;
+                    for (int k = 0; k < 9; ++k) {
+                        const Lane flown = h[k / 3][k % 3] - groups.start[n][t][k];
+                        squares = solve::fused(flown, flown, squares);
+                        p[k / 3][k % 3] = solve::fused(damping, flown, p[k / 3][k % 3]);
+                    }
+                    of_fan = solve::fused(Real(0.5) * damping, squares, of_fan);
+                }
+                // P B^T: a column per edge
+                Lane* const ends[3] = {force[0], force[1 + t], force[2 + t]};
+                for (int k = 0; k < 3; ++k)
+                    for (int i = 0; i < 3; ++i)
+                        for (int j = 0; j < 3; ++j)
+                            ends[k][i] = solve::fused(p[i][j], tet.b[3 * k + j], ends[k][i]);
             }
-            for (int k = 0; k < 3; ++k) solve::rows_to_lanes(r[k], d[0][k], d[1][k], d[2][k]);
+            solve::add_lanes(energy, of_fan);
+            scatter(force, g, out);
         }
-        const Lane* const b = g.b;
-
-        // H = D B, F = I + H, C = F^T F - I = H + H^T + H^T H
-        Lane h[3][3];
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                h[i][j] = d[i][0] * b[j] + d[i][1] * b[3 + j] + d[i][2] * b[6 + j];
-        Lane c[3][3];
-        for (int i = 0; i < 3; ++i)
-            for (int j = i; j < 3; ++j)
-                c[i][j] = c[j][i] =
-                    h[i][j] + h[j][i] + h[0][i] * h[0][j] + h[1][i] * h[1][j] + h[2][i] * h[2][j];
-
-        // J - 1 in invariants of H, exact near rest; dJ/dF = cof F
-        Lane f[3][3], cof[3][3];
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) f[i][j] = i == j ? h[i][j] + Real(1) : h[i][j];
-        for (int i = 0; i < 3; ++i) {
-            const int p = (i + 1) % 3, q = (i + 2) % 3;
-            for (int j = 0; j < 3; ++j) {
-                const int m = (j + 1) % 3, n = (j + 2) % 3;
-                cof[i][j] = f[p][m] * f[q][n] - f[p][n] * f[q][m];
-            }
-        }
-        const Lane minors = h[0][0] * h[1][1] - h[0][1] * h[1][0] + h[1][1] * h[2][2] -
-                            h[1][2] * h[2][1] + h[0][0] * h[2][2] - h[0][2] * h[2][0];
-        const Lane det = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) +
-                         h[0][1] * (h[1][2] * h[2][0] - h[1][0] * h[2][2]) +
-                         h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
-        const Lane j_minus_1 = h[0][0] + h[1][1] + h[2][2] + minors + det;
-
-        const Lane spare = j_minus_1 + kSpare;
-        const Lane crushed = spare < Real(0) ? spare : Lane{};
-
-        const Lane cross = c[0][1] * c[0][1] + c[0][2] * c[0][2] + c[1][2] * c[1][2];
-        solve::add_lanes(
-            energy,
-            g.shear * kQuarter *
-                    (c[0][0] * c[0][0] + c[1][1] * c[1][1] + c[2][2] * c[2][2] + cross + cross) +
-                g.bulk * kHalf * (j_minus_1 * j_minus_1 + kMore * crushed * crushed));
-
-        // dE/dF = V mu F C + V K (J - 1 + c min(0, J - J_c)) cof F, and times B^T a column per edge
-        const Lane pressure = g.bulk * (j_minus_1 + kMore * crushed);
-        Lane along[3][3];
-        for (int i = 0; i < 3; ++i) {
-            Lane p[3];
-            for (int j = 0; j < 3; ++j)
-                p[j] = g.shear * (f[i][0] * c[0][j] + f[i][1] * c[1][j] + f[i][2] * c[2][j]) +
-                       pressure * cof[i][j];
-            for (int k = 0; k < 3; ++k)
-                along[i][k] = p[0] * b[3 * k] + p[1] * b[3 * k + 1] + p[2] * b[3 * k + 2];
-        }
-
-        Point r[3][kWidth];
-        for (int k = 0; k < 3; ++k)
-            solve::lanes_to_rows(along[0][k], along[1][k], along[2][k], r[k]);
-        for (int lane = 0; lane < kWidth; ++lane) {
-            out[g.node[0][lane]] -= r[0][lane] + r[1][lane] + r[2][lane];
-            for (int k = 0; k < 3; ++k) out[g.node[k + 1][lane]] += r[k][lane];
-        }
-    }
+    };
+    add(work.fans);
+    add(work.alone);
     out.add_to(gradient);
     return solve::sum_lanes(energy);
 }
 
 void TetSolid::add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const {
     for (int tet = 0; tet < size(); ++tet) {
-        const Group<double>& group = double_.groups[static_cast<std::size_t>(tet / 4)];
         // Row v of G is the gradient of the shape function of corner v.
         Eigen::Matrix<double, 4, 3> g;
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) g(k + 1, j) = group.b[3 * k + j][tet % 4];
+        g.bottomRows<3>() = inverse_[static_cast<std::size_t>(tet)];
         g.row(0) = -(g.row(1) + g.row(2) + g.row(3));
         const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> block =
             weight[tet] * (g * g.transpose());

@@ -8,12 +8,14 @@
 // what presses on it runs out of force before an element turns over.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/types.h"
 #include "solve/lanes.h"
 #include "solve/metric_builder.h"
+#include "tissue/tet_fans.h"
 
 namespace risorius::solve {
 enum class Curvature;
@@ -39,6 +41,11 @@ class TetSolid {
     double add_energy(const Points& x, Points& gradient,
                       solve::Precision precision = solve::Precision::kDouble) const;
 
+    /// From here on steps from `start`: add_step_energy() adds to the energy that of damping in proportion to the shear modulus,
+    ///   c/2 sum V mu |F - F_start|^2,   c = `viscosity`: the time constant of the damping over the step's length.
+    void begin_step(const Points& start, double viscosity, solve::Precision precision);
+    double add_step_energy(const Points& x, Points& gradient, solve::Precision precision) const;
+
     /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
     /// part, tet by tet.
     void add_hessian(const Points& x, solve::Curvature curvature,
@@ -48,7 +55,7 @@ class TetSolid {
     /// precondition with.
     void add_metric(solve::MetricBuilder& builder) const;
 
-    /// scale * sum V mu G G^T: the Laplacian of stiffness damping.
+    /// scale * sum V mu G G^T: the second derivative of that damping.
     void add_laplacian(solve::MetricBuilder& builder, double scale) const;
 
     const Tets& tets() const { return tets_; }
@@ -61,24 +68,40 @@ class TetSolid {
     Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
 
   private:
-    /// As many tets as there are lanes.
-    template <class Real>
+    /// As many fans of tets (tet_fans.h) as there are lanes; a fan of one is a tet.
+    template <class Real, int kTets>
     struct alignas(64) Group {
         using Lane = typename solve::LanesOf<Real>::Lane;
         static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
-        Lane b[9];   ///< inverse of the rest edges, row k belongs to edge x_(k+1) - x_0
-        Lane shear;  ///< V mu
-        Lane bulk;   ///< V K
-        std::int32_t node[4][kWidth];  ///< [corner][lane]
+        struct Tet {
+            Lane b[9];   ///< inverse of the rest edges a-b, a-r_i, a-r_i+1, a row each
+            Lane shear;  ///< V mu
+            Lane bulk;   ///< V K
+        };
+        Tet tet[kTets];
+        std::int32_t node[kTets + 3][kWidth];  ///< a, b, r_0 .. ; [corner][lane]
+    };
+    /// Gradient of the displacement where a step began, per tet of a group.
+    template <class Real, int kTets>
+    using Gradients = std::array<std::array<typename solve::LanesOf<Real>::Lane, 9>, kTets>;
+    template <class Real, int kTets>
+    struct Groups {
+        std::vector<Group<Real, kTets>> list;
+        std::vector<Gradients<Real, kTets>> start;
     };
     template <class Real>
     struct Work {
-        std::vector<Group<Real>> groups;
+        Groups<Real, kFanTets> fans;
+        Groups<Real, 1> alone;
         solve::PaddedRows<Real> displacement, gradient;
     };
     template <class Real>
-    void fill(Work<Real>& work) const;
+    void fill(Work<Real>& work, const TetFans& found) const;
+    template <class Real, int kTets>
+    void fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans) const;
     template <class Real>
+    void begin_step_in(Work<Real>& work, const Points& start) const;
+    template <class Real, bool kInStep>
     double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
     double signed_volume(const Points& x, int tet) const;
     void add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const;
@@ -86,6 +109,8 @@ class TetSolid {
     Tets tets_;
     Points rest_;
     Eigen::VectorXd rest_volume_, mu_, bulk_;
+    std::vector<Mat3> inverse_;  ///< of the rest edges x_k+1 - x_0, rows
+    double viscosity_s_ = 0;     ///< over the step's length
     mutable Work<double> double_;
     mutable Work<float> single_;
 };

@@ -33,15 +33,13 @@ detail::StretchModes modes_of(const Vec3& s, double mu, double at_rest) {
 void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
                            solve::HessianBuilder& hessian) const {
     for (int tet = 0; tet < size(); ++tet) {
-        const Group<double>& group = double_.groups[static_cast<std::size_t>(tet / 4)];
-        const int lane = tet % 4;
-        Mat3 edge, inverse;
-        for (int k = 0; k < 3; ++k) {
+        const Mat3& inverse = inverse_[static_cast<std::size_t>(tet)];
+        Mat3 edge;
+        for (int k = 0; k < 3; ++k)
             edge.col(k) = (x.row(tets_(tet, k + 1)) - x.row(tets_(tet, 0))).transpose();
-            for (int j = 0; j < 3; ++j) inverse(k, j) = group.b[3 * k + j][lane];
-        }
         const detail::PrincipalStretches stretches = detail::principal_stretches(edge * inverse);
-        detail::StretchModes modes = modes_of(stretches.sigma, group.shear[lane], group.bulk[lane]);
+        detail::StretchModes modes =
+            modes_of(stretches.sigma, rest_volume_[tet] * mu_[tet], rest_volume_[tet] * bulk_[tet]);
         if (curvature == solve::Curvature::kPositive) detail::clamp(modes);
 
         // Row k of the inverse is the gradient of the shape function of corner k + 1; the four add up to nothing

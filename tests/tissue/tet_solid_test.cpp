@@ -122,6 +122,39 @@ TEST(TetSolid, TheLaplacianIsTheMetricWithTheShearModulusAlone) {
     EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(TetSolid, AStepIsDampedAsTheLaplacianSays) {
+    const LayeredBlock block(5, 4, 2);  // with tets in fans and alone
+    const TetSolid at_rest = tissue_of(block);
+    TetSolid solid = tissue_of(block);
+    constexpr double kViscosity = 3.0;
+    solve::MetricBuilder builder(block.nodes());
+    solid.add_laplacian(builder, kViscosity);
+    const Eigen::MatrixXd lower = builder.build({});
+    const Eigen::MatrixXd laplacian = lower.selfadjointView<Eigen::Lower>();
+    const Points start = shaken(block.rest, 8e-4, 5), x = shaken(block.rest, 8e-4, 6);
+    const Points damping = laplacian * (x - start);
+    Points still = Points::Zero(block.nodes(), 3);
+    const double energy = at_rest.add_energy(x, still);
+    const double lost = 0.5 * damping.cwiseProduct(x - start).sum();
+    for (const auto precision : {solve::Precision::kDouble, solve::Precision::kSingle}) {
+        const double share = precision == solve::Precision::kDouble ? 1e-12 : 1e-6;
+        solid.begin_step(start, kViscosity, precision);
+        Points gradient = Points::Zero(block.nodes(), 3);
+        EXPECT_NEAR(solid.add_step_energy(x, gradient, precision), energy + lost,
+                    share * (energy + lost));
+        EXPECT_LT((gradient - still - damping).norm(), share * damping.norm());
+        // Where it began there is no damping
+        Points begun = Points::Zero(block.nodes(), 3), plain = begun;
+        solid.add_step_energy(start, begun, precision);
+        at_rest.add_energy(start, plain, precision);
+        EXPECT_LT((begun - plain).norm(), share * plain.norm());
+        // and outside of a step there is none
+        Points outside = Points::Zero(block.nodes(), 3);
+        solid.add_energy(x, outside);
+        EXPECT_EQ(outside, still);
+    }
+}
+
 TEST(TetSolid, SqueezingThroughItselfIsCountedAsInverted) {
     Points rest;
     const TetSolid solid = lone_tet(&rest);
