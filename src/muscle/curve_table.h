@@ -5,6 +5,7 @@
 // f''' w^2 / 70, w the width of a cell. Beyond the table the curve itself is asked.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "muscle/curve.h"
@@ -35,14 +36,14 @@ class CurveTable {
     /// The same four times, with the same bits.
     Values at(const solve::Lanes& x) const {
         const solve::Lanes place = (x - low_) * cells_per_unit_;
-        solve::Lanes row[4], begin;
-        for (int k = 0; k < 4; ++k) {
-            if (!(place[k] >= 0 && place[k] < static_cast<double>(cells_.size())))
-                return one_by_one(x);
-            const auto cell = static_cast<std::size_t>(place[k]);
-            row[k] = cells_[cell];
-            begin[k] = static_cast<double>(cell);
-        }
+        const auto within = place >= 0.0 & place < static_cast<double>(cells_.size());
+        if (!(within[0] & within[1] & within[2] & within[3])) return one_by_one(x);
+        typedef std::int32_t Cells __attribute__((vector_size(16)));
+        const Cells cell = __builtin_convertvector(place, Cells);
+        const solve::Lanes begin = __builtin_convertvector(cell, solve::Lanes);
+        const solve::Lanes row[4] = {
+            cells_[static_cast<std::size_t>(cell[0])], cells_[static_cast<std::size_t>(cell[1])],
+            cells_[static_cast<std::size_t>(cell[2])], cells_[static_cast<std::size_t>(cell[3])]};
         const solve::Lanes u = x - (low_ + begin * width_);
         solve::Lanes c0, c1, c2, c3;
         solve::transpose(row, c0, c1, c2, c3);

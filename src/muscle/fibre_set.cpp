@@ -39,7 +39,8 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
     body_place_.set_zero(count);
     for (int p = 0; p < count; ++p) {
         const FibrePoint& point = points_[static_cast<std::size_t>(p)];
-        Embedding at{{}, point.count, {}};
+        Embedding at;
+        at.count = point.count;
         for (int i = 0; i < point.count; ++i) {
             at.nodes[i] = point.nodes[i];
             at.weights[i] = point.weights[i];
@@ -212,7 +213,12 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
         if (!pulls) continue;
         for (int p = begin; p <= last; ++p) {
             const Embedding& at = embedding_[static_cast<std::size_t>(p)];
-            for (int i = 0; i < at.count; ++i) gradient_[at.nodes[i]] += at.weights[i] * force_[p];
+            const auto add = [&](int i) { gradient_[at.nodes[i]] += at.weights[i] * force_[p]; };
+            if (at.count == 4) {
+                for (int i = 0; i < 4; ++i) add(i);
+            } else {
+                for (int i = 0; i < at.count; ++i) add(i);
+            }
         }
     }
     gradient_.add_to(gradient);

@@ -97,17 +97,20 @@ class FibreSet {
     Points positions(const Points& x) const;
 
   private:
-    /// What an inner loop reads of a point.
+    /// What an inner loop reads of a point; beyond its count nodes have no weight.
     struct Embedding {
-        std::int32_t nodes[4];
-        std::int32_t count;
-        double weights[4];
+        std::int32_t nodes[4]{};
+        std::int32_t count = 0;
+        double weights[4]{};
     };
     solve::Lanes place(std::size_t point) const {
         const Embedding& at = embedding_[point];
-        solve::Lanes sum = body_place_[static_cast<int>(point)];
-        for (int i = 0; i < at.count; ++i) sum += at.weights[i] * x_[at.nodes[i]];
-        return sum;
+        const solve::Lanes& own = body_place_[static_cast<int>(point)];
+        if (at.count == 0) return own;
+        const auto term = [&](int i, const solve::Lanes& sum) {
+            return solve::fused(solve::Lanes{} + at.weights[i], x_[at.nodes[i]], sum);
+        };
+        return term(1, term(0, own)) + term(3, term(2, solve::Lanes{}));
     }
     void place_points(const Points& x) const;
     double length(int segment) const;

@@ -118,9 +118,9 @@ struct Face::Impl {
           neck(head),
           motion(neck, tissue.rest(), piece_s),
           channels(rig.channels()) {
-        tissue.prepare(motion.effective_step_s());
         tissue.step_in(quality.precision);
         tissue.refine_mouth(quality.mouth_iterations);
+        tissue.prepare(motion.effective_step_s());
         poser.emplace(head, rig, jaw, driven_jaw.joint(), lids, shell, mesh);
         dynamics.emplace(
             rig.muscles.activation_s(), rig.muscles.deactivation_s(),

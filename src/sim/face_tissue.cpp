@@ -192,6 +192,11 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     return metrics_.back().factor;
 }
 
+void FaceTissue::prepare(double h) {
+    metric(h);
+    if (refines_mouth(h)) mouth_.emplace(make_mouth(h));
+}
+
 void FaceTissue::prescribe(const Prescribed& prescribed) {
     const Rigid& moved = prescribed.mandible;
     mandible_ = moved;
@@ -320,7 +325,7 @@ TissuePart FaceTissue::make_mouth(double h) const {
 void FaceTissue::refine(double h, const Points& start, const Points& aim,
                         const Eigen::VectorXd& activation, const solve::QuasiNewtonOptions& options,
                         Points& x) {
-    if (mouth_iterations_ == 0 || h >= kSettling_s) return;
+    if (!refines_mouth(h)) return;
     if (!mouth_ || mouth_->step_s() != h) mouth_.emplace(make_mouth(h));
     solve::QuasiNewtonOptions own = options;
     own.iterations = mouth_iterations_;

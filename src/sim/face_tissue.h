@@ -88,8 +88,8 @@ class FaceTissue {
     FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
 
-    /// Factors the matrix for steps of length h now rather than in the first of them.
-    void prepare(double h) { metric(h); }
+    /// Factors the matrices for steps of length h now rather than in the first of them.
+    void prepare(double h);
 
     /// What steps of motion are worked out in; equilibria are in double.
     void step_in(solve::Precision precision) { precision_ = precision; }
@@ -196,6 +196,7 @@ class FaceTissue {
     /// Of a step of motion, after its iterations.
     void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
                 const solve::QuasiNewtonOptions& options, Points& x);
+    bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
     TissuePart make_mouth(double h) const;
     StepFigures end_step(const solve::StepReport& report, const Points& x);
     /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.

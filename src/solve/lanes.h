@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/types.h"
@@ -177,6 +179,17 @@ class PaddedRows {
             less += 3;
         }
     }
+    /// x(rows[i]) - y(i), of as many rows as y has.
+    void copy_difference(const Points& x, std::span<const int> rows, const Points& y) {
+        rows_.resize(static_cast<std::size_t>(y.rows()));
+        const double* less = y.data();
+        for (std::size_t i = 0; i < rows_.size(); ++i, less += 3) {
+            const double* from = x.data() + 3 * static_cast<std::ptrdiff_t>(rows[i]);
+            rows_[i].lanes =
+                Point{static_cast<Real>(from[0] - less[0]), static_cast<Real>(from[1] - less[1]),
+                      static_cast<Real>(from[2] - less[2]), Real(0)};
+        }
+    }
     void set_zero(long rows) { rows_.assign(static_cast<std::size_t>(rows), Row{}); }
     void add_to(Points& x) const {
         double* to = x.data();
@@ -185,6 +198,13 @@ class PaddedRows {
             to[1] += row.lanes[1];
             to[2] += row.lanes[2];
             to += 3;
+        }
+    }
+    /// Row i to x(rows[i]).
+    void add_to(Points& x, std::span<const int> rows) const {
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            double* to = x.data() + 3 * static_cast<std::ptrdiff_t>(rows[i]);
+            for (int c = 0; c < 3; ++c) to[c] += rows_[i].lanes[c];
         }
     }
 

@@ -34,10 +34,22 @@ double area(const Points& x, const Triangles& triangles, int t) {
 
 }  // namespace
 
-SkinSheet::SkinSheet(const Triangles& triangles, const Points& rest,
+SkinSheet::SkinSheet(const Triangles& all_triangles, const Points& all_rest,
                      const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m)
-    : rest_(rest), triangle_count_(static_cast<int>(triangles.rows())) {
-    assert(membrane_n_per_m.size() == triangles.rows() && bending_n_m.size() == triangles.rows());
+    : triangle_count_(static_cast<int>(all_triangles.rows())) {
+    assert(membrane_n_per_m.size() == triangle_count_ && bending_n_m.size() == triangle_count_);
+    // A sheet has some of the nodes of what it lies on
+    std::vector<int> place(static_cast<std::size_t>(all_rest.rows()), -1);
+    for (int node : all_triangles.reshaped()) place[static_cast<std::size_t>(node)] = 0;
+    for (std::size_t node = 0; node < place.size(); ++node)
+        if (place[node] == 0) {
+            place[node] = static_cast<int>(rows_.size());
+            rows_.push_back(static_cast<int>(node));
+        }
+    rest_ = all_rest(rows_, Eigen::all);
+    const Triangles triangles =
+        all_triangles.unaryExpr([&](int node) { return place[static_cast<std::size_t>(node)]; });
+    const Points& rest = rest_;
     std::vector<Triangle> sheet;
     for (int t = 0; t < triangle_count_; ++t) {
         const Vec3 e1 = point(rest, triangles(t, 1)) - point(rest, triangles(t, 0));
@@ -226,10 +238,10 @@ double SkinSheet::bending_energy(Work<Real>& work) {
 
 template <class Real>
 double SkinSheet::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
-    work.displacement.copy_difference(x, rest_);
+    work.displacement.copy_difference(x, rows_, rest_);
     work.gradient.set_zero(rest_.rows());
     const double energy = membrane_energy(work) + bending_energy(work);
-    work.gradient.add_to(gradient);
+    work.gradient.add_to(gradient, rows_);
     return energy;
 }
 
@@ -249,7 +261,8 @@ void SkinSheet::add_metric(solve::MetricBuilder& builder) const {
         g.row(0) = -(g.row(1) + g.row(2));
         const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> block =
             2.0 * group.stiffness[lane] * (g * g.transpose());
-        const int nodes[3] = {group.node[0][lane], group.node[1][lane], group.node[2][lane]};
+        const int nodes[3] = {node_of(group, 0, lane), node_of(group, 1, lane),
+                              node_of(group, 2, lane)};
         builder.add_block(nodes, block.data(), 3);
     }
     for (int h = 0; h < hinge_count_; ++h) {
@@ -258,7 +271,7 @@ void SkinSheet::add_metric(solve::MetricBuilder& builder) const {
         int nodes[4];
         double c[4];
         for (int k = 0; k < 4; ++k) {
-            nodes[k] = group.node[k][lane];
+            nodes[k] = node_of(group, k, lane);
             c[k] = group.c[k][lane];
         }
         builder.add_outer(nodes, c, 4, group.w[lane]);

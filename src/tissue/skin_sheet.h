@@ -90,6 +90,10 @@ class SkinSheet {
         double b00, b01, b11, stiffness;
         Vec3 t[2];
     };
+    template <class Group>
+    int node_of(const Group& group, int corner, int lane) const {
+        return rows_[static_cast<std::size_t>(group.node[corner][lane])];
+    }
     std::vector<Hinge> hinges_of(const Triangles& triangles,
                                  const Eigen::VectorXd& bending_n_m) const;
     template <class Real>
@@ -102,7 +106,8 @@ class SkinSheet {
     template <class Real>
     static double bending_energy(Work<Real>& work);
 
-    Points rest_;
+    std::vector<int> rows_;  ///< nodes of the sheet; groups name them by their place here
+    Points rest_;            ///< of those
     int triangle_count_ = 0;
     int hinge_count_ = 0;
     mutable Work<double> double_;

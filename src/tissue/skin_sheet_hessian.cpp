@@ -17,7 +17,8 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
     for (int t = 0; t < triangle_count_; ++t) {
         const TriangleGroup<double>& group = double_.triangles[static_cast<std::size_t>(t / 4)];
         const int lane = t % 4;
-        const int node[3] = {group.node[0][lane], group.node[1][lane], group.node[2][lane]};
+        const int node[3] = {node_of(group, 0, lane), node_of(group, 1, lane),
+                             node_of(group, 2, lane)};
         const Vec3 e1 = (x.row(node[1]) - x.row(node[0])).transpose();
         const Vec3 e2 = (x.row(node[2]) - x.row(node[0])).transpose();
         Mat3 f;
@@ -58,7 +59,7 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
         Vec3 l = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
             l += group.c[k][lane] *
-                 (x.row(group.node[k][lane]) - x.row(group.node[3][lane])).transpose();
+                 (x.row(node_of(group, k, lane)) - x.row(node_of(group, 3, lane))).transpose();
         const double w = group.w[lane], rest = group.rest_length[lane];
         const double s = std::max(std::sqrt(l.squaredNorm() + group.squared_rounding[lane]),
                                   std::numeric_limits<double>::min());
@@ -72,7 +73,7 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
         if (l.squaredNorm() > 0) block += (along - across) / l.squaredNorm() * (l * l.transpose());
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b <= a; ++b)
-                hessian.add(group.node[a][lane], group.node[b][lane],
+                hessian.add(node_of(group, a, lane), node_of(group, b, lane),
                             group.c[a][lane] * group.c[b][lane] * block);
     }
 }
