@@ -44,7 +44,7 @@ Quality quality_named(const std::string& name) {
                 .mouth_iterations = 10,
                 .step_s = 2 * kStep_s,
                 .longest_piece_s = 2 * kStep_s};
-    if (name == "preview") return {.name = "preview", .iterations = 5, .mouth_iterations = 9};
+    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_iterations = 9};
     if (name == "video")
         return {.name = "video",
                 .iterations = 80,
