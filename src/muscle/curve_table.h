@@ -36,7 +36,7 @@ class CurveTable {
     /// The same four times, with the same bits.
     Values at(const solve::Lanes& x) const {
         const solve::Lanes place = (x - low_) * cells_per_unit_;
-        const auto within = place >= 0.0 & place < static_cast<double>(cells_.size());
+        const auto within = (place >= 0.0) & (place < static_cast<double>(cells_.size()));
         if (!(within[0] & within[1] & within[2] & within[3])) return one_by_one(x);
         typedef std::int32_t Cells __attribute__((vector_size(16)));
         const Cells cell = __builtin_convertvector(place, Cells);
