@@ -185,7 +185,7 @@ double TetSolid::add_energy(const Points& x, Points& gradient, solve::Precision 
 }
 
 void TetSolid::begin_step(const Points& start, double viscosity, solve::Precision precision) {
-    viscosity_s_ = viscosity;
+    viscosity_ = viscosity;
     if (precision == solve::Precision::kSingle)
         begin_step_in(single_, start);
     else
@@ -223,7 +223,7 @@ void TetSolid::begin_step_in(Work<Real>& work, const Points& start) const {
 template <class Real, bool kInStep>
 double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
     using Lane = typename solve::LanesOf<Real>::Lane;
-    const Real viscosity = static_cast<Real>(viscosity_s_);
+    const Real viscosity = static_cast<Real>(viscosity_);
     solve::PaddedRows<Real>& u = work.displacement;
     solve::PaddedRows<Real>& out = work.gradient;
     u.copy_difference(x, rest_);

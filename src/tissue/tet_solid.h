@@ -110,7 +110,7 @@ class TetSolid {
     Points rest_;
     Eigen::VectorXd rest_volume_, mu_, bulk_;
     std::vector<Mat3> inverse_;  ///< of the rest edges x_k+1 - x_0, rows
-    double viscosity_s_ = 0;     ///< over the step's length
+    double viscosity_ = 0;       ///< of the step, as begin_step() was told
     mutable Work<double> double_;
     mutable Work<float> single_;
 };
