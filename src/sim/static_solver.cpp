@@ -28,9 +28,10 @@ constexpr int kFarRound = 6;          // iterations while it is far
 constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
 constexpr int kRoughRound = 20, kRoughRounds = 6;
 constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
-// Few poses take longer. Those take turns between contacts whatever is mixed; half of each way ends that.
-constexpr int kPatience = 300;  // iterations
-constexpr double kPart = 0.5;
+// Few poses take longer. In those a node is about to snap from one place to another, and planes sought at either send it to
+// the other, whatever is mixed. Held by a spring to where it was last, it goes the way that viscous tissue goes.
+constexpr int kPatience = 300;       // iterations before that, and before springs twice as stiff
+constexpr double kHold_n_per_m = 5;  // of the first: what is left is told too small by some um
 
 /// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
 /// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
@@ -91,7 +92,13 @@ StaticSolver::StaticSolver(FaceTissue& tissue)
 StaticSolver::~StaticSolver() = default;
 
 double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) {
-    return tissue_.static_energy(x, activation, gradient);
+    double energy = tissue_.static_energy(x, activation, gradient);
+    for (const int node : held_) {
+        const Eigen::RowVector3d away = x.row(node) - sought_.row(node);
+        energy += 0.5 * hold_n_per_m_ * away.squaredNorm();
+        gradient.row(node) += hold_n_per_m_ * away;
+    }
+    return energy;
 }
 
 void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
@@ -111,6 +118,7 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
         tissue_.add_static_hessian(x, activation, curvature, linear_->hessian);
         for (int i = 0; i < static_cast<int>(x.rows()); ++i)
             linear_->hessian.add_diagonal(i, kLoose_n_per_m);
+        for (const int node : held_) linear_->hessian.add_diagonal(node, hold_n_per_m_);
         for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
         ++factors_;
         const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
@@ -155,6 +163,16 @@ void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptio
     known_ = false;
 }
 
+bool StaticSolver::hold_what_moved(const Points& x, double more_than_m) {
+    const std::size_t before = held_.size();
+    for (int i = 0; i < static_cast<int>(x.rows()); ++i) {
+        if ((x.row(i) - sought_.row(i)).norm() <= more_than_m) continue;
+        const auto at = std::lower_bound(held_.begin(), held_.end(), i);
+        if (at == held_.end() || *at != i) held_.insert(at, i);
+    }
+    return held_.size() > before;
+}
+
 StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
                                  Points& x) {
     StepFigures figures;
@@ -165,8 +183,8 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
     };
     const auto metric = [&](const Points& b, Points& y) { solve(b, y); };
     // Planes of contact depend on where they are searched. Sought where the tissue came to rest on the last ones, two sets of
-    // them may take turns for ever: the fixed point where = x(where) is found by Anderson's mixing instead.
-    Points where = x;
+    // them may take turns for ever: the fixed point sought = x(sought) is found by Anderson's mixing instead.
+    sought_ = x;
     FixedPoint fixed_point;
     solve::Curvature curvature = solve::Curvature::kPositive;
     bool solved = true;  // the last round, with the planes it had
@@ -179,7 +197,7 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         return solve::longest_row(move_);
     };
     while (true) {
-        tissue_.find_rest_contacts(where);
+        tissue_.find_rest_contacts(sought_);
         if (!known_ || !solved) factorise(x, activation, curvature);
         double left = left_at();
         if (left > options.tolerance_m && left > kStale * last_left) {
@@ -188,7 +206,7 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         }
         figures.last_step_rms_m =
             std::sqrt(solve::dot(move_, move_) / static_cast<double>(x.rows()));
-        move_ = x - where;
+        move_ = x - sought_;
         figures.converged =
             left <= options.tolerance_m && solve::longest_row(move_) <= options.planes_m;
         if (figures.converged || figures.iterations >= options.iterations ||
@@ -211,9 +229,19 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
         solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
         curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
         if (!solved) fixed_point.forget();
-        const Points next = fixed_point.next(where, x);
-        where = figures.iterations < kPatience ? next : Points(where + kPart * (next - where));
+        if (figures.iterations < kPatience) {
+            sought_ = fixed_point.next(sought_, x);
+            continue;
+        }
+        if (hold_what_moved(x, options.planes_m)) solved = false;
+        const double hold = kHold_n_per_m * std::exp2(figures.iterations / kPatience - 1);
+        if (hold > hold_n_per_m_) solved = false;
+        hold_n_per_m_ = hold;
+        sought_ = x;
     }
+    if (!held_.empty()) known_ = false;
+    held_.clear();
+    hold_n_per_m_ = 0;
     const StepFigures last = tissue_.end_rest(x);
     figures.contact_depth_m = last.contact_depth_m;
     figures.lip_depth_m = last.lip_depth_m;

@@ -4,7 +4,8 @@
 //   g(x) = dE/dx      H = d2E/dx2      B = H^-1 as last factored, there or nearby, without negative curvature
 //
 // L-BFGS with B as its metric: its first iteration is Newton's, the next ones correct B for where they are. Contact pairs are
-// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little.
+// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little. Nodes that
+// keep snapping between the planes of two rounds are held by springs to where the round began: without force at rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -56,6 +57,8 @@ class StaticSolver {
     /// Moves x near the equilibrium, unless it is there.
     void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
                   StepFigures& figures);
+    /// Holds nodes that are farther from where contacts were sought; says whether any was not held before.
+    bool hold_what_moved(const Points& x, double more_than_m);
     double energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient);
 
     FaceTissue& tissue_;
@@ -64,6 +67,9 @@ class StaticSolver {
     long factors_ = 0;
     std::vector<std::pair<int, int>> touched_;  ///< nodes of pairs that were in contact, sorted
     solve::QuasiNewton search_;
+    Points sought_;          ///< where contacts were found
+    std::vector<int> held_;  ///< to sought_, ascending
+    double hold_n_per_m_ = 0;
     Points gradient_, move_;
 };
 
