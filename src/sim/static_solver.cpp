@@ -29,9 +29,11 @@ constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettli
 constexpr int kRoughRound = 20, kRoughRounds = 6;
 constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
 // Few poses take longer. In those a node is about to snap from one place to another, and planes sought at either send it to
-// the other, whatever is mixed. Held by a spring to where it was last, it goes the way that viscous tissue goes.
-constexpr int kPatience = 300;       // iterations before that, and before springs twice as stiff
-constexpr double kHold_n_per_m = 5;  // of the first: what is left is told too small by some um
+// the other, whatever is mixed. Held by a spring to where it was last, it goes the way that viscous tissue goes. Planes that
+// turn against it make it stiffer than they are as they stand; that is what the spring comes to where the node goes on.
+constexpr int kPatience = 300;  // iterations before that
+constexpr double kHold_n_per_m = 5;
+constexpr double kStiffer = 2;  // of springs whose node goes as far as before
 
 /// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
 /// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
@@ -93,10 +95,10 @@ StaticSolver::~StaticSolver() = default;
 
 double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) {
     double energy = tissue_.static_energy(x, activation, gradient);
-    for (const int node : held_) {
-        const Eigen::RowVector3d away = x.row(node) - sought_.row(node);
-        energy += 0.5 * hold_n_per_m_ * away.squaredNorm();
-        gradient.row(node) += hold_n_per_m_ * away;
+    for (const Spring& spring : springs_) {
+        const Eigen::RowVector3d away = x.row(spring.node) - sought_.row(spring.node);
+        energy += 0.5 * spring.n_per_m * away.squaredNorm();
+        gradient.row(spring.node) += spring.n_per_m * away;
     }
     return energy;
 }
@@ -118,7 +120,8 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
         tissue_.add_static_hessian(x, activation, curvature, linear_->hessian);
         for (int i = 0; i < static_cast<int>(x.rows()); ++i)
             linear_->hessian.add_diagonal(i, kLoose_n_per_m);
-        for (const int node : held_) linear_->hessian.add_diagonal(node, hold_n_per_m_);
+        for (const Spring& spring : springs_)
+            linear_->hessian.add_diagonal(spring.node, spring.n_per_m);
         for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
         ++factors_;
         const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
@@ -164,13 +167,23 @@ void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptio
 }
 
 bool StaticSolver::hold_what_moved(const Points& x, double more_than_m) {
-    const std::size_t before = held_.size();
+    bool changed = false;
     for (int i = 0; i < static_cast<int>(x.rows()); ++i) {
-        if ((x.row(i) - sought_.row(i)).norm() <= more_than_m) continue;
-        const auto at = std::lower_bound(held_.begin(), held_.end(), i);
-        if (at == held_.end() || *at != i) held_.insert(at, i);
+        const double away = (x.row(i) - sought_.row(i)).norm();
+        auto at =
+            std::lower_bound(springs_.begin(), springs_.end(), i,
+                             [](const Spring& spring, int node) { return spring.node < node; });
+        const bool held = at != springs_.end() && at->node == i;
+        if (away > more_than_m) {
+            if (!held)
+                at = springs_.insert(at, {i, kHold_n_per_m, away});
+            else if (away > kNearer * at->away_m)
+                at->n_per_m *= kStiffer;
+            changed = changed || !held || away > kNearer * at->away_m;
+        }
+        if (held) at->away_m = away;
     }
-    return held_.size() > before;
+    return changed;
 }
 
 StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
@@ -234,14 +247,10 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
             continue;
         }
         if (hold_what_moved(x, options.planes_m)) solved = false;
-        const double hold = kHold_n_per_m * std::exp2(figures.iterations / kPatience - 1);
-        if (hold > hold_n_per_m_) solved = false;
-        hold_n_per_m_ = hold;
         sought_ = x;
     }
-    if (!held_.empty()) known_ = false;
-    held_.clear();
-    hold_n_per_m_ = 0;
+    if (!springs_.empty()) known_ = false;
+    springs_.clear();
     const StepFigures last = tissue_.end_rest(x);
     figures.contact_depth_m = last.contact_depth_m;
     figures.lip_depth_m = last.lip_depth_m;

@@ -57,7 +57,8 @@ class StaticSolver {
     /// Moves x near the equilibrium, unless it is there.
     void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
                   StepFigures& figures);
-    /// Holds nodes that are farther from where contacts were sought; says whether any was not held before.
+    /// Springs for nodes that are farther from where contacts were sought, stiffer ones for those that do not come nearer.
+    /// Says whether any is new or stiffer.
     bool hold_what_moved(const Points& x, double more_than_m);
     double energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient);
 
@@ -67,9 +68,13 @@ class StaticSolver {
     long factors_ = 0;
     std::vector<std::pair<int, int>> touched_;  ///< nodes of pairs that were in contact, sorted
     solve::QuasiNewton search_;
-    Points sought_;          ///< where contacts were found
-    std::vector<int> held_;  ///< to sought_, ascending
-    double hold_n_per_m_ = 0;
+    Points sought_;  ///< where contacts were found
+    struct Spring {  ///< to sought_
+        int node;
+        double n_per_m;
+        double away_m;  ///< where the last round took it
+    };
+    std::vector<Spring> springs_;  ///< ascending nodes
     Points gradient_, move_;
 };
 

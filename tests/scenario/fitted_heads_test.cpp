@@ -157,6 +157,7 @@ TEST_P(FittedHead, OpenJawOpensTheMouth) {
     drive.kinematic[static_cast<std::size_t>(track::Kinematic::kJawOpen)] = 1;
     const sim::FacePose pose = fitted->settled(drive);
     EXPECT_TRUE(pose.vertices.allFinite());
+    EXPECT_TRUE(fitted->came_to_rest);
     EXPECT_GT(1e3 * fitted->points->distance("stos", "stoi", pose.vertices), 20);
     EXPECT_LT(fitted->moved_mm("pg", pose).y(), -15);
     EXPECT_LT(fitted->moved_mm("n", pose).norm(), 2);
