@@ -10,6 +10,8 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/json_cursor.h"
@@ -192,9 +194,14 @@ TEST_F(MeasuredHeadTest, FillsThePictureFromCrownToChin) {
 }
 
 TEST_F(MeasuredHeadTest, CloseUpsAndTheViewFromAboveShowWhatTheyAreNamedAfter) {
+    std::map<std::string, OffscreenView> views;  // by camera
     const auto shown = [&](const char* camera, const char* landmark) {
-        const OffscreenView view(head_.scene, {.width_px = 64, .height_px = 64, .camera = camera});
-        return view.project(head_.scene.landmarks.at(landmark));
+        if (!views.contains(camera))
+            views.emplace(
+                std::piecewise_construct, std::forward_as_tuple(camera),
+                std::forward_as_tuple(
+                    head_.scene, ViewOptions{.width_px = 64, .height_px = 64, .camera = camera}));
+        return views.at(camera).project(head_.scene.landmarks.at(landmark));
     };
     for (const auto& [camera, landmarks] : {std::pair("eye", std::array{"en_l", "ex_l"}),
                                             {"nose", std::array{"prn", "sn"}},

@@ -58,6 +58,10 @@ inline DriveAt always(const track::Drive& drive) {
 inline const StaticOptions kNearRest{
     .iterations = kRestIterations, .tolerance_m = 2e-5, .planes_m = 2e-5};
 
+/// Near enough for what is measured in millimetres.
+inline const StaticOptions kWithinATenth{
+    .iterations = kRestIterations, .tolerance_m = 1e-4, .planes_m = 1e-4};
+
 /// The pose in equilibrium with a drive, found from rest.
 inline FacePose settled(Face& face, const track::Drive& drive, StepFigures* figures = nullptr,
                         const StaticOptions& options = {.iterations = kRestIterations}) {

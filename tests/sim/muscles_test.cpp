@@ -36,7 +36,8 @@ class Muscles : public testing::Test {
         static std::map<std::pair<std::string, std::optional<Side>>, Contraction> known;
         const auto key = std::pair(muscle, side);
         if (!known.contains(key)) {
-            Points u = moved(with_muscle(muscle, 1.0, side));
+            Points u = moved_mm(
+                face(), settled(face(), with_muscle(muscle, 1.0, side), nullptr, kWithinATenth));
             known[key] = {std::move(u), face().mean_stretch(muscle)};
         }
         return known[key];
