@@ -9,8 +9,6 @@ set -euo pipefail
 
 # Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
 sanitized=(core geom signal track muscle solve tissue contact stimuli plot io media)
-# Long runs of what the other suites of these folders run as well, ten times as long under sanitizers: in the release build.
-unsanitized=(contact.Cloth contact.StackedCubes tissue.AdaptiveSolid tissue.HangingCube)
 
 case ${1:-} in
     '') sanitizers=some ;;
@@ -60,20 +58,19 @@ check_targets=()
 check_select=()
 case $sanitizers in
     some)
-        # Programs that are no tests, then the tests of folders that have any to run in the release build
+        # Programs that are no tests, then the tests of each folder in the one build or the other
         release_targets=(programs)
-        for folder in $(folders); do
-            if [[ " ${sanitized[*]} " != *" $folder "* || " ${unsanitized[*]}" == *" $folder."* ]]; then
-                release_targets+=("${folder}_test")
-            fi
-            if [[ " ${sanitized[*]} " == *" $folder "* ]]; then check_targets+=("${folder}_test"); fi
-        done
         kept=()
         for folder in $(folders); do
-            if [[ " ${sanitized[*]} " != *" $folder "* ]]; then kept+=("$folder\\..*"); fi
+            if [[ " ${sanitized[*]} " == *" $folder "* ]]; then
+                check_targets+=("${folder}_test")
+            else
+                release_targets+=("${folder}_test")
+                kept+=("$folder")
+            fi
         done
-        release_select=(--tests-regex "^($(any_of "${kept[@]}" "${unsanitized[@]}"))\$")
-        check_select=(--label-regex "^($(any_of "${sanitized[@]}"))\$" --exclude-regex "^($(any_of "${unsanitized[@]}"))\$")
+        release_select=(--label-regex "^($(any_of "${kept[@]}"))\$")
+        check_select=(--label-regex "^($(any_of "${sanitized[@]}"))\$")
         ;;
     all) check_targets=(all) ;;
 esac
