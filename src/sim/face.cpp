@@ -230,7 +230,8 @@ struct Face::Impl {
              .memory = kMemory,
              .pairs = quality.precision,
              .step_cap_m = kStepCap_m,
-             .tolerance_rms_m = quality.tolerance_rms_m},
+             .tolerance_rms_m = quality.tolerance_rms_m,
+             .trust_last = quality.tolerance_rms_m == 0},
             x, now.jaw, likely);
         last_move = x - carried;
         tissue.fibres().end_step();

@@ -44,9 +44,9 @@ struct Quality {
         kStep_s;  ///< a step is solved in so many equal pieces that none is longer
     solve::Precision precision = solve::Precision::kSingle;  ///< of the tissue's forces in steps
 };
-/// "draft": steps of 1/30 s, of eight iterations and ten of the mouth alone: as far again from converged steps as "preview" is.
-/// "preview": five iterations and nine of the mouth alone, real time. "video": two pieces a step, each until an iteration moves the nodes by less than 0.0025 mm
-/// RMS, after four at least.
+/// "draft": steps of 1/30 s, of eight iterations and ten of the mouth alone: as far again from converged steps as "preview"
+/// is. "preview": six iterations and nine of the mouth alone, real time. "video": two pieces a step, each until an iteration
+/// moves the nodes by less than 0.0025 mm RMS, after four at least.
 /// "fine": as video, with 1,700 skin vertices.
 Quality quality_named(const std::string& name);
 

@@ -121,6 +121,18 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
         // Armijo with halving, from the full step or the longest the cap allows
         const double longest = longest_row(direction_);
         double t = longest > options.step_cap_m ? options.step_cap_m / longest : 1.0;
+        const auto rms_step_m = [&] {
+            return t *
+                   std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
+        };
+        if (options.trust_last && iteration + 1 == options.iterations && report.backtracks == 0 &&
+            slope < 0) {
+            x += t * direction_;
+            ++report.iterations;
+            report.last_step_rms_m = rms_step_m();
+            report.converged = report.last_step_rms_m < options.tolerance_rms_m;
+            return report;
+        }
         double trial_energy = 0;
         bool accepted = false;
         for (int halving = 0; halving <= options.backtracks && slope < 0; ++halving) {
@@ -156,8 +168,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
         e = trial_energy;
         ++report.iterations;
         report.energy_j = e;
-        report.last_step_rms_m =
-            t * std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
+        report.last_step_rms_m = rms_step_m();
         if (report.last_step_rms_m < options.tolerance_rms_m &&
             report.iterations >= options.least_iterations) {
             report.converged = true;

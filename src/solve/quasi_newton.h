@@ -32,6 +32,9 @@ struct QuasiNewtonOptions {
         0;  ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
     double sufficient_decrease = 1e-4;
     int backtracks = 12;
+    /// The last of `iterations` is taken without an evaluation of E where all before it were accepted at their first trial:
+    /// the report's energy is then that before it.
+    bool trust_last = false;
 };
 
 struct StepReport {

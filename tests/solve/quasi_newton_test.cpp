@@ -156,6 +156,32 @@ TEST(QuasiNewton, EveryStepLowersTheEnergyAndStaysUnderTheCap) {
     }
 }
 
+TEST(QuasiNewton, ATrustedLastStepIsTheSameToTheBitAndCostsNoEvaluation) {
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 2 * HangingBar::lambda / HangingBar::length);
+    Points checked = HangingBar::rest(), trusted = HangingBar::rest();
+    const StepReport with_check = minimise(HangingBar::energy, metric, checked, {.iterations = 4});
+    const StepReport without =
+        minimise(HangingBar::energy, metric, trusted, {.iterations = 4, .trust_last = true});
+    ASSERT_EQ(with_check.backtracks, 0);
+    EXPECT_TRUE((checked.array() == trusted.array()).all());
+    EXPECT_EQ(without.iterations, 4);
+    EXPECT_EQ(without.evaluations, with_check.evaluations - 1);
+    EXPECT_EQ(without.last_step_rms_m, with_check.last_step_rms_m);
+}
+
+TEST(QuasiNewton, ALastStepIsCheckedWhereOneBeforeItWentTooFar) {
+    // A metric much too soft: full steps go beyond the minimum and are halved
+    const SparseCholesky metric =
+        chain_metric(HangingBar::n, 0.05 * HangingBar::lambda / HangingBar::length);
+    Points x = HangingBar::rest(), gradient(HangingBar::n, 3);
+    const StepReport report = minimise(HangingBar::energy, metric, x,
+                                       {.iterations = 3, .step_cap_m = 1.0, .trust_last = true});
+    ASSERT_GT(report.backtracks, 0);
+    EXPECT_EQ(report.evaluations, 1 + report.iterations + report.backtracks);
+    EXPECT_EQ(report.energy_j, HangingBar::energy(x, gradient));
+}
+
 TEST(QuasiNewton, RestNeedsNoStep) {
     const SparseCholesky metric = chain_metric(4, 1.0);
     Points x = Points::Ones(4, 3);
