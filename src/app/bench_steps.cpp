@@ -22,6 +22,9 @@ constexpr int kPoses = 4;
 // Until an iteration moves the nodes by less than 0.02 micrometres, RMS: what is left is far below any figure reported.
 constexpr double kConverged_m = 2e-8;
 constexpr int kConvergedIterations = 400;
+// Of "preview" on more skin nodes than its own: as close to converged as six are on its own. Five are not, there.
+constexpr int kIterationsOfFinerShells = 5;
+constexpr int kTimesPlayed = 3;
 
 // Keys of a unit that is on in one of the poses.
 Json pose_keys(int pose, double value) {
@@ -107,6 +110,7 @@ std::vector<StepBench> usual_step_benches() {
         sim::Quality quality = sim::quality_named("preview");
         quality.name += ", " + std::to_string(vertices) + " skin nodes";
         quality.shell_vertices = vertices;
+        quality.iterations = kIterationsOfFinerShells;
         out.push_back({quality, vertices < 2000 ? 240 : 60});
     }
     for (const int vertices : {3300, 6600}) {
@@ -123,36 +127,57 @@ Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases, con
     const sim::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
     std::map<std::tuple<int, int, double>, SkinTrack>
         converged;  // by size of the shell, steps, pieces
-    Json out = Json::array();
+    const auto key = [](const StepBench& one) {
+        return std::tuple(one.quality.shell_vertices, one.steps, one.quality.longest_piece_s);
+    };
     for (const StepBench& one : cases) {
-        const auto key =
-            std::tuple(one.quality.shell_vertices, one.steps, one.quality.longest_piece_s);
-        if (!converged.contains(key)) {
-            sim::Quality exact = one.quality;
-            exact.name = "converged";
-            exact.iterations = kConvergedIterations;
-            exact.tolerance_rms_m = kConverged_m;
-            exact.precision = solve::Precision::kDouble;
-            converged[key] = play(files, drive, {exact, one.steps}, watch).skin;
+        if (converged.contains(key(one))) continue;
+        sim::Quality exact = one.quality;
+        exact.name = "converged";
+        exact.iterations = kConvergedIterations;
+        exact.tolerance_rms_m = kConverged_m;
+        exact.precision = solve::Precision::kDouble;
+        converged[key(one)] = play(files, drive, {exact, one.steps}, watch).skin;
+    }
+
+    // Every case before any comes again: a machine that others share is slow for seconds on end.
+    std::vector<StepRun> runs(cases.size());
+    std::vector<std::vector<double>> least_ms(cases.size());
+    for (int time = 0; time < kTimesPlayed; ++time)
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            StepRun run = play(files, drive, cases[i], watch);
+            if (time == 0) {
+                least_ms[i] = run.step_ms;
+                runs[i] = std::move(run);
+                continue;
+            }
+            for (std::size_t step = 0; step < run.step_ms.size(); ++step)
+                least_ms[i][step] = std::min(least_ms[i][step], run.step_ms[step]);
+            runs[i].step_ms.insert(runs[i].step_ms.end(), run.step_ms.begin(), run.step_ms.end());
         }
-        const StepRun quick = play(files, drive, one, watch);
+
+    Json out = Json::array();
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const StepRun& run = runs[i];
+        const SkinTrack& exact = converged[key(cases[i])];
         double squares = 0, largest = 0;
         long count = 0;
-        for (std::size_t step = 0; step < quick.skin.size(); ++step) {
-            const Points off = quick.skin[step] - converged[key][step];
+        for (std::size_t step = 0; step < run.skin.size(); ++step) {
+            const Points off = run.skin[step] - exact[step];
             squares += off.squaredNorm();
             largest = std::max(largest, off.rowwise().norm().maxCoeff());
             count += off.rows();
         }
         out.push_back(
-            {{"quality", one.quality.name},
-             {"nodes", quick.nodes},
-             {"tets", quick.tets},
-             {"steps", one.steps},
-             {"iterations", quick.iterations},
-             {"step_ms", median(quick.step_ms)},
-             {"mean_step_ms", std::accumulate(quick.step_ms.begin(), quick.step_ms.end(), 0.0) /
-                                  static_cast<double>(quick.step_ms.size())},
+            {{"quality", cases[i].quality.name},
+             {"nodes", run.nodes},
+             {"tets", run.tets},
+             {"steps", cases[i].steps},
+             {"iterations", run.iterations},
+             {"step_ms", median(run.step_ms)},
+             {"least_step_ms", median(least_ms[i])},
+             {"mean_step_ms", std::accumulate(run.step_ms.begin(), run.step_ms.end(), 0.0) /
+                                  static_cast<double>(run.step_ms.size())},
              {"rms_mm", 1e3 * std::sqrt(squares / static_cast<double>(count))},
              {"largest_mm", 1e3 * largest}});
     }

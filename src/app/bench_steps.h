@@ -2,7 +2,8 @@
 // every half second, the jaw swinging twice a second, blinks.
 //
 //   error   of skin nodes over all steps, against the same track with every step converged: lag that adds up counts in full
-//   time    processor time of one core per step of 1/60 s
+//   time    processor time of one core per step of 1/60 s: median and mean over the steps of three runs, and the median of
+//           what each step takes at least in one of the three, which is the program's own where others share the machine
 #pragma once
 
 #include <vector>
@@ -25,8 +26,8 @@ struct StepBench {
     int steps = 240;  ///< of the track, from its start
 };
 
-/// Per entry: quality, nodes, tets, steps, iterations (mean), step_ms and mean_step_ms, rms_mm and largest_mm. Entries
-/// with equal shells and steps share the converged track.
+/// Per entry: quality, nodes, tets, steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
+/// largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases,
                  const Watch& watch = {});
 
