@@ -12,6 +12,7 @@
 
 #include "app/animate.h"
 #include "app/bench_pictures.h"
+#include "app/bench_poses.h"
 #include "app/bench_shapes.h"
 #include "app/bench_solids.h"
 #include "app/bench_steps.h"
@@ -196,6 +197,10 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watc
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
                 {"steps", bench_steps(files, usual_step_benches(), watch)}};
+    if (options.only_poses)
+        return {{"rig", rig_file.generic_string()},
+                {"name", files.rig.name},
+                {"poses", bench_poses(files, {}, watch)}};
     if (options.only_shapes)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
@@ -291,7 +296,8 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
         out["rigs"].push_back(bench_rig(rigs[i], options, one));
     }
     out["solids"] = Json::array();
-    if (options.only_steps || options.only_pictures || options.only_shapes) return out;
+    if (options.only_steps || options.only_poses || options.only_pictures || options.only_shapes)
+        return out;
     Watch solids = watch;
     if (watch.progress)
         solids.progress = [&](double share, const std::string& what) {

@@ -17,6 +17,7 @@ struct BenchOptions {
     int seed = 1;          ///< of that
     std::string quality = "preview";    ///< of that
     bool only_steps = false;            ///< of the faces
+    bool only_poses = false;            ///< likewise; nothing else measures equilibria
     bool only_pictures = false;         ///< and pictures (bench_pictures.h)
     bool only_shapes = false;           ///< and blend shapes (bench_shapes.h)
     std::filesystem::path shapes = {};  ///< of only_shapes; empty: linear ones

@@ -1,4 +1,4 @@
-// risorius bench [--rig RIG]... [--solids | --steps | --pictures] [-o FILE]
+// risorius bench [--rig RIG]... [--solids | --steps | --poses | --pictures | --shapes [FILE] | --stress STEPS] [-o FILE]
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +70,21 @@ void print_steps(const Json& cases) {
                     one["rms_mm"].get<double>(), one["largest_mm"].get<double>());
 }
 
+void print_poses(const Json& shells) {
+    std::printf(
+        "  equilibria: iterations and seconds of one core to rest; left: how far a node still goes "
+        "when it is settled\n"
+        "  once more, a hundred times closer\n"
+        "                      nodes  iterations  seconds  at rest  inverted  left mm\n");
+    for (const Json& shell : shells)
+        for (const Json& one : shell["poses"])
+            std::printf("    %-16s %7d  %10d  %7.2f  %7s  %8d  %7.4f\n",
+                        one["name"].get<std::string>().c_str(), shell["nodes"].get<int>(),
+                        one["iterations"].get<int>(), one["seconds"].get<double>(),
+                        one["at_rest"].get<bool>() ? "yes" : "no", one["inverted"].get<int>(),
+                        one["left_mm"].get<double>());
+}
+
 void print_pictures(const Json& cases) {
     std::printf(
         "  pictures, simulated, drawn and encoded: frames per second of wall time on all cores; of "
@@ -105,6 +120,7 @@ void print(const Json& report) {
     for (const Json& rig : report["rigs"]) {
         std::printf("%s\n", rig["rig"].get<std::string>().c_str());
         if (rig.contains("steps")) print_steps(rig["steps"]);
+        if (rig.contains("poses")) print_poses(rig["poses"]);
         if (rig.contains("pictures")) print_pictures(rig["pictures"]);
         if (rig.contains("blend_shapes")) print_shapes(rig["blend_shapes"]);
         if (!rig.contains("preview")) continue;
@@ -152,12 +168,19 @@ void add_bench(CLI::App& app) {
                    "Only how long the steps of the rigs take and how true they are")
         ->excludes("--solids");
     command
+        ->add_flag("--poses", arguments->options.only_poses,
+                   "Only how equilibria are found on meshes of 2 to 20 thousand nodes; takes "
+                   "minutes")
+        ->excludes("--solids")
+        ->excludes("--steps");
+    command
         ->add_flag(
             "--pictures", arguments->options.only_pictures,
             "Only how many frames a second are simulated, drawn and encoded, at 512 x 512, 1024 x "
             "1024 and 1920 x 1080, as usual and with --draft")
         ->excludes("--solids")
-        ->excludes("--steps");
+        ->excludes("--steps")
+        ->excludes("--poses");
     command
         ->add_option_function<std::string>(
             "--shapes",
@@ -172,12 +195,14 @@ void add_bench(CLI::App& app) {
         ->type_name("[FILE]")
         ->excludes("--solids")
         ->excludes("--steps")
+        ->excludes("--poses")
         ->excludes("--pictures");
     command
         ->add_option("--stress", arguments->options.stress_steps,
                      "Only drive the face at random for so many steps, and say what comes of it")
         ->check(CLI::Range(1, 1000000))
-        ->excludes("--solids");
+        ->excludes("--solids")
+        ->excludes("--poses");
     command->add_option("--seed", arguments->options.seed, "Of --stress")->needs("--stress");
     command->add_option("--quality", arguments->options.quality, "Of --stress")
         ->check(CLI::IsMember({"preview", "video", "fine"}))
