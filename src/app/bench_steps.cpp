@@ -57,6 +57,7 @@ struct StepRun {
     SkinTrack skin;
     std::vector<double> step_ms;
     int nodes = 0, tets = 0;
+    int most_inverted_tets = 0;
     double iterations = 0;  // mean
 };
 
@@ -74,6 +75,7 @@ StepRun play(const RigFiles& files, const sim::DriveAt& drive, const StepBench& 
         out.iterations += face.step(drive).iterations / static_cast<double>(one.steps);
         out.step_ms.push_back(1e3 * stopwatch.seconds());
         out.skin.push_back(face.skin_nodes());
+        out.most_inverted_tets = std::max(out.most_inverted_tets, face.inverted_tets());
     }
     return out;
 }
@@ -172,6 +174,7 @@ Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases, con
             {{"quality", cases[i].quality.name},
              {"nodes", run.nodes},
              {"tets", run.tets},
+             {"most_inverted_tets", run.most_inverted_tets},
              {"steps", cases[i].steps},
              {"iterations", run.iterations},
              {"step_ms", median(run.step_ms)},

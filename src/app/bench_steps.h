@@ -26,7 +26,7 @@ struct StepBench {
     int steps = 240;  ///< of the track, from its start
 };
 
-/// Per entry: quality, nodes, tets, steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
+/// Per entry: quality, nodes, tets, most_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
 /// largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const RigFiles& files, const std::vector<StepBench>& cases,
                  const Watch& watch = {});

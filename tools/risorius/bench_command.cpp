@@ -61,13 +61,14 @@ void print_steps(const Json& cases) {
     std::printf(
         "  steps of 1/60 s: smile, sneer, jaw, pucker every half second; error of the skin\n"
         "                                nodes  iterations  ms, median   mean  least of 3  RMS mm  "
-        "largest mm\n");
+        "largest mm  inverted\n");
     for (const Json& one : cases)
-        std::printf("    %-26s %6d  %10.1f  %10.2f  %5.2f  %10.2f  %6.3f  %10.2f\n",
+        std::printf("    %-26s %6d  %10.1f  %10.2f  %5.2f  %10.2f  %6.3f  %10.2f  %8d\n",
                     one["quality"].get<std::string>().c_str(), one["nodes"].get<int>(),
                     one["iterations"].get<double>(), one["step_ms"].get<double>(),
                     one["mean_step_ms"].get<double>(), one["least_step_ms"].get<double>(),
-                    one["rms_mm"].get<double>(), one["largest_mm"].get<double>());
+                    one["rms_mm"].get<double>(), one["largest_mm"].get<double>(),
+                    one["most_inverted_tets"].get<int>());
 }
 
 void print_poses(const Json& shells) {
