@@ -197,6 +197,9 @@ struct Face::Impl {
         return figures;
     }
 
+    /// A jaw that muscles move, and volume muscles, need twice as many to keep up.
+    bool many_iterations() const { return driven_jaw.by_muscles() || !tissue.solids().empty(); }
+
     StepFigures piece(const DriveAt& drive_at) {
         const double from = static_cast<double>(done) * piece_s,
                      to = static_cast<double>(done + 1) * piece_s;
@@ -224,8 +227,7 @@ struct Face::Impl {
         const StepFigures figures = driven_jaw.implicit_step(
             tissue, h, piece_s, moves.start, moves.aim, activation,
             {moves.moved, gravity_at(drive)},
-            // A jaw that muscles move needs twice as many to keep up
-            {.iterations = (driven_jaw.by_muscles() ? 2 : 1) * quality.iterations,
+            {.iterations = (many_iterations() ? 2 : 1) * quality.iterations,
              .least_iterations = quality.least_iterations,
              .memory = kMemory,
              .pairs = quality.precision,
