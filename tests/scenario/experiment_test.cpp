@@ -129,7 +129,7 @@ TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsItsCodes) {
                     (happy ? "stim-happiness_video.json" : "stim-fear_audiovideo.json")));
         const int onset = clip.at("movement_onset_frame"), apex = clip.at("apex_frame");
         EXPECT_TRUE(onset == 1 || onset == 2) << onset;
-        EXPECT_EQ(apex, 4);
+        EXPECT_TRUE(apex == 4 || apex == 5) << apex;
         EXPECT_NE(line.find(",1@0.0000 2@0." + std::to_string(onset) + "000 3@0." +
                             std::to_string(apex) + "000 4@0.6000,0"),
                   std::string::npos)
