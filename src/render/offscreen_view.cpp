@@ -218,14 +218,25 @@ struct OffscreenView::Impl {
         const auto sky_over = [&](const Points& positions) {
             return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
         };
+        // The skin folds most finely, in nostrils and ears.
+        std::vector<unsigned> skin;
+        for (const Batch& batch : buffers->batches())
+            if (batch.material == Material::kSkin)
+                skin.insert(skin.end(), buffers->indices().begin() + batch.first_index,
+                            buffers->indices().begin() + batch.first_index + batch.index_count);
+        const auto smoothed = [&](const std::vector<float>& seen, const Points& positions) {
+            constexpr int kMoreOfSkin = 3;
+            return with_neighbours(
+                with_neighbours(seen, positions, buffers->normals(), buffers->indices(), 1),
+                positions, buffers->normals(), skin, kMoreOfSkin);
+        };
         const std::vector<float> sky = sky_over(scene.rest);
-        out->sky = with_neighbours(sky, scene.rest, buffers->indices());
+        out->sky = smoothed(sky, scene.rest);
         out->inside = marks.inside_mouth(scene, sky);
         if (scene.shut.rows() > 0) {
             buffers->upload(scene.shut);
-            out->sky_about_eyes.emplace(
-                scene, out->sky,
-                with_neighbours(sky_over(scene.shut), scene.shut, buffers->indices()));
+            out->sky_about_eyes.emplace(scene, out->sky,
+                                        smoothed(sky_over(scene.shut), scene.shut));
             buffers->upload(scene.rest);
         }
         const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};

@@ -110,7 +110,7 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     HalfMesh& mesh = skin.mesh;
     // The tables count 36 places, 12 along each long side. The mesh has its 52 where the outline is long or bends: along the front,
     // around the lobe, up the back, over the top. They begin after the corner of the block, so that none turns far.
-    constexpr double kFront = 14, kLobe = 9, kBack = 17, kTop = kLoop - kFront - kLobe - kBack,
+    constexpr double kFront = 14, kLobe = 10, kBack = 16, kTop = kLoop - kFront - kLobe - kBack,
                      kBegin = 3;
     const auto place = [](double p) {
         if (p <= 12) return kBegin + p * kFront / 12;
@@ -194,6 +194,10 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         mesh.point[v] =
             in_space(mesh.point[v] + rise * ear_relief(tables.ear_relief, mesh.point[v]));
     }
+    // What is finer than the mesh would show as facets.
+    std::vector<double> share(mesh.point.size(), 0.0);
+    for (std::size_t v = first; v < mesh.point.size(); ++v) share[v] = 1;
+    mesh.smooth(3, share);
 }
 
 }  // namespace risorius::sculpt

@@ -209,29 +209,45 @@ struct ReliefLine {
     }
 };
 
-/// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; and the ridge of
-/// lobule and columella, which hangs below the wings and stands out between the nostrils.
+/// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; the ridge of
+/// lobule and columella, which hangs below the wings and stands out between the nostrils; and the bridge, which is round across.
 void shape_nose(Skin& skin) {
-    const ReliefLine groove{{{Vec3(18.4, -27, 88.6), -0.5, 1.8},
-                             {Vec3(18.3, -21.5, 89.5), -0.9, 1.8},
-                             {Vec3(16.8, -16.6, 92), -1.1, 2},
-                             {Vec3(14.4, -14, 96.5), -1.1, 2.2},
-                             {Vec3(12.4, -14, 102), -0.9, 2.4},
-                             {Vec3(11, -17, 108), -0.5, 2.6}}},
-        columella{{{Vec3(0, -22.5, 114.6), 0.3, 3.4},
-                   {Vec3(0, -26.5, 110.4), 1.2, 2.8},
-                   {Vec3(0, -29.3, 104.2), 0.8, 2.2},
-                   {Vec3(0, -31, 100.5), 0.2, 2}}};
+    const ReliefLine groove{{{Vec3(18.4, -27, 88.6), -0.6, 1.8},
+                             {Vec3(18.3, -21.5, 89.5), -1.1, 1.8},
+                             {Vec3(16.8, -16.6, 92), -1.4, 2},
+                             {Vec3(14.4, -14, 96.5), -1.4, 2.2},
+                             {Vec3(12.4, -14, 102), -1.2, 2.5},
+                             {Vec3(11, -16.5, 107.5), -0.6, 3}}},
+        columella{{{Vec3(0, -25.5, 112.6), 0.2, 3.6},
+                   {Vec3(0, -27.5, 109.4), 0.9, 3.2},
+                   {Vec3(0, -29.3, 104.2), 0.9, 2.4},
+                   {Vec3(0, -31, 100.6), 0.3, 2.1},
+                   {Vec3(0, -33, 99.8), 0, 2}}},
+        bridge{{{Vec3(0, 12, 101), 0, 2},
+                {Vec3(0, 6, 104.4), 0.3, 2},
+                {Vec3(0, -6, 111.6), 0.25, 2},
+                {Vec3(0, -12, 115.4), 0, 2}}},
+        flank{{{Vec3(3.2, 12, 100.3), 0, 1.6},
+               {Vec3(3.2, 6, 103.4), -0.35, 1.6},
+               {Vec3(3.4, -6, 110.6), -0.35, 1.6},
+               {Vec3(3.6, -12, 114.5), 0, 1.6}}};
     const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
     HalfMesh& mesh = skin.mesh;
     const std::vector<Vec3> before = mesh.point;
     const std::vector<Vec3> normal = mesh.normals();
+    std::vector<double> tip(before.size(), 0.0);
     for (std::size_t v = 0; v < before.size(); ++v) {
         const Vec3& p = before[v];
-        if (fixed.count(static_cast<int>(v)) || (p - Vec3(9, -20, 102)).norm() > 30) continue;
-        mesh.point[v] += (groove.height(p) + columella.height(p)) * normal[v];
+        if (fixed.count(static_cast<int>(v)) || (p - Vec3(9, -12, 102)).norm() > 34) continue;
+        mesh.point[v] +=
+            (groove.height(p) + columella.height(p) + bridge.height(p) + flank.height(p)) *
+            normal[v];
         if (mesh.midline[v]) mesh.point[v].x() = 0;
+        // One dome from wing to wing: the loops that begin beside the columella would show as a dent on either side of it.
+        const Vec3 from = (p - Vec3(0, -20, 114)).cwiseQuotient(Vec3(12, 11, 10));
+        tip[v] = std::clamp(2.2 * (1 - from.norm()), 0.0, 1.0);
     }
+    mesh.smooth(25, tip);
 }
 
 /// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.

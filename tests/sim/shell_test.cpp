@@ -100,13 +100,15 @@ TEST(Shell, CoversTheMovingFaceAndHoldsOnlyItsOutline) {
 }
 
 TEST(Shell, TissueBearsAllOfIt) {
-    // At these numbers of vertices a corner of the adult's nostril has none but tetrahedra that are too thin.
-    for (const int vertices : {800, 1000}) {
+    // At some of these numbers of vertices a corner of the adult's nostril has none but tetrahedra that are too thin.
+    std::size_t not_borne = 0;
+    for (const int vertices : {800, 900, 1000, 1200}) {
         const Tissue tissue(rig::adult(), vertices);
         const Shell all = build_shell(tissue.head, tissue.jaw, tissue.lids, {vertices});
         const Shell& shell = tissue.shell;
-        EXPECT_LT(shell.vertex.size(), all.vertex.size());
+        ASSERT_LE(shell.vertex.size(), all.vertex.size());
         EXPECT_GT(shell.vertex.size(), all.vertex.size() - 10);
+        not_borne += all.vertex.size() - shell.vertex.size();
         std::vector<char> borne(shell.vertex.size(), 0), held(shell.vertex.size(), 0);
         for (int node : tissue.mesh.tets.reshaped())
             if (node % kLayers == kSkin) borne[static_cast<std::size_t>(node / kLayers)] = 1;
@@ -133,6 +135,7 @@ TEST(Shell, TissueBearsAllOfIt) {
                 << v;
         }
     }
+    EXPECT_GT(not_borne, 0u);
 }
 
 TEST(Shell, IsFinestAtLipsAndLids) {

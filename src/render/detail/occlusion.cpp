@@ -89,23 +89,36 @@ std::vector<float> sky_seen(const Points& positions, const std::vector<float>& n
     return seen;
 }
 
-std::vector<float> with_neighbours(const std::vector<float>& seen, const Points& positions,
-                                   const std::vector<unsigned>& corners) {
-    std::vector<float> sum(seen.size(), 0.0F), count(seen.size(), 0.0F), out(seen);
-    for (std::size_t i = 0; i < corners.size(); i += 3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const unsigned a = corners[i + k];
-            for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) {
-                const unsigned b = corners[i + other];
-                const double apart = (positions.row(a) - positions.row(b)).squaredNorm();
-                sum[a] += static_cast<float>(std::exp(-apart / (kNoise_m * kNoise_m))) *
-                          (seen[b] - seen[a]);
+std::vector<float> with_neighbours(std::vector<float> seen, const Points& positions,
+                                   const std::vector<float>& normals,
+                                   const std::vector<unsigned>& corners, int passes) {
+    // A thin edge keeps its sides apart.
+    const auto shared = [&](unsigned a, unsigned b) {
+        const std::size_t i = 3 * static_cast<std::size_t>(a), j = 3 * static_cast<std::size_t>(b);
+        const double along = normals[i] * normals[j] + normals[i + 1] * normals[j + 1] +
+                             normals[i + 2] * normals[j + 2];
+        const double apart = (positions.row(a) - positions.row(b)).squaredNorm();
+        return std::pow(std::max(along, 0.0), 3) * std::exp(-apart / (kNoise_m * kNoise_m));
+    };
+    std::vector<float> weight(2 * corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::size_t first = i - i % 3;
+        for (std::size_t k = 1; k < 3; ++k)
+            weight[2 * i + k - 1] =
+                static_cast<float>(shared(corners[i], corners[first + (i + k) % 3]));
+    }
+    for (int pass = 0; pass < passes; ++pass) {
+        std::vector<float> sum(seen.size(), 0.0F), count(seen.size(), 0.0F);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (std::size_t k = 1; k < 3; ++k) {
+                const unsigned a = corners[i], b = corners[i - i % 3 + (i + k) % 3];
+                sum[a] += weight[2 * i + k - 1] * (seen[b] - seen[a]);
                 ++count[a];
             }
-        }
-    for (std::size_t v = 0; v < seen.size(); ++v)
-        if (count[v] > 0) out[v] += 0.5F * sum[v] / count[v];
-    return out;
+        for (std::size_t v = 0; v < seen.size(); ++v)
+            if (count[v] > 0) seen[v] += 0.5F * sum[v] / count[v];
+    }
+    return seen;
 }
 
 SkyAboutEyes::SkyAboutEyes(const Scene& scene, std::vector<float> at_rest,

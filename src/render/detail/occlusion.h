@@ -16,10 +16,11 @@ namespace risorius::render {
 std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
                             const std::vector<Batch>& batches, const Vec3& centre, double radius_m);
 
-/// Up to half of it from the vertices around in triangles of `corners`, less the farther they are: maps of so few points are
-/// noise from one vertex to the next where a surface folds finely.
-std::vector<float> with_neighbours(const std::vector<float>& seen, const Points& positions,
-                                   const std::vector<unsigned>& corners);
+/// Each time up to half of it from the vertices around in triangles of `corners`, less the farther they are and the more they are turned
+/// away: maps of so few points are noise from one vertex to the next where a surface folds finely.
+std::vector<float> with_neighbours(std::vector<float> seen, const Points& positions,
+                                   const std::vector<float>& normals,
+                                   const std::vector<unsigned>& corners, int passes);
 
 /// What the skin sees while the lids close: crease and lid come to the light as one unrolls from the other. Between the eyes open
 /// and shut it changes with each eye's own closure; away from the eyes it is that of rest.

@@ -174,17 +174,18 @@ uniform vec3 scatter;     // m
 uniform vec3 bounce;      // albedo hereabouts
 uniform vec4 finish;      // roughness, reflectance straight on, share of it, layer of the mirror
 
-const vec3 kThroughLips = vec3(0.16, 0.035, 0.03);
+const vec3 kThroughLips = vec3(0.30, 0.055, 0.045);
 
-vec3 from_lips(vec3 p) {
+// From the nearest point of the line of the mouth, of which `share` counts.
+vec3 from_lips(vec3 p, float share) {
     vec3 d = p - mouth_centre.xyz, a = mouth_axis.xyz;
-    return d - a * clamp(dot(d, a) / max(dot(a, a), 1e-9), -0.75, 0.75);
+    return d - a * clamp(dot(d, a) / max(dot(a, a), 1e-9), -share, share);
 }
 
 // Share of what comes through the open lips that reaches a point behind them: the gap seen as a disc at the distance of
 // the nearest point of its long axis.
 float seen_through_lips(vec3 p) {
-    vec3 d = from_lips(p);
+    vec3 d = from_lips(p, 0.75);
     float share = mouth_centre.w / (mouth_centre.w + 3.1416 * dot(d, d) + 1e-9);
     // The deeper, the more of the gap is hidden by cheeks, teeth and palate.
     return share * sqrt(share);
@@ -211,7 +212,8 @@ void main() {
     vec3 open = max(vec3(sky_seen), ((sky_seen * (2.0404 * bounce - 0.3324) + (0.6417 - 4.7951 * bounce)) * sky_seen +
                                      (2.7552 * bounce + 0.6903)) * sky_seen);
     // Lips let red light through: the line between them is not black.
-    vec3 behind = from_lips(in_position);
+    vec3 behind = from_lips(in_position, 1.0);
+    behind.z *= 0.65;   // the corners lie back
     open += inside * kThroughLips * exp(-dot(behind, behind) * 1.6e4);
     soft = open * (fill_card.rgb * scattered(dot(n, fill_direction.xyz), w) + ambient(n));
     soft += behind_seen * rim_card.rgb * scattered(dot(n, rim_direction.xyz), w);

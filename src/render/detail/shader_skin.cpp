@@ -43,7 +43,7 @@ void main() {
     vec2 lobes = sqrt(rough * rough * vec2(1.0, 0.3136) + kLampSize);
     // What lies in a nostril or in the bowl of an ear is in the dark, also where the shadow map is too coarse to know, and of
     // the light there little comes out again.
-    float hollow = smoothstep(0.0, 0.45, sky_seen);
+    float hollow = smoothstep(0.04, 0.50, sky_seen);
     float s = key_visibility(position, n) * hollow;
     vec3 shade = s + s * (1.0 - s) * bleed;
     vec3 key = key_card.rgb * shade * scattered(mix(dot(n, k), dot(m, k), 0.5), min(scatter * curvature, 0.5));

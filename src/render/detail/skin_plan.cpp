@@ -41,8 +41,14 @@ const ZoneRecipe kRecipes[] = {
     {"en", true, 0.0015, {0.05, -0.24, -0.20}, 0.30, {0.0022, -0.0004, -0.002}},  // caruncle
     {"ex", true, 0.0045, {-0.05, -0.16, -0.12}, 0.0},
     {"sbal", true, 0.006, {-0.08, -0.20, -0.17}, 0.0},
-    {"ch", true, 0.0026, {-0.42, -0.52, -0.50}, -0.12, {0.0006, -0.0004, 0}},  // lips tuck in
+    {"ch", true, 0.0034, {-0.40, -0.46, -0.42}, -0.14, {0.0014, -0.0002, 0}},  // lips tuck in
+    {"ch", true, 0.0018, {-0.30, -0.42, -0.42}, -0.10, {-0.0008, 0, 0}},
     {"sto", false, 0.020, {-0.01, -0.06, -0.05}, 0.0},
+    // Where the lips meet they turn in, redder and darker
+    {"sto", false, 0.0022, {-0.16, -0.30, -0.28}, 0.0, {0, -0.0003, 0}},
+    {"lli", true, 0.0026, {-0.16, -0.30, -0.28}, 0.0, {-0.004, 0, 0.001}},
+    {"lli", true, 0.0022, {-0.20, -0.34, -0.32}, 0.0, {0.003, 0, -0.001}},
+    {"ch", true, 0.0022, {-0.22, -0.36, -0.34}, 0.0, {-0.0072, 0.0006, 0.005}},
 };
 
 class Marks {
@@ -84,10 +90,14 @@ std::vector<SkinZone> plan_zones(const Marks& marks) {
 }
 
 void plan_lips(const Marks& marks, SkinPlan& plan) {
-    const std::vector<Vec3> upper =
-        marks.all({"ch_r", "ulc_r", "cph_r", "ls", "cph_l", "ulc_l", "ch_l"});
+    std::vector<Vec3> upper = marks.all({"ch_r", "ulc_r", "cph_r", "ls", "cph_l", "ulc_l", "ch_l"});
     const std::vector<Vec3> lower = marks.all({"ch_l", "llc_l", "li", "llc_r", "ch_r"});
     if (upper.empty() || lower.empty()) return;
+    // The red comes up to the crests of the philtrum and dips between them: a bow.
+    constexpr double kBow_m = 0.0004;
+    upper[2].y() += 0.7 * kBow_m;
+    upper[3].y() -= kBow_m;
+    upper[4].y() += 0.7 * kBow_m;
     for (const std::vector<Vec3>& border : {upper, lower}) {
         const std::vector<Vec3> curve = smooth_curve(border, border.size() == 7 ? 5 : 7);
         for (std::size_t i = 0; i + 1 < curve.size(); ++i) plan.lip_outline.push_back(curve[i]);
