@@ -16,6 +16,15 @@ namespace risorius::sim {
 
 namespace {
 
+// Lips are thin: one vertex more or less at their rims decides how they roll. So that a nose of another form, or a wider face, leaves
+// them their vertices, the size of triangles about the mouth changes by steps only; the rest of the face makes up the number.
+constexpr double kMouth_mm = 8, kOffMouth_mm = 16;  // from the line of the lips
+constexpr double kStep = 1.0773, kSomeStep = 1.538441;
+
+double stepped(double scale) {
+    return kSomeStep * std::pow(kStep, std::round(std::log(scale / kSomeStep) / std::log(kStep)));
+}
+
 // Mean of area-weighted triangle normals around each vertex, weighted by a Gaussian of distance.
 Points smooth_normals(const Points& vertices, const Triangles& triangles,
                       const std::vector<char>& wanted, double sigma) {
@@ -283,21 +292,26 @@ Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLid
     for (long v = 0; v < count; ++v)
         if (used[v]) shell.spacing_m[v] = head.mm(wanted_mm(head.vertices.row(v).transpose()));
 
-    // Scale the size field until the wanted number of vertices is left
+    // Scale the size field until the wanted number of vertices is left; the mouth by steps
+    std::vector<double> off_mouth(static_cast<std::size_t>(count), 1.0);
+    for (long v = 0; v < count; ++v)
+        if (used[v])
+            off_mouth[v] = smoothstep(head.mm(kMouth_mm), head.mm(kOffMouth_mm),
+                                      distance_to_polyline(head.vertices.row(v).transpose(), lips));
     geom::Decimated coarse;
     double low = 0.15, high = 4.0;
     std::vector<double> length(static_cast<std::size_t>(count));
-    double scale = 1.0;
     for (int attempt = 0; attempt < 12; ++attempt) {
-        scale = std::sqrt(low * high);
-        for (long v = 0; v < count; ++v) length[v] = scale * shell.spacing_m[v];
+        const double scale = std::sqrt(low * high), of_mouth = stepped(scale);
+        for (long v = 0; v < count; ++v)
+            length[v] = (of_mouth + off_mouth[v] * (scale - of_mouth)) * shell.spacing_m[v];
         coarse = mirror.found() ? geom::decimate_mirrored(half, head.vertices, length, mirror)
                                 : geom::decimate(shell.fine, head.vertices, length, {});
         const int kept = static_cast<int>(coarse.kept.size());
         if (std::abs(kept - options.vertices) < options.vertices / 100) break;
         (kept > options.vertices ? low : high) = scale;
     }
-    for (long v = 0; v < count; ++v) shell.spacing_m[v] *= scale;
+    shell.spacing_m = std::move(length);
 
     shell.vertex = coarse.kept;
     std::vector<int> index(static_cast<std::size_t>(count), -1);
