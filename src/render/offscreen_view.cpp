@@ -143,6 +143,9 @@ struct OffscreenView::Impl {
             throw Error("projection", "\"perspective\" when muscles are shown", "\"orthographic\"");
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
+        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
+                                          options.draft);
+        const ShaderConstants lit = lights->constants();
         if (options.show == Show::kMuscles)
             muscles = std::make_unique<MuscleLayer>(
                 scene, camera, options.height_px * options.supersampling,
@@ -154,7 +157,7 @@ struct OffscreenView::Impl {
         sky_about_eyes = baked->sky_about_eyes;
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
+        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
         sockets = std::make_unique<SocketLayer>(scene, marks);
         tears = std::make_unique<TearLayer>(scene);
         buffers->bind();
@@ -169,16 +172,14 @@ struct OffscreenView::Impl {
             skin_layer =
                 std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
                                             picture.tile_height_samples() / options.supersampling,
-                                            options.supersampling, shaded);
+                                            options.supersampling, shaded, lit);
         }
         const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
                                      : skin_layer ? Materials::Skin::kLayer
                                                   : Materials::Skin::kPlain;
         materials = std::make_unique<Materials>(
             scene, *buffers, skin, options.draft,
-            camera.frame_height_m / (options.height_px * shaded), muscles.get());
-        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
-                                          options.draft);
+            camera.frame_height_m / (options.height_px * shaded), lit, muscles.get());
         target = std::make_unique<Framebuffer>(
             picture.tile_width_samples(), picture.tile_height_samples(),
             options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);

@@ -6,13 +6,22 @@
 #include "render/detail/shaders.h"
 
 namespace risorius::render {
+namespace {
 
-SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded)
-    : shaded_(shaded), program_("skin looked up", lookup_vertex_shader(), lookup_shader()) {
+std::string with_share(int shaded, int samples, const std::string& source) {
+    ShaderConstants constants;
+    constants.set("shaded_per_sample", static_cast<double>(shaded) / samples);
+    return constants.in(source);
+}
+
+}  // namespace
+
+SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded,
+                     const ShaderConstants& constants)
+    : shaded_(shaded),
+      program_("skin looked up", constants.in(lookup_vertex_shader()),
+               with_share(shaded, samples, lookup_shader())) {
     const int width = width_px * shaded, height = height_px * shaded;
-    program_.use();
-    glUniform1f(program_.location("shaded_per_sample"),
-                static_cast<float>(shaded) / static_cast<float>(samples));
 
     // One store in two lights: sRGB to shade into, and its bytes to copy from
     glGenTextures(1, &colour_);

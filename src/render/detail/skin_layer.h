@@ -10,6 +10,7 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/picture_cells.h"
+#include "render/detail/shader_constants.h"
 
 namespace risorius::render {
 
@@ -23,8 +24,10 @@ struct FarthestSkin {
 
 class SkinLayer {
   public:
-    /// For tiles of so many pixels with `samples` per pixel and side, `shaded` of which are shaded. The context must be current.
-    SkinLayer(int width_px, int height_px, int samples, int shaded);
+    /// For tiles of so many pixels with `samples` per pixel and side, `shaded` of which are shaded; `constants` of Lights.
+    /// The context must be current.
+    SkinLayer(int width_px, int height_px, int samples, int shaded,
+              const ShaderConstants& constants);
     ~SkinLayer();
     SkinLayer(const SkinLayer&) = delete;
     SkinLayer& operator=(const SkinLayer&) = delete;
