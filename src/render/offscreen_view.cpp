@@ -272,16 +272,22 @@ struct OffscreenView::Impl {
         buffers.reset();
     }
 
-    /// Everything the face is seen by; `looked_up`: the skin from its layer.
+    /// The cells that need samples, with the skin in them from its layer.
+    void look_up_skin(const Tile& tile) {
+        target->bind_bytes();
+        cell_clear->clear(cells, tile.width, tile.height);
+        buffers->bind();
+        skin_layer->use();
+        for (const Batch& batch : buffers->batches())
+            if (batch.material == Material::kSkin) buffers->draw(batch);
+    }
+
+    /// Everything the face is seen by; `looked_up`: the skin is there already.
     void draw_surfaces(const Pose& pose, bool looked_up) {
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
-            if (batch.material == Material::kSkin && looked_up) {
-                glDisable(GL_FRAMEBUFFER_SRGB);
-                skin_layer->use();
-                buffers->draw(batch);
-                glEnable(GL_FRAMEBUFFER_SRGB);
-            } else if (batch.material == Material::kSkin && !pose.values) {
+            if (batch.material == Material::kSkin && looked_up) continue;
+            if (batch.material == Material::kSkin && !pose.values) {
                 materials->draw_skin(batch, *buffers);
             } else {
                 materials->use(batch, pose, marks);
@@ -325,12 +331,10 @@ struct OffscreenView::Impl {
             muscles->draw();
             buffers->bind();
         }
-        target->bind();
         glEnable(GL_DEPTH_TEST);
-        if (looked_up) {
-            cell_clear->clear(cells, tile.width, tile.height);
-            buffers->bind();
-        } else {
+        if (looked_up) look_up_skin(tile);
+        target->bind();
+        if (!looked_up) {
             glClearColor(0, 0, 0, 0);
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         }

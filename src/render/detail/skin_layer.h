@@ -34,7 +34,7 @@ class SkinLayer {
 
     /// Skin is to be shaded into the layer; its part of this size is cleared.
     void begin(int width_px, int height_px);
-    /// Skin is to be drawn into the bound framebuffer as it was shaded, in the bytes of sRGB.
+    /// Skin is to be drawn as it was shaded into the bound framebuffer of bytes.
     void use() const;
 
     /// How far away the skin in the layer is at most, cell by cell, within the box; elsewhere it is taken to be missing. Waits for the drawing.
