@@ -158,12 +158,12 @@ struct OffscreenView::Impl {
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
-        sockets = std::make_unique<SocketLayer>(scene, marks);
-        tears = std::make_unique<TearLayer>(scene);
+        sockets = std::make_unique<SocketLayer>(scene, marks, lit);
+        tears = std::make_unique<TearLayer>(scene, lit);
         buffers->bind();
         shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene, *buffers,
                                               plan_skin(scene, centre), centre,
-                                              buffers->paintable_triangles(baked->inside));
+                                              buffers->paintable_triangles(baked->inside), lit);
 
         buffers->bind();
         const int shaded = shaded_per_side();

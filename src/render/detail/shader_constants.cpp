@@ -38,6 +38,9 @@ void ShaderConstants::set(const std::string& name, bool value) {
 void ShaderConstants::set(const std::string& name, double value) {
     value_of_declaration_["float " + name] = glsl(static_cast<float>(value));
 }
+void ShaderConstants::set(const std::string& name, const Vec2& value) {
+    value_of_declaration_["vec2 " + name] = glsl("vec2", floats(value));
+}
 void ShaderConstants::set(const std::string& name, const Vec3& value) {
     value_of_declaration_["vec3 " + name] = glsl("vec3", floats(value));
 }

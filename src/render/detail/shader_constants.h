@@ -14,6 +14,7 @@ class ShaderConstants {
   public:
     void set(const std::string& name, bool value);
     void set(const std::string& name, double value);
+    void set(const std::string& name, const Vec2& value);
     void set(const std::string& name, const Vec3& value);
     void set(const std::string& name, const Eigen::Vector4f& value);
     void set(const std::string& name, const Mat3& value);
