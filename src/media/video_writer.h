@@ -28,8 +28,9 @@ struct VideoOptions {
     int height_px = 0;
     int fps = 60;
     std::optional<int> crf = {};  ///< quality: H.264 0..51, 18; VP9 0..63, 24; less is better
-    std::optional<std::string> preset = {};  ///< of H.264, "faster": slower ones make smaller files
-    std::optional<std::string> pixels = {};  ///< "yuv420p", or "yuv444p": colour at full size
+    std::optional<std::string> preset =
+        {};  ///< of H.264: slower ones make smaller files; none: "faster" with subme=2
+    std::optional<std::string> pixels = {};     ///< "yuv420p", or "yuv444p": colour at full size
     std::optional<int> keyframe_interval = {};  ///< frames, a quarter of a second
     bool lossless = false;
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16

@@ -143,6 +143,9 @@ struct OffscreenView::Impl {
             throw Error("projection", "\"perspective\" when muscles are shown", "\"orthographic\"");
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
+        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
+                                          options.draft);
+        const ShaderConstants lit = lights->constants();
         if (options.show == Show::kMuscles)
             muscles = std::make_unique<MuscleLayer>(
                 scene, camera, options.height_px * options.supersampling,
@@ -154,13 +157,13 @@ struct OffscreenView::Impl {
         sky_about_eyes = baked->sky_about_eyes;
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m);
-        sockets = std::make_unique<SocketLayer>(scene, marks);
-        tears = std::make_unique<TearLayer>(scene);
+        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
+        sockets = std::make_unique<SocketLayer>(scene, marks, lit);
+        tears = std::make_unique<TearLayer>(scene, lit);
         buffers->bind();
         shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene, *buffers,
                                               plan_skin(scene, centre), centre,
-                                              buffers->paintable_triangles(baked->inside));
+                                              buffers->paintable_triangles(baked->inside), lit);
 
         buffers->bind();
         const int shaded = shaded_per_side();
@@ -169,16 +172,14 @@ struct OffscreenView::Impl {
             skin_layer =
                 std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
                                             picture.tile_height_samples() / options.supersampling,
-                                            options.supersampling, shaded);
+                                            options.supersampling, shaded, lit);
         }
         const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
                                      : skin_layer ? Materials::Skin::kLayer
                                                   : Materials::Skin::kPlain;
         materials = std::make_unique<Materials>(
             scene, *buffers, skin, options.draft,
-            camera.frame_height_m / (options.height_px * shaded), muscles.get());
-        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
-                                          options.draft);
+            camera.frame_height_m / (options.height_px * shaded), lit, muscles.get());
         target = std::make_unique<Framebuffer>(
             picture.tile_width_samples(), picture.tile_height_samples(),
             options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);
@@ -282,16 +283,22 @@ struct OffscreenView::Impl {
         buffers.reset();
     }
 
-    /// Everything the face is seen by; `looked_up`: the skin from its layer.
+    /// The cells that need samples, with the skin in them from its layer.
+    void look_up_skin(const Tile& tile) {
+        target->bind_bytes();
+        cell_clear->clear(cells, tile.width, tile.height);
+        buffers->bind();
+        skin_layer->use();
+        for (const Batch& batch : buffers->batches())
+            if (batch.material == Material::kSkin) buffers->draw(batch);
+    }
+
+    /// Everything the face is seen by; `looked_up`: the skin is there already.
     void draw_surfaces(const Pose& pose, bool looked_up) {
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
-            if (batch.material == Material::kSkin && looked_up) {
-                glDisable(GL_FRAMEBUFFER_SRGB);
-                skin_layer->use();
-                buffers->draw(batch);
-                glEnable(GL_FRAMEBUFFER_SRGB);
-            } else if (batch.material == Material::kSkin && !pose.values) {
+            if (batch.material == Material::kSkin && looked_up) continue;
+            if (batch.material == Material::kSkin && !pose.values) {
                 materials->draw_skin(batch, *buffers);
             } else {
                 materials->use(batch, pose, marks);
@@ -335,12 +342,10 @@ struct OffscreenView::Impl {
             muscles->draw();
             buffers->bind();
         }
-        target->bind();
         glEnable(GL_DEPTH_TEST);
-        if (looked_up) {
-            cell_clear->clear(cells, tile.width, tile.height);
-            buffers->bind();
-        } else {
+        if (looked_up) look_up_skin(tile);
+        target->bind();
+        if (!looked_up) {
             glClearColor(0, 0, 0, 0);
             glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         }

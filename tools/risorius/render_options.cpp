@@ -26,8 +26,9 @@ void add_coding(CLI::App& command, app::AnimateOptions& options) {
         ->type_name("INT")
         ->group(kCoding);
     command
-        .add_option("--preset", video.preset,
-                    "Of H.264, ultrafast to placebo, faster when not given: slower is smaller")
+        .add_option(
+            "--preset", video.preset,
+            "Of H.264, ultrafast to placebo, about faster when not given: slower is smaller")
         ->group(kCoding);
     command
         .add_option(

@@ -18,24 +18,29 @@ void check_range(const char* field, int value, int least, int most) {
 }
 
 Framebuffer::Framebuffer(int width, int height, Colour colour) {
-    glGenRenderbuffers(2, buffers_);
-    glBindRenderbuffer(GL_RENDERBUFFER, buffers_[0]);
-    glRenderbufferStorage(GL_RENDERBUFFER,
-                          colour == Colour::kLinearFloats ? GL_RGBA32F : GL_SRGB8_ALPHA8, width,
-                          height);
-    glBindRenderbuffer(GL_RENDERBUFFER, buffers_[1]);
+    const bool floats = colour == Colour::kLinearFloats;
+    glGenTextures(2, colours_);
+    glBindTexture(GL_TEXTURE_2D, colours_[0]);
+    glTexStorage2D(GL_TEXTURE_2D, 1, floats ? GL_RGBA32F : GL_SRGB8_ALPHA8, width, height);
+    if (!floats) glTextureView(colours_[1], GL_TEXTURE_2D, colours_[0], GL_R32UI, 0, 1, 0, 1);
+    glGenRenderbuffers(1, &depth_);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
-    glGenFramebuffers(1, &framebuffer_);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw RunError("the OpenGL framebuffer is incomplete");
+    glGenFramebuffers(2, framebuffers_);
+    for (const std::size_t k : {1, 0}) {
+        if (k == 1 && floats) continue;
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[k]);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours_[k], 0);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+            throw RunError("the OpenGL framebuffer is incomplete");
+    }
 }
 
 Framebuffer::~Framebuffer() {
-    glDeleteFramebuffers(1, &framebuffer_);
-    glDeleteRenderbuffers(2, buffers_);
+    glDeleteFramebuffers(2, framebuffers_);
+    glDeleteRenderbuffers(1, &depth_);
+    glDeleteTextures(2, colours_);
 }
 
 TiledPicture::TiledPicture(int width_px, int height_px, int supersampling)

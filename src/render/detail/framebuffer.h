@@ -29,11 +29,13 @@ class Framebuffer {
     ~Framebuffer();
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
-    void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
+    void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]); }
+    /// The same store for programs that give the four bytes of sRGB and alpha as one number; not of floats.
+    void bind_bytes() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[1]); }
 
   private:
-    GLuint buffers_[2] = {0, 0};
-    GLuint framebuffer_ = 0;
+    GLuint colours_[2] = {0, 0}, framebuffers_[2] = {0, 0};
+    GLuint depth_ = 0;
 };
 
 /// A picture in tiles that the framebuffer can hold.

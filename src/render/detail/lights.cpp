@@ -58,7 +58,8 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
     texture.block<3, 1>(0, 3).setConstant(0.5);
     const Eigen::Matrix4f shadow = (texture * clip).cast<float>();
     std::memcpy(frame_.shadow_from_world, shadow.data(), sizeof frame_.shadow_from_world);
-    frame_.mouth_axis[3] = static_cast<float>(2 * reach / shadow_side_);
+    frame_.shadow_places[0] = static_cast<float>(shadow_side_);
+    frame_.shadow_places[1] = static_cast<float>(2 * reach / shadow_side_);
 
     glGenTextures(1, &shadow_map_);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);
@@ -81,6 +82,28 @@ Lights::~Lights() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteTextures(1, &shadow_map_);
     glDeleteTextures(1, &mirror_);
+}
+
+ShaderConstants Lights::constants() const {
+    std::string text = "#define LIGHTS_TOLD\nconst mat4 shadow_from_world = " +
+                       glsl("mat4", frame_.shadow_from_world) + ";\n";
+    const auto tell = [&](const char* name, std::span<const float> four) {
+        text += std::string("const vec4 ") + name + " = " + glsl("vec4", four) + ";\n";
+    };
+    tell("shadow_places", frame_.shadow_places);
+    tell("camera", frame_.camera);
+    tell("key_direction", frame_.key_direction);
+    tell("key_card", frame_.key_card);
+    tell("fill_direction", frame_.fill_direction);
+    tell("fill_card", frame_.fill_card);
+    tell("rim_direction", frame_.rim_direction);
+    tell("rim_card", frame_.rim_card);
+    text += "const vec4 irradiance[9] = vec4[9](";
+    for (const auto& four : frame_.irradiance)
+        text += glsl("vec4", four) + (&four == &frame_.irradiance[8] ? ");\n" : ", ");
+    ShaderConstants constants;
+    constants.set_prelude(text);
+    return constants;
 }
 
 FrameUniforms Lights::uniforms(const MouthGap& gap) const {

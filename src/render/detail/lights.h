@@ -5,6 +5,7 @@
 #include "render/detail/environment.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/scene_buffers.h"
+#include "render/detail/shader_constants.h"
 #include "render/detail/shaders.h"
 #include "render/light.h"
 
@@ -32,6 +33,8 @@ class Lights {
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;
 
+    /// Lights and shadow of all frames, for programs whose source begins with the frame.
+    ShaderConstants constants() const;
     /// All but clip_from_world.
     FrameUniforms uniforms(const MouthGap& gap) const;
 

@@ -108,60 +108,84 @@ Mat3 eye_axes(const Eye& eye) {
 
 }  // namespace
 
-std::unique_ptr<GlProgram> Materials::make_program(const Scene& scene, Material material,
-                                                   bool folds, Skin how, bool own,
+ShaderConstants Materials::constants_of(const Scene& scene, Material material, int eye,
+                                        ShaderConstants constants) const {
+    constants.set("inside_mouth", inside_mouth(material));
+    const Vec3 skin = linear_from_srgb(look_.skin_tone), scatter = skin_scatter(skin);
+    const Finish finish = finish_of(material, scatter);
+    constants.set("scatter", finish.scatter_m);
+    constants.set("bounce", inside_mouth(material) ? kMouth : skin);
+    constants.set("finish", Eigen::Vector4f(Eigen::Vector4d(finish.roughness, finish.reflectance,
+                                                            finish.share, finish.mirror_layer)
+                                                .cast<float>()));
+    switch (material) {
+        case Material::kSkin:
+            // In proportion to how far red light gets; half a millimetre of light's own softness shows no colour.
+            constants.set("bleed", Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
+            constants.set("roughness", kSkinRoughness);
+            constants.set("tone", skin.dot(Vec3(0.2126, 0.7152, 0.0722)));
+            break;
+        case Material::kEye:
+        case Material::kCornea: {
+            const auto index = static_cast<std::size_t>(eye);
+            const Eye& ball = eyes_[index];
+            constants.set("eye_from_rest", eye_axes(ball));
+            constants.set("centre", ball.centre);
+            constants.set("iris_radius", ball.iris_radius_m);
+            constants.set("pupil_radius", ball.pupil_radius_m);
+            constants.set("iris_depth", iris_depth_m_[index]);
+            constants.set("iris_tone", linear_from_srgb(look_.iris_tone));
+            constants.set("separate_cornea", static_cast<bool>(separate_cornea_[index]));
+            break;
+        }
+        case Material::kGums:
+            constants.set("albedo", kGums);
+            break;
+        case Material::kTongue:
+            constants.set("albedo", kTongue);
+            break;
+        case Material::kMouth:
+            constants.set("albedo", kMouth);
+            break;
+        case Material::kMatte:
+            constants.set("albedo", Vec3(Vec3::Constant(matte_reflectance(scene))));
+            break;
+        case Material::kLashes:
+            constants.set("albedo", Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
+            break;
+        case Material::kTeeth:
+            break;
+    }
+    return constants;
+}
+
+std::unique_ptr<GlProgram> Materials::make_program(const Kind& kind, bool folds, Skin how,
+                                                   const ShaderConstants& constants,
                                                    const MuscleLayer* muscles) const {
+    const auto& [material, own, eye] = kind;
     const std::string name = "material " + std::to_string(static_cast<int>(material));
     const bool draft = draft_ && material == Material::kSkin;
     auto program = std::make_unique<GlProgram>(
-        name, surface_vertex_shader(folds, draft),
-        draft ? draft_skin_shader(how == Skin::kLayer)
-              : fragment_shader(material, how, {.folds = folds, .pores = pores_}, own));
-    program->use();
+        name, constants.in(surface_vertex_shader(folds, draft)),
+        constants.in(draft
+                         ? draft_skin_shader(how == Skin::kLayer)
+                         : fragment_shader(material, how, {.folds = folds, .pores = pores_}, own)));
     if (muscles && material == Material::kSkin) {
+        program->use();
         muscles->tell(*program);
-        const Vec3 tone = linear_from_srgb(look_.skin_tone);
-        glUniform1f(program->location("tone"),
-                    static_cast<float>(tone.dot(Vec3(0.2126, 0.7152, 0.0722))));
     }
-    glUniform1i(program->location("inside_mouth"), inside_mouth(material));
-    const Vec3 skin = linear_from_srgb(look_.skin_tone), scatter = skin_scatter(skin);
-    const Finish finish = finish_of(material, scatter);
-    set(program->location("scatter"), finish.scatter_m);
-    set(program->location("bounce"), inside_mouth(material) ? kMouth : skin);
-    glUniform4f(program->location("finish"), static_cast<float>(finish.roughness),
-                static_cast<float>(finish.reflectance), static_cast<float>(finish.share),
-                static_cast<float>(finish.mirror_layer));
-    if (material == Material::kSkin) {
-        // In proportion to how far red light gets; half a millimetre of light's own softness shows no colour.
-        set(program->location("bleed"),
-            Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
-        glUniform1f(program->location("roughness"), static_cast<float>(kSkinRoughness));
-    }
-    if (material == Material::kMatte)
-        set(program->location("albedo"), Vec3(Vec3::Constant(matte_reflectance(scene))));
-    if (inside_mouth(material)) tell_colours(*program, material, -1);
-    if (material == Material::kLashes)
-        set(program->location("albedo"), Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
     return program;
 }
 
 Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-                     double shaded_m, const MuscleLayer* muscles)
+                     double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles)
     : eyes_(scene.eyes),
       look_(scene.look),
       draft_(draft && skin != Skin::kVeil),
       pores_(shaded_m < kPore_m) {
-    for (const Batch& batch : buffers.batches()) {
+    for (const Batch& batch : buffers.batches())
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
-        const bool own = batch.texture >= 0;
-        if (!programs_.contains({batch.material, own}))
-            programs_.emplace(std::pair(batch.material, own),
-                              make_program(scene, batch.material, false, skin, own, muscles));
-    }
-    if (scene.fold_phase.rows() > 0 && !draft_)
-        folded_skin_ = make_program(scene, Material::kSkin, true, skin, /*own=*/false, muscles);
 
     // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
     for (std::size_t side = 0; side < 2; ++side) {
@@ -185,6 +209,15 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
             }
         }
     }
+
+    for (const Batch& batch : buffers.batches()) {
+        const Kind kind = kind_of(batch);
+        if (programs_.contains(kind)) continue;
+        const ShaderConstants own = constants_of(scene, batch.material, batch.eye, constants);
+        programs_.emplace(kind, make_program(kind, false, skin, own, muscles));
+        if (batch.material == Material::kSkin && scene.fold_phase.rows() > 0 && !draft_)
+            folded_skin_ = make_program(kind, true, skin, own, muscles);
+    }
 }
 
 void Materials::tell_colours(const GlProgram& program, Material material, int eye) const {
@@ -205,10 +238,8 @@ void Materials::tell_colours(const GlProgram& program, Material material, int ey
 void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
                         const PosedMarks& marks) const {
     const auto index = static_cast<std::size_t>(side);
-    tell_colours(program, Material::kEye, side);
     set(program.location("eye_from_world"),
         Mat3(eye_axes(eyes_[index]) * pose.eye_rotation[index].transpose()));
-    glUniform1i(program.location("separate_cornea"), separate_cornea_[index]);
     const LidMarks lids = marks.lids(pose, side);
     set(program.location("lid_inner"), lids.inner);
     set(program.location("lid_outer"), lids.outer);
@@ -218,7 +249,7 @@ void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,
 }
 
 void Materials::draw_skin(const Batch& batch, const SceneBuffers& buffers) const {
-    programs_.at({Material::kSkin, false})->use();
+    programs_.at(kind_of(batch))->use();
     if (!folded_skin_) {
         buffers.draw(batch);
         return;
@@ -237,7 +268,7 @@ void Materials::use(const Batch& batch, const Pose& pose, const PosedMarks& mark
         values_->use();
         return;
     }
-    const GlProgram& program = *programs_.at({batch.material, batch.texture >= 0});
+    const GlProgram& program = *programs_.at(kind_of(batch));
     program.use();
     if (batch.material == Material::kEye || batch.material == Material::kCornea)
         set_eye(program, batch.eye, pose, marks);

@@ -9,6 +9,7 @@
 #include "render/detail/muscle_layer.h"
 #include "render/detail/posed_marks.h"
 #include "render/detail/scene_buffers.h"
+#include "render/detail/shader_constants.h"
 #include "render/scene.h"
 
 namespace risorius::render {
@@ -21,9 +22,9 @@ class Materials {
         kVeil,
         kLayer
     };  ///< by itself, over `muscles`, for others to look up
-    /// `draft`: skin that is not a veil is lit at its vertices. `shaded_m`: between places where skin is shaded.
+    /// `draft`: skin that is not a veil is lit at its vertices. `shaded_m`: between places where skin is shaded. `constants` of Lights.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
-              double shaded_m, const MuscleLayer* muscles);
+              double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
@@ -34,13 +35,25 @@ class Materials {
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 
   private:
-    std::unique_ptr<GlProgram> make_program(const Scene& scene, Material material, bool folds,
-                                            Skin skin, bool own, const MuscleLayer* muscles) const;
+    /// Each has a program of its own.
+    struct Kind {
+        Material material;
+        bool own;  ///< of own, not generated colours
+        int eye;
+        auto operator<=>(const Kind&) const = default;
+    };
+    static Kind kind_of(const Batch& batch) {
+        return {batch.material, batch.texture >= 0, batch.eye};
+    }
+    ShaderConstants constants_of(const Scene& scene, Material material, int eye,
+                                 ShaderConstants constants) const;
+    std::unique_ptr<GlProgram> make_program(const Kind& kind, bool folds, Skin skin,
+                                            const ShaderConstants& constants,
+                                            const MuscleLayer* muscles) const;
     void set_eye(const GlProgram& program, int side, const Pose& pose,
                  const PosedMarks& marks) const;
 
-    std::map<std::pair<Material, bool>, std::unique_ptr<GlProgram>>
-        programs_;                               ///< of generated or own colours
+    std::map<Kind, std::unique_ptr<GlProgram>> programs_;
     std::unique_ptr<GlProgram> folded_skin_;     ///< when the scene has folds
     mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
     std::array<Eye, 2> eyes_;

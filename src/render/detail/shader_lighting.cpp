@@ -8,13 +8,16 @@ namespace {
 constexpr const char* kFrame = R"(#version 450 core
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_world;
+    vec4 mouth_centre, mouth_axis;
+#ifndef LIGHTS_TOLD      // in front of this, see Lights::constants()
     mat4 shadow_from_world;
+    vec4 shadow_places;
     vec4 camera;
     vec4 key_direction, key_card;
     vec4 fill_direction, fill_card;
     vec4 rim_direction, rim_card;
     vec4 irradiance[9];
-    vec4 mouth_centre, mouth_axis;
+#endif
 };
 )";
 
@@ -89,15 +92,15 @@ layout(binding = 0) uniform sampler2DShadow shadow_map;
 // among them, every fourth each, and all get the mean. Not to be called where the block's samples go different ways.
 // Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself.
 float key_visibility(vec3 p, vec3 n) {
-    float texel = mouth_axis.w;
+    float texel = shadow_places.y;
     vec3 c = (shadow_from_world * vec4(p + n * max(2.5 * texel, 0.0007), 1.0)).xyz;   // what throws it is coarse
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
     float below = clamp(mouth_centre.y - p.y - 0.06, 0.0, 0.1);
-    e *= (0.0035 + 0.12 * below) / (texel * float(textureSize(shadow_map, 0).x));
+    e *= (0.0035 + 0.12 * below) / (texel * shadow_places.x);
     vec2 f = vec2(-e.y, e.x);
-    vec2 slope = (mat3(shadow_from_world) * n).xy * (0.5 * texel * float(textureSize(shadow_map, 0).x)) / max(dot(n, key_direction.xyz), 0.2);
+    vec2 slope = (mat3(shadow_from_world) * n).xy * (0.5 * texel * shadow_places.x) / max(dot(n, key_direction.xyz), 0.2);
     vec4 r = sqrt((vec4(0.5, 4.5, 8.5, 12.5) + float(first)) * 0.0625);
     vec4 lit;
     vec2 a = r.x * e, b = r.y * (-0.9847 * e - 0.1743 * f), g = r.z * (0.9392 * e + 0.3433 * f), h = r.w * (-0.8650 * e - 0.5018 * f);
@@ -147,7 +150,7 @@ out vec3 lit_at;       // in the shadow map
 void pass_key(vec3 p, vec3 n, vec3 v, vec3 w, float kept) {
     key_light = kept * key_card.rgb * scattered(dot(n, key_direction.xyz), w);
     key_gloss = two_glints(n, v, key_direction.xyz, sqrt(vec2(0.2153, 0.0676) + kLampSize), vec2(0.76, 0.24), 0.028);
-    lit_at = (shadow_from_world * vec4(p + n * (2.5 * mouth_axis.w), 1.0)).xyz;
+    lit_at = (shadow_from_world * vec4(p + n * (2.5 * shadow_places.y), 1.0)).xyz;
 }
 )";
 constexpr const char* kNoKeyVertex =

@@ -15,21 +15,21 @@ void main() {
 
 // Alpha of the layer is the distance from the camera, turning once every 256 mm, or 0 where there is no skin.
 constexpr const char* kLookup = R"(#version 450 core
-layout(binding = 7) uniform sampler2D skin_layer;
+layout(binding = 7) uniform usampler2D skin_layer;
 uniform float shaded_per_sample;
 in float away;
-out vec4 colour;
+out uint colour;      // all four bytes: they are copied, and four numbers would be converted there and back
 
 // Between a shaded place and the sample, m; beyond all where nothing was shaded.
-float apart(vec4 shaded) {
-    float turn = fract(away * kTurnsPerMetre - shaded.a * (255.0 / 256.0) + 0.5) - 0.5;
-    return shaded.a == 0.0 ? 1.0 : abs(turn) / kTurnsPerMetre;
+float apart(uint shaded) {
+    float turn = fract(away * kTurnsPerMetre - float(shaded >> 24) * (1.0 / 256.0) + 0.5) - 0.5;
+    return shaded < 0x01000000u ? 1.0 : abs(turn) / kTurnsPerMetre;
 }
 
 void main() {
     vec2 place = gl_FragCoord.xy * shaded_per_sample;
     ivec2 at = ivec2(place);
-    vec4 own = texelFetch(skin_layer, at, 0);
+    uint own = texelFetch(skin_layer, at, 0).r;
     // As far as a slope takes it within a pixel, and rounding of the distance to bytes
     float far = (abs(dFdx(away)) + abs(dFdy(away))) / shaded_per_sample + 0.003;
     float nearest = apart(own);
@@ -38,7 +38,7 @@ void main() {
     ivec2 towards = ivec2(fract(place.x) < 0.5 ? -1 : 1, fract(place.y) < 0.5 ? -1 : 1);
     for (int i = 0; i < neighbours; ++i) {
         ivec2 side = i == 0 ? ivec2(1, 0) : i == 1 ? ivec2(0, 1) : i == 2 ? ivec2(1, 1) : i == 3 ? ivec2(-1, 1) : i == 4 ? ivec2(1, -1) : i == 5 ? ivec2(-1, 0) : i == 6 ? ivec2(0, -1) : ivec2(-1, -1);
-        vec4 other = texelFetch(skin_layer, clamp(at + side * towards, ivec2(0), textureSize(skin_layer, 0) - 1), 0);
+        uint other = texelFetch(skin_layer, clamp(at + side * towards, ivec2(0), textureSize(skin_layer, 0) - 1), 0).r;
         float d = apart(other);
         if (d < nearest - 0.001) {
             own = other;
@@ -47,7 +47,7 @@ void main() {
         // The nearest in the picture that will do
         if (nearest <= far) break;
     }
-    colour = vec4(own.rgb, own.a > 0.0 ? 1.0 : 0.0);
+    colour = own < 0x01000000u ? 0u : own | 0xff000000u;
 }
 )";
 
@@ -57,8 +57,8 @@ layout(location = 0) in vec2 in_place;
 void main() { gl_Position = vec4(in_place, 1.0, 1.0); }
 )";
 constexpr const char* kClear = R"(#version 450 core
-out vec4 colour;
-void main() { colour = vec4(0.0); }
+out uint colour;
+void main() { colour = 0u; }
 )";
 
 }  // namespace

@@ -127,7 +127,7 @@ void main() {
     vec3 albedo = painted.rgb * painted.rgb;
     float oil = painted.a;
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
-    float reach = 0.0015 / (mouth_axis.w * float(textureSize(shadow_map, 0).x));
+    float reach = 0.0015 / (shadow_places.y * shadow_places.x);
     float s = textureLod(shadow_map, vec3(lit_at.xy + reach * (vec2(q) - 0.5), lit_at.z), 0.0);
     s += (0.5 - float(q.x)) * dFdxFine(s);
     s += (0.5 - float(q.y)) * dFdyFine(s);

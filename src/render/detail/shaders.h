@@ -8,7 +8,11 @@ namespace risorius::render {
 /// What every frame tells all programs; the std140 block `Frame` of shader_lighting.cpp, field for field.
 struct FrameUniforms {
     float clip_from_world[16];
+    float mouth_centre[4];  ///< xyz m of the gap between the lips, w its area in m^2
+    float mouth_axis[4];    ///< half its width, m
+    // The same for all frames of a view; its programs may have them as constants instead
     float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
+    float shadow_places[4];       ///< x: on each side of the map; y: m between them
     float camera[4];              ///< xyz m
     float key_direction[4];       ///< towards the lamp
     float key_card[4];  ///< as a white card that faces it shines: irradiance over pi, exposed
@@ -17,8 +21,6 @@ struct FrameUniforms {
     float rim_direction[4];
     float rim_card[4];
     float irradiance[9][4];  ///< of the surroundings, see Irradiance; exposed
-    float mouth_centre[4];   ///< xyz m of the gap between the lips, w its area in m^2
-    float mouth_axis[4];     ///< half its width, m; w metres per shadow texel
 };
 
 /// Texture units and vertex attributes

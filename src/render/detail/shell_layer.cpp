@@ -85,7 +85,8 @@ class Lengths {
 }  // namespace
 
 ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
-                       const Vec3& paint_centre, const std::vector<unsigned>& skin) {
+                       const Vec3& paint_centre, const std::vector<unsigned>& skin,
+                       ShaderConstants constants) {
     const double hair_m = 1e-3 * scene.look.hair_length_mm,
                  beard_m = 1e-3 * scene.look.beard_length_mm;
     if (std::max(hair_m, beard_m) <= 0 || has_own_skin(scene)) return;
@@ -130,21 +131,16 @@ ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const Sk
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 
-    program_ = std::make_unique<GlProgram>("shells", shell_vertex_shader(), shell_shader());
-    program_->use();
-    const auto vector = [&](const char* name, const Vec3& v) {
-        const Eigen::Vector3f f = v.cast<float>();
-        glUniform3fv(program_->location(name), 1, f.data());
-    };
     const auto crown = scene.landmarks.find("v");
     const Vec3 top =
         crown != scene.landmarks.end() ? crown->second : paint_centre + Vec3(0, 0.12, 0);
-    vector("whorl", top + Vec3(0.008, 0, -0.03));
-    vector("centre", paint_centre);
-    vector("hair_tone", linear_from_srgb(hair_tone_at(scene.look)));
-    glUniform2f(program_->location("full_length"), static_cast<float>(hair_m),
-                static_cast<float>(beard_m));
-    glUniform1f(program_->location("shells"), static_cast<float>(shells_));
+    constants.set("whorl", Vec3(top + Vec3(0.008, 0, -0.03)));
+    constants.set("centre", paint_centre);
+    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.look)));
+    constants.set("full_length", Vec2(hair_m, beard_m));
+    constants.set("shells", static_cast<double>(shells_));
+    program_ = std::make_unique<GlProgram>("shells", constants.in(shell_vertex_shader()),
+                                           constants.in(shell_shader()));
 }
 
 ShellLayer::~ShellLayer() {

@@ -8,6 +8,7 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/scene_buffers.h"
+#include "render/detail/shader_constants.h"
 #include "render/detail/skin_plan.h"
 #include "render/scene.h"
 
@@ -15,9 +16,10 @@ namespace risorius::render {
 
 class ShellLayer {
   public:
-    /// `skin` are the painted triangles. Nothing is drawn when the look has no length of hair. The context must be current.
+    /// `skin` are the painted triangles. Nothing is drawn when the look has no length of hair; `constants` of Lights. The context must be current.
     ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
-               const Vec3& paint_centre, const std::vector<unsigned>& skin);
+               const Vec3& paint_centre, const std::vector<unsigned>& skin,
+               ShaderConstants constants);
     ~ShellLayer();
     ShellLayer(const ShellLayer&) = delete;
     ShellLayer& operator=(const ShellLayer&) = delete;

@@ -6,20 +6,29 @@
 #include "render/detail/shaders.h"
 
 namespace risorius::render {
+namespace {
 
-SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded)
-    : shaded_(shaded), program_("skin looked up", lookup_vertex_shader(), lookup_shader()) {
+std::string with_share(int shaded, int samples, const std::string& source) {
+    ShaderConstants constants;
+    constants.set("shaded_per_sample", static_cast<double>(shaded) / samples);
+    return constants.in(source);
+}
+
+}  // namespace
+
+SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded,
+                     const ShaderConstants& constants)
+    : shaded_(shaded),
+      program_("skin looked up", constants.in(lookup_vertex_shader()),
+               with_share(shaded, samples, lookup_shader())) {
     const int width = width_px * shaded, height = height_px * shaded;
-    program_.use();
-    glUniform1f(program_.location("shaded_per_sample"),
-                static_cast<float>(shaded) / static_cast<float>(samples));
 
-    // One store in two lights: sRGB to shade into, and its bytes to copy from
+    // One store in two lights: sRGB to shade into, and its bytes, four at a time, to copy from
     glGenTextures(1, &colour_);
     glBindTexture(GL_TEXTURE_2D, colour_);
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, width, height);
     glGenTextures(1, &bytes_);
-    glTextureView(bytes_, GL_TEXTURE_2D, colour_, GL_RGBA8, 0, 1, 0, 1);
+    glTextureView(bytes_, GL_TEXTURE_2D, colour_, GL_R32UI, 0, 1, 0, 1);
     glBindTexture(GL_TEXTURE_2D, bytes_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -10,6 +10,7 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/picture_cells.h"
+#include "render/detail/shader_constants.h"
 
 namespace risorius::render {
 
@@ -23,15 +24,17 @@ struct FarthestSkin {
 
 class SkinLayer {
   public:
-    /// For tiles of so many pixels with `samples` per pixel and side, `shaded` of which are shaded. The context must be current.
-    SkinLayer(int width_px, int height_px, int samples, int shaded);
+    /// For tiles of so many pixels with `samples` per pixel and side, `shaded` of which are shaded; `constants` of Lights.
+    /// The context must be current.
+    SkinLayer(int width_px, int height_px, int samples, int shaded,
+              const ShaderConstants& constants);
     ~SkinLayer();
     SkinLayer(const SkinLayer&) = delete;
     SkinLayer& operator=(const SkinLayer&) = delete;
 
     /// Skin is to be shaded into the layer; its part of this size is cleared.
     void begin(int width_px, int height_px);
-    /// Skin is to be drawn into the bound framebuffer as it was shaded, in the bytes of sRGB.
+    /// Skin is to be drawn as it was shaded into the bound framebuffer of bytes.
     void use() const;
 
     /// How far away the skin in the layer is at most, cell by cell, within the box; elsewhere it is taken to be missing. Waits for the drawing.

@@ -48,13 +48,15 @@ std::array<int, 2> eye_vertices(const Scene& scene, const PosedMarks& marks) {
 
 }  // namespace
 
-SocketLayer::SocketLayer(const Scene& scene, const PosedMarks& marks)
-    : SocketLayer(scene, eye_vertices(scene, marks)) {}
+SocketLayer::SocketLayer(const Scene& scene, const PosedMarks& marks,
+                         const ShaderConstants& constants)
+    : SocketLayer(scene, eye_vertices(scene, marks), constants) {}
 
-SocketLayer::SocketLayer(const Scene& scene, const std::array<int, 2>& vertex)
+SocketLayer::SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
+                         const ShaderConstants& constants)
     : vertex_(vertex),
       eyes_(scene.eyes),
-      program_("sockets", socket_vertex_shader(), socket_shader()),
+      program_("sockets", constants.in(socket_vertex_shader()), constants.in(socket_shader())),
       triangles_(bowls(vertex), {3, 3, 1}) {  // place, normal, how open
     for (std::size_t eye = 0; eye < 2; ++eye)
         if (vertex_[eye] >= 0) rest_[eye] = scene.rest.row(vertex_[eye]).transpose();

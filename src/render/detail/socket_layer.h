@@ -6,14 +6,15 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
+#include "render/detail/shader_constants.h"
 #include "render/detail/streamed_triangles.h"
 
 namespace risorius::render {
 
 class SocketLayer {
   public:
-    /// Nothing is drawn about eyes that are missing, or whose lids are not known. The context must be current.
-    SocketLayer(const Scene& scene, const PosedMarks& marks);
+    /// Nothing is drawn about eyes that are missing, or whose lids are not known; `constants` of Lights. The context must be current.
+    SocketLayer(const Scene& scene, const PosedMarks& marks, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
     /// Opaque, behind what is there; binds a vertex array of its own.
@@ -23,7 +24,8 @@ class SocketLayer {
     }
 
   private:
-    SocketLayer(const Scene& scene, const std::array<int, 2>& vertex);
+    SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
+                const ShaderConstants& constants);
 
     std::array<int, 2> vertex_;  ///< of each eyeball's surface, or -1 for no bowl
     std::array<Vec3, 2> rest_;   ///< where it is at rest, m

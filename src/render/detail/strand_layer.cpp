@@ -33,21 +33,22 @@ std::vector<unsigned> strand_ribbons(const std::vector<Strand>& strands, double 
     return indices;
 }
 
+std::string with_tone(const Scene& scene, ShaderConstants constants) {
+    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.look)));
+    return constants.in(strand_vertex_shader());
+}
+
 }  // namespace
 
 StrandLayer::StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
-                         double sample_m)
+                         double sample_m, ShaderConstants constants)
     : strands_(std::move(strands)),
       eyes_(scene.eyes),
       camera_(camera.eye_point()),
       sample_m_(sample_m),
-      program_("strand", strand_vertex_shader(), strand_shader()),
+      program_("strand", with_tone(scene, std::move(constants)), strand_shader()),
       triangles_(strand_ribbons(strands_, sample_m),
                  {3, 3, 2}) {  // place, direction, opacity and shade
-    program_.use();
-    const Eigen::Vector3f tone = linear_from_srgb(hair_tone_at(scene.look)).cast<float>();
-    glUniform3fv(program_.location("hair_tone"), 1, tone.data());
-
     for (const Surface& surface : scene.surfaces)
         if (surface.material == Material::kEye && surface.triangles.rows() > 0) {
             const auto eye = static_cast<std::size_t>(std::max(surface.eye, 0));

@@ -6,6 +6,7 @@
 #include "render/detail/camera.h"
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
+#include "render/detail/shader_constants.h"
 #include "render/detail/strands.h"
 #include "render/detail/streamed_triangles.h"
 
@@ -13,9 +14,10 @@ namespace risorius::render {
 
 class StrandLayer {
   public:
-    /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler. The context must be current.
+    /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler; `constants` of Lights.
+    /// The context must be current.
     StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
-                double sample_m);
+                double sample_m, ShaderConstants constants);
     void upload(const Pose& pose, const PosedMarks& marks);
     /// Blended over what is there; binds a vertex array of its own.
     void draw() const;

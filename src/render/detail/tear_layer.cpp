@@ -29,10 +29,10 @@ std::vector<unsigned> tear_ribbons(const std::array<std::vector<SkinPlace>, 2>& 
 
 }  // namespace
 
-TearLayer::TearLayer(const Scene& scene)
+TearLayer::TearLayer(const Scene& scene, const ShaderConstants& constants)
     : lines_{plan_tear_line(scene, 0), plan_tear_line(scene, 1)},
       eyes_(scene.eyes),
-      program_("tears", tear_vertex_shader(), tear_shader()),
+      program_("tears", constants.in(tear_vertex_shader()), constants.in(tear_shader())),
       triangles_(tear_ribbons(lines_), {3, 3, 1}) {}  // place, normal, share of its light
 
 void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {

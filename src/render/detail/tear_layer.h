@@ -6,6 +6,7 @@
 
 #include "render/detail/gl_context.h"
 #include "render/detail/posed_marks.h"
+#include "render/detail/shader_constants.h"
 #include "render/detail/strands.h"
 #include "render/detail/streamed_triangles.h"
 
@@ -13,8 +14,8 @@ namespace risorius::render {
 
 class TearLayer {
   public:
-    /// Without lids that can be found nothing is drawn. The context must be current.
-    explicit TearLayer(const Scene& scene);
+    /// Without lids that can be found nothing is drawn; `constants` of Lights. The context must be current.
+    TearLayer(const Scene& scene, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
     /// Adds its light to what is there; binds a vertex array of its own.
