@@ -40,7 +40,7 @@ namespace {
 
 // What drawn skin and eyes may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
 constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2,
-                 kCoarseMovedSamples = 0.2;
+                 kCoarseMovedSamples = 0.2, kDraftSkin_m = 0.7e-3;
 
 ViewOptions checked(ViewOptions options) {
     check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
@@ -206,10 +206,14 @@ struct OffscreenView::Impl {
     Coarseness coarseness() const {
         if (options.deep || looks_inside()) return {};
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        return {.seen_m = kCoarseSamples * sample_m,
-                .shadow_m = kCoarseShadow_m,
-                .eyes_m = kCoarseEyeSamples * sample_m,
-                .moved_m = kCoarseMovedSamples * sample_m,
+        // A draft may lose more; how much of the form is told by its vertices, so large pictures lose no more than small ones.
+        const double enough = kDraftSkin_m / (kCoarseSamples * sample_m);
+        const double skin = options.draft ? std::clamp(enough, 1.5, 3.0) : 1,
+                     others = options.draft ? 2 : 1;
+        return {.seen_m = skin * kCoarseSamples * sample_m,
+                .shadow_m = others * kCoarseShadow_m,
+                .eyes_m = others * kCoarseEyeSamples * sample_m,
+                .moved_m = skin * kCoarseMovedSamples * sample_m,
                 .keeps_folds = !options.draft};
     }
 
