@@ -89,9 +89,9 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     const struct {
         double width;
         Vec3 shift;
-    } kInside[] = {{0.95, Vec3(0, 0.4, -1.4)},
-                   {1.0, Vec3(0, 2.2, -4)},
-                   {0.9, Vec3(-0.4, 6, -7.5)},
+    } kInside[] = {{0.95, Vec3(0, -0.1, -1.4)},
+                   {1.0, Vec3(0, 0.8, -4)},
+                   {0.9, Vec3(-0.4, 4.5, -7.5)},
                    {0.6, Vec3(-1.0, 9.5, -13)}};
     for (const auto& inside : kInside) {
         std::vector<Vec3> points;

@@ -197,8 +197,11 @@ struct Face::Impl {
         return figures;
     }
 
-    /// A jaw that muscles move, and volume muscles, need twice as many to keep up.
-    bool many_iterations() const { return driven_jaw.by_muscles() || !tissue.solids().empty(); }
+    /// To keep up, volume muscles need twice as many, a jaw that muscles move once more as many.
+    int iterations() const {
+        const int times = 1 + (tissue.solids().empty() ? 0 : 1) + (driven_jaw.by_muscles() ? 1 : 0);
+        return times * quality.iterations;
+    }
 
     StepFigures piece(const DriveAt& drive_at) {
         const double from = static_cast<double>(done) * piece_s,
@@ -224,17 +227,17 @@ struct Face::Impl {
         const Points carried = x;
         // The move of the piece before is likely to go on: its curvature is the first the search knows.
         const std::span<const Points> likely(&last_move, last_move.rows() > 0 ? 1 : 0);
-        const StepFigures figures = driven_jaw.implicit_step(
-            tissue, h, piece_s, moves.start, moves.aim, activation,
-            {moves.moved, gravity_at(drive)},
-            {.iterations = (many_iterations() ? 2 : 1) * quality.iterations,
-             .least_iterations = quality.least_iterations,
-             .memory = kMemory,
-             .pairs = quality.precision,
-             .step_cap_m = kStepCap_m,
-             .tolerance_rms_m = quality.tolerance_rms_m,
-             .trust_last = quality.tolerance_rms_m == 0},
-            x, now.jaw, likely);
+        const StepFigures figures =
+            driven_jaw.implicit_step(tissue, h, piece_s, moves.start, moves.aim, activation,
+                                     {moves.moved, gravity_at(drive)},
+                                     {.iterations = iterations(),
+                                      .least_iterations = quality.least_iterations,
+                                      .memory = kMemory,
+                                      .pairs = quality.precision,
+                                      .step_cap_m = kStepCap_m,
+                                      .tolerance_rms_m = quality.tolerance_rms_m,
+                                      .trust_last = quality.tolerance_rms_m == 0},
+                                     x, now.jaw, likely);
         last_move = x - carried;
         tissue.fibres().end_step();
         motion.end(x);

@@ -34,8 +34,8 @@ inline constexpr int kRestIterations = 1500;
 struct Quality {
     std::string name;
     int shell_vertices = 800;  ///< three nodes each
-    int iterations = 6;        ///< per piece of a step, at most; volume muscles or a jaw moved by
-                               ///< muscles get twice as many
+    int iterations = 6;        ///< per piece of a step, at most; as many again for volume
+                               ///< muscles, and again for a jaw that muscles move
     int least_iterations = 0;  ///< before the tolerance may stop a piece
     int mouth_iterations = 0;  ///< then, of the mouth alone, at most
     double tolerance_rms_m =
