@@ -25,6 +25,8 @@ uniform vec3 bleed;        // of the shadow's edge
 uniform float roughness;
 // Of the light in a hollow: what comes out again has been in the skin more than once.
 const vec3 kHollow = vec3(0.40, 0.27, 0.23);
+// Where it begins, some comes through thin walls from outside, red.
+const vec3 kThroughWalls = vec3(0.10, 0.020, 0.013);
 
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
@@ -51,6 +53,7 @@ void main() {
     // Pores and wrinkles turn to the soft light or away from it.
     float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
     vec3 diffuse = (key * kept + soft * (open * turned)) * mix(kHollow, vec3(1.0), hollow);
+    diffuse += kThroughWalls * (4.0 * hollow * (1.0 - hollow));
     gloss += soft_gloss * (open * open * turned * turned);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
     colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
