@@ -5,21 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/adult_of_bundles.h"
 #include "message_of.h"
-#include "paths.h"
 
 namespace risorius::app {
 namespace {
-
-const RigFiles& adult_of_bundles() {
-    static const RigFiles files = [] {
-        RigFiles out = read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs" /
-                                      "adult" / "rig.json");
-        out.rig.solids.clear();  // bundles alone: quick
-        return out;
-    }();
-    return files;
-}
 
 TEST(BenchPoses, EquilibriaAreAtRestWhateverTheSizeOfTheShell) {
     const Json shells = bench_poses(adult_of_bundles(), {{600, 1200}, {"AU26"}});

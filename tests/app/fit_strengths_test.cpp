@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/rig_files.h"
+#include "app/adult_of_bundles.h"
 #include "core/error.h"
 #include "paths.h"
 #include "rig/rig_description.h"
@@ -15,22 +15,12 @@
 namespace risorius::app {
 namespace {
 
-const RigFiles& adult_files() {
-    static const RigFiles files = [] {
-        RigFiles out = read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs" /
-                                      "adult" / "rig.json");
-        out.rig.solids.clear();  // bundles alone: quick
-        return out;
-    }();
-    return files;
-}
-
 sim::Face face_of(const rig::RigDescription& rig) {
-    return sim::Face(rig, adult_files().mesh, sim::quality_named("preview"), "adult");
+    return sim::Face(rig, adult_of_bundles().mesh, sim::quality_named("preview"), "adult");
 }
 
 TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
-    const rig::RigDescription& rig = adult_files().rig;
+    const rig::RigDescription& rig = adult_of_bundles().rig;
     WayTable goal;
     {
         sim::Face face = face_of(rig);
@@ -58,9 +48,9 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
 }
 
 TEST(FitStrengths, NeedsAWayForEveryLandmarkItCompares) {
-    sim::Face face = face_of(adult_files().rig);
+    sim::Face face = face_of(adult_of_bundles().rig);
     try {
-        fit_strengths(face, adult_files().rig, {{"mouthSmile", {{"ch_l", Vec3::Zero()}}}}, {},
+        fit_strengths(face, adult_of_bundles().rig, {{"mouthSmile", {{"ch_l", Vec3::Zero()}}}}, {},
                       "adult", {});
         FAIL() << "nothing thrown";
     } catch (const Error& error) {
