@@ -102,7 +102,7 @@ TEST(Shell, CoversTheMovingFaceAndHoldsOnlyItsOutline) {
 TEST(Shell, TissueBearsAllOfIt) {
     // At some of these numbers of vertices a corner of the adult's nostril has none but tetrahedra that are too thin.
     std::size_t not_borne = 0;
-    for (const int vertices : {400, 500, 800, 1000}) {
+    for (const int vertices : {300, 350, 450, 500, 600, 800, 1000}) {
         const Tissue tissue(rig::adult(), vertices);
         const Shell all = build_shell(tissue.head, tissue.jaw, tissue.lids, {vertices});
         const Shell& shell = tissue.shell;
