@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <set>
 
 #include "core/error.h"
 #include "media/image_file.h"
@@ -185,6 +186,18 @@ TEST(VideoWriter, SameFramesMakeTheSameBytes) {
         ASSERT_FALSE(a.empty());
         EXPECT_TRUE(a == bytes_of(folder / ("b" + std::string(ending)))) << ending;
     }
+}
+
+TEST(VideoWriter, SameFramesMakeTheSameBytesWhereverInMemory) {
+    const TemporaryFolder folder;
+    std::vector<std::vector<char>> between;
+    std::set<std::string> files;
+    for (std::size_t k = 0; k < 60; ++k) {
+        between.emplace_back(16 + 1337 * k);
+        write_numbered(folder / "a.mp4", 30);
+        files.insert(bytes_of(folder / "a.mp4"));
+    }
+    EXPECT_EQ(files.size(), 1u);
 }
 
 TEST(VideoWriter, AbandonedWriterLeavesNothing) {
