@@ -88,7 +88,8 @@ struct Face::Impl {
     State now, before;
     std::optional<FaceStatics> statics;
     DrivenJaw driven_jaw;
-    Points last_move;  // of x within the last piece against what rides on bone, or no rows
+    bool went_back = false;  // the last piece, on the one before
+    Points last_move;        // of x within the last piece against what rides on bone, or no rows
     Neck neck;
     TissueMotion motion;
     std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
@@ -226,7 +227,9 @@ struct Face::Impl {
         tissue.find_contacts(x);
         const Points carried = x;
         // The move of the piece before is likely to go on: its curvature is the first the search knows.
-        const std::span<const Points> likely(&last_move, last_move.rows() > 0 ? 1 : 0);
+        // One that went back on the one before is not: it would be sent to and fro.
+        const std::span<const Points> likely(&last_move,
+                                             last_move.rows() > 0 && !went_back ? 1 : 0);
         const StepFigures figures =
             driven_jaw.implicit_step(tissue, h, piece_s, moves.start, moves.aim, activation,
                                      {moves.moved, gravity_at(drive)},
@@ -238,7 +241,9 @@ struct Face::Impl {
                                       .tolerance_rms_m = quality.tolerance_rms_m,
                                       .trust_last = quality.tolerance_rms_m == 0},
                                      x, now.jaw, likely);
-        last_move = x - carried;
+        Points move = x - carried;
+        went_back = last_move.rows() > 0 && last_move.cwiseProduct(move).sum() < 0;
+        last_move.swap(move);
         tissue.fibres().end_step();
         motion.end(x);
         statics->moved();
