@@ -30,7 +30,7 @@ std::vector<Sample> gather(const DesignTables& tables) {
         for (std::size_t c = 0; c < depth.columns.size(); ++c) {
             const double x = depth.columns[c], y = depth.rows[r], z = depth.value[r][c];
             if (std::isnan(z)) continue;
-            if (x > 3 && x < 21 && y < -13 && y > -33)
+            if (x > 3 && x < 19 && y < -13 && y > -31)
                 continue;                      // wing and nostril have their own loops
             if (y == -52 && x < 20) continue;  // the slit between the lips
             if (z < -4) continue;
@@ -60,6 +60,11 @@ std::vector<Sample> gather(const DesignTables& tables) {
             continue;
         samples.push_back({p, 2.0});
     }
+    // Under the tip and where columella and lip meet the skin turns within a row of the table: a plate would cut the one and swing
+    // past the other.
+    for (const Vec3& p : {Vec3(0, -26, 113.3), Vec3(0, -34, 99.4), Vec3(4, -34, 99.2),
+                          Vec3(8, -34, 97.9), Vec3(12, -34, 95.1)})
+        samples.push_back({p, 4.0});
     // Throat and side of the neck below the measured part, own design.
     for (const Vec3& p : {Vec3(0, -125, 23), Vec3(0, -145, 20), Vec3(22, -125, 14),
                           Vec3(47, -118, -14), Vec3(38, -118, 2)})

@@ -50,13 +50,13 @@ Vec3 ear_relief(const std::map<std::string, std::vector<ReliefPoint>>& features,
 }  // namespace
 
 void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTables& tables) {
-    constexpr int kRows = 8, kAcross = 6, kLoop = 2 * (kRows + kAcross);
+    constexpr int kRows = 10, kAcross = 6, kLoop = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
     const auto named = [&](const char* name) {
         return loop_points(tables.nose_loops, name, kLoop, [](double p) { return p; });
     };
-    const std::vector<Vec3> crease = named("crease"), wing = named("wing"), edge = named("edge"),
-                            rim = named("rim");
+    const std::vector<Vec3> crease = named("crease"), wing = named("wing"), under = named("under"),
+                            edge = named("edge"), rim = named("rim");
     std::vector<int> previous = block;
     const auto ring = [&](const std::vector<Vec3>& points, Hold hold) {
         std::vector<int> ids;
@@ -75,30 +75,32 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     for (int k = 0; k < kLoop; ++k)
         halfway.push_back(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] + crease[k]));
     ring(halfway, Hold::kSmooth);
+    // Beside the wing it is cheek and lip, which are hollow there.
+    for (int k = kRows + 2; k < kLoop - 2; ++k)
+        mesh.hold[mesh.hold.size() - kLoop + k] = Hold::kOnHead;
     ring(crease, Hold::kPinned);
-    ring(between(halfway, crease, wing, edge), Hold::kSmooth);
+    ring(between(halfway, crease, wing, under), Hold::kSmooth);
     ring(wing, Hold::kPinned);
-    ring(between(crease, wing, edge, rim), Hold::kSmooth);
+    ring(between(crease, wing, under, edge), Hold::kSmooth);
+    ring(under, Hold::kPinned);
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
     const std::size_t inner = mesh.point.size() - kLoop;
+    // Deep enough that who looks in looks into the dark
     mesh.adding = Region::kNostril;
-    // The vestibule goes back and up from the rim, so that who looks in from the front looks into depth.
+    const std::vector<Vec3> vestibule = named("vestibule"), depth = named("depth");
+    ring(between(edge, rim, vestibule, depth), Hold::kPinned);
+    ring(vestibule, Hold::kPinned);
+    std::vector<Vec3> halfway_in, end;
     Vec3 centre = Vec3::Zero();
-    for (const Vec3& p : rim) centre += p / kLoop;
-    const struct {
-        double width;
-        Vec3 shift;
-    } kInside[] = {{0.95, Vec3(0, -0.1, -1.4)},
-                   {1.0, Vec3(0, 0.8, -4)},
-                   {0.9, Vec3(-0.4, 4.5, -7.5)},
-                   {0.6, Vec3(-1.0, 9.5, -13)}};
-    for (const auto& inside : kInside) {
-        std::vector<Vec3> points;
-        for (const Vec3& p : rim)
-            points.push_back(centre + inside.width * (p - centre) + inside.shift);
-        ring(points, Hold::kPinned);
+    for (const Vec3& p : depth) centre += p / kLoop;
+    for (int k = 0; k < kLoop; ++k) {
+        halfway_in.push_back(0.5 * (vestibule[k] + depth[k]));
+        end.push_back(centre + 0.6 * (depth[k] - centre) + 0.4 * (depth[k] - vestibule[k]));
     }
+    ring(halfway_in, Hold::kPinned);
+    ring(depth, Hold::kPinned);
+    ring(end, Hold::kPinned);
     mesh.fill(previous, kRows, kAcross, Hold::kPinned);
     for (std::size_t v = inner; v < mesh.point.size(); ++v)
         skin.fixed.push_back(static_cast<int>(v));
@@ -106,11 +108,11 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
 
 void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables,
              const HeadSurface& head) {
-    constexpr int kRows = 20, kAcross = 6, kLoop = 2 * (kRows + kAcross);
+    constexpr int kRows = 22, kAcross = 6, kLoop = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
-    // The tables count 36 places, 12 along each long side. The mesh has its 52 where the outline is long or bends: along the front,
+    // The tables count 36 places, 12 along each long side. The mesh has its 56 where the outline is long or bends: along the front,
     // around the lobe, up the back, over the top. They begin after the corner of the block, so that none turns far.
-    constexpr double kFront = 14, kLobe = 10, kBack = 16, kTop = kLoop - kFront - kLobe - kBack,
+    constexpr double kFront = 15, kLobe = 10, kBack = 18, kTop = kLoop - kFront - kLobe - kBack,
                      kBegin = 3;
     const auto place = [](double p) {
         if (p <= 12) return kBegin + p * kFront / 12;

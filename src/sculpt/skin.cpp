@@ -21,14 +21,20 @@ constexpr KeyRow kKeyRows[] = {
     {9, {86, 86, 86, 86}},         // hairline
     {18, {45, 45, 45, 45}},        // brow
     {26, {18, 18, 17, 15}},        // pupil
-    {42, {-33, -34, -39, -34}},    // base of the nose
-    {48, {-53, -51, -50, -44}},    // lips
-    {54, {-72, -65, -57, -48}},    // mentolabial furrow
-    {63, {-105, -86, -68, -56}},   // border of the jaw
-    {70, {-134, -118, -96, -70}},  // cervical point
-    {72, {-144, -130, -107, -77}}  // end of the measured neck
+    {34, {-7.5, -8, -11, -9.5}},   // where the wing of the nose begins
+    {44, {-33, -34, -39, -34}},    // base of the nose
+    {50, {-53, -51, -50, -44}},    // lips
+    {56, {-72, -65, -57, -48}},    // mentolabial furrow
+    {65, {-105, -86, -68, -56}},   // border of the jaw
+    {72, {-134, -118, -96, -70}},  // cervical point
+    {74, {-144, -130, -107, -77}}  // end of the measured neck
 };
-constexpr int kJawRow = 63, kNeckRow = 72, kNeckBaseRows = 5, kSkirtRows = 11;
+constexpr int kJawRow = 65, kNeckRow = 74, kNeckBaseRows = 5, kSkirtRows = 11;
+/// The strip from the tip of the nose to the lip, where the skin runs almost along the rays of the head surface: its rows are even on
+/// the skin, not by height.
+constexpr int kStripRow = 34, kStripColumns = 1;
+constexpr double kStripHeight[] = {-7.5,  -10.7, -13.9, -17.3, -20.8, -23.9,
+                                   -26.0, -27.4, -28.7, -30.2, -33};
 constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
 
 double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
@@ -63,7 +69,7 @@ double column_azimuth(int column, int row) {
         return low + (even - low) * t;
     }
     const double even = kSide * column / 16, pupil = through({{0, 0}, {4, 7.2}, {16, kSide}}),
-                 nose = through({{0, 0}, {1, 1.3}, {7, 14.6}, {16, kSide}}),
+                 nose = through({{0, 0}, {1, 0.9}, {7, 14.6}, {16, kSide}}),
                  lips = through({{0, 0}, {10, 22.5}, {16, kSide}}),
                  crown = 180.0 * column / kColumns;
     const auto mix = [](double a, double b, double from, double to, int at) {
@@ -71,34 +77,34 @@ double column_azimuth(int column, int row) {
     };
     if (row <= 18) return mix(crown, even, 0, 14, row);
     if (row <= 26) return mix(even, pupil, 18, 26, row);
-    if (row <= 40) return mix(pupil, nose, 28, 36, row);
-    if (row <= 50) return mix(nose, lips, 42, 46, row);
-    return mix(lips, even, 54, 62, row);
+    if (row <= 42) return mix(pupil, nose, 28, 36, row);
+    if (row <= 52) return mix(nose, lips, 44, 48, row);
+    return mix(lips, even, 56, 64, row);
 }
 
 struct Block {
     int row0, row1, column0, column1;
 };
-constexpr Block kEyeBlock{21, 31, 4, 16}, kNoseBlock{34, 42, 1, 7}, kMouthBlock{43, 53, 0, 10},
-    kEarBlock{22, 42, kEarColumn0, kEarColumn1};
+constexpr Block kEyeBlock{21, 31, 4, 16}, kNoseBlock{34, 44, 1, 7}, kMouthBlock{45, 55, 0, 10},
+    kEarBlock{22, 44, kEarColumn0, kEarColumn1};
 
 /// What the cell of the grid belongs to that has this corner.
 Region region_of_cell(int row, int column) {
-    if (row >= 63) return column < 34 ? Region::kNeck : Region::kNape;
+    if (row >= kJawRow) return column < 34 ? Region::kNeck : Region::kNape;
     if (row < 9) return Region::kScalp;
-    if (column >= kEarColumn1) return row < 42 ? Region::kScalp : Region::kNape;
+    if (column >= kEarColumn1) return row < 44 ? Region::kScalp : Region::kNape;
     if (column >= 24)
         return row < 18   ? Region::kScalp
                : row < 26 ? Region::kTemple
-               : row < 50 ? Region::kCheek
+               : row < 52 ? Region::kCheek
                           : Region::kJaw;
     if (row < 16) return column < 17 ? Region::kForehead : Region::kTemple;
     if (row < 20 && column < 17) return Region::kBrow;
     if (column >= 17 && row < 26) return Region::kTemple;
     if (row < 33 && column >= 4 && column < 17) return Region::kOrbit;
-    if (row < 42 && column < 7) return Region::kNose;
-    if (row >= 54) return column < 11 ? Region::kChin : Region::kJaw;
-    if (row >= 42 && column < 11) return Region::kMouthSkin;
+    if (row < 44 && column < 7) return Region::kNose;
+    if (row >= 56) return column < 11 ? Region::kChin : Region::kJaw;
+    if (row >= 44 && column < 11) return Region::kMouthSkin;
     return Region::kCheek;
 }
 
@@ -175,9 +181,9 @@ void add_skirt(Skin& skin) {
 
 /// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
 double philtrum(const Vec3& p) {
-    if (p.z() < 80 || p.y() > -30 || p.y() < -46) return 0;
+    if (p.z() < 80 || p.y() > -33 || p.y() < -46) return 0;
     const double along =
-        std::clamp((-31.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
+        std::clamp((-33.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
     const double ridge = 3.6 + 2.2 * std::clamp((-32.0 - p.y()) / 12.0, 0.0, 1.0),
                  x = std::abs(p.x());
     const auto bell = [](double t) { return std::exp(-t * t); };
@@ -212,17 +218,17 @@ struct ReliefLine {
 /// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; the ridge of
 /// lobule and columella, which hangs below the wings and stands out between the nostrils; and the bridge, which is round across.
 void shape_nose(Skin& skin) {
-    const ReliefLine groove{{{Vec3(18.4, -27, 88.6), -0.6, 1.8},
-                             {Vec3(18.3, -21.5, 89.5), -1.1, 1.8},
-                             {Vec3(16.8, -16.6, 92), -1.4, 2},
-                             {Vec3(14.4, -14, 96.5), -1.4, 2.2},
-                             {Vec3(12.4, -14, 102), -1.2, 2.5},
-                             {Vec3(11, -16.5, 107.5), -0.6, 3}}},
-        columella{{{Vec3(0, -25.5, 112.6), 0.2, 3.6},
-                   {Vec3(0, -27.5, 109.4), 0.9, 3.2},
-                   {Vec3(0, -29.3, 104.2), 0.9, 2.4},
-                   {Vec3(0, -31, 100.6), 0.3, 2.1},
-                   {Vec3(0, -33, 99.8), 0, 2}}},
+    const ReliefLine groove{{{Vec3(17.4, -28.3, 89), -0.5, 1.6},
+                             {Vec3(18.2, -25, 88.7), -1.1, 1.6},
+                             {Vec3(18.3, -21, 89.2), -1.3, 1.7},
+                             {Vec3(17.4, -16.8, 91.6), -1.3, 1.8},
+                             {Vec3(15.6, -14, 95.2), -0.9, 2},
+                             {Vec3(13, -13.2, 100.5), -0.4, 2.4},
+                             {Vec3(11, -15, 107), 0, 3}}},
+        columella{{{Vec3(0, -25.5, 112.6), 0, 3.6},
+                   {Vec3(0, -27.5, 109.4), 0.3, 3.2},
+                   {Vec3(0, -29.3, 104.2), 0.2, 2.4},
+                   {Vec3(0, -31, 100.6), 0, 2.1}}},
         bridge{{{Vec3(0, 12, 101), 0, 2},
                 {Vec3(0, 6, 104.4), 0.3, 2},
                 {Vec3(0, -6, 111.6), 0.25, 2},
@@ -308,7 +314,10 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
         for (int c = 0; c <= kColumns; ++c) {
             if (in_block(r, c)) continue;
             const double azimuth = column_azimuth(c, r);
-            const Vec3 p = head.at(azimuth * M_PI / 180, row_height(r, azimuth));
+            const bool strip = c <= kStripColumns && r >= kStripRow &&
+                               r - kStripRow < static_cast<int>(std::size(kStripHeight));
+            const Vec3 p = head.at(azimuth * M_PI / 180,
+                                   strip ? kStripHeight[r - kStripRow] : row_height(r, azimuth));
             skin.grid[r][c] =
                 mesh.add(p, r == kNeckRow ? Hold::kPinned : Hold::kOnHead, c == 0 || c == kColumns);
         }
