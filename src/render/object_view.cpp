@@ -147,6 +147,7 @@ Image ObjectView::draw() {
         }
         // What is read back is encoded already.
         glDisable(GL_FRAMEBUFFER_SRGB);
+        finish_drawing();
         view.picture.read_back(tile, view.resolve, image);
         glEnable(GL_FRAMEBUFFER_SRGB);
     }

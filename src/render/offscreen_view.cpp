@@ -251,7 +251,7 @@ struct OffscreenView::Impl {
                                     paint_side(options.height_px / camera.frame_height_m));
         out->pore_map = make_pores(scene.look.seed);
         grow_hair(scene, centre, *out);
-        glFinish();  // other contexts may look at the maps from now on
+        finish_drawing();  // other contexts may look at the maps from now on
         return out;
     }
 
@@ -360,7 +360,7 @@ struct OffscreenView::Impl {
             draw_surfaces(pose, looked_up);
         }
         glDisable(GL_FRAMEBUFFER_SRGB);
-        glFinish();  // which reading would wait for
+        finish_drawing();  // which reading would wait for
         const double drawn_s = processor_s();
         if (looked_up)
             picture.read_back(tile, resolve, cells, skin_layer->places(), skin_layer->shaded(),

@@ -22,6 +22,7 @@ namespace risorius::render {
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus) \
     X(PFNGLCLEARPROC, glClear) \
     X(PFNGLCLEARCOLORPROC, glClearColor) \
+    X(PFNGLCLIENTWAITSYNCPROC, glClientWaitSync) \
     X(PFNGLCOLORMASKPROC, glColorMask) \
     X(PFNGLCOMPILESHADERPROC, glCompileShader) \
     X(PFNGLCREATEPROGRAMPROC, glCreateProgram) \
@@ -31,6 +32,7 @@ namespace risorius::render {
     X(PFNGLDELETEPROGRAMPROC, glDeleteProgram) \
     X(PFNGLDELETERENDERBUFFERSPROC, glDeleteRenderbuffers) \
     X(PFNGLDELETESHADERPROC, glDeleteShader) \
+    X(PFNGLDELETESYNCPROC, glDeleteSync) \
     X(PFNGLDELETETEXTURESPROC, glDeleteTextures) \
     X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays) \
     X(PFNGLDEPTHFUNCPROC, glDepthFunc) \
@@ -42,7 +44,8 @@ namespace risorius::render {
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, glDrawElementsInstanced) \
     X(PFNGLENABLEPROC, glEnable) \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, glEnableVertexAttribArray) \
-    X(PFNGLFINISHPROC, glFinish) \
+    X(PFNGLFENCESYNCPROC, glFenceSync) \
+    X(PFNGLFLUSHPROC, glFlush) \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, glFramebufferRenderbuffer) \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, glFramebufferTexture2D) \
     X(PFNGLGENBUFFERSPROC, glGenBuffers) \

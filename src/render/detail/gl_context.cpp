@@ -9,7 +9,7 @@
 namespace risorius::render {
 namespace {
 
-std::mutex& creation_mutex() {
+std::mutex& driver_mutex() {
     static std::mutex mutex;
     return mutex;
 }
@@ -34,23 +34,44 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 
 GlContext::GlContext(int threads, const GlContext* shared) {
     // The driver reads its thread count from the environment when its one screen is made.
-    const std::lock_guard<std::mutex> lock(creation_mutex());
+    const std::lock_guard<std::mutex> lock(driver_mutex());
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
     GlBackend& backend = gl_backend();
     context_ = backend.make_context(shared ? shared->context_ : nullptr);
     if (!context_) throw RunError(std::string("no OpenGL 4.5 context (") + backend.name() + ")");
-    const Current current(*this);
+    if (!backend.make_current(context_))
+        throw RunError("the OpenGL context cannot be bound to this thread");
     note_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    backend.make_current(nullptr);
 }
 
-GlContext::~GlContext() { gl_backend().destroy(context_); }
+GlContext::~GlContext() {
+    const std::lock_guard<std::mutex> lock(driver_mutex());
+    gl_backend().destroy(context_);
+}
 
 GlContext::Current::Current(GlContext& context) {
-    if (!gl_backend().make_current(context.context_))
-        throw RunError("the OpenGL context cannot be bound to this thread");
+    driver_mutex().lock();
+    if (gl_backend().make_current(context.context_)) return;
+    driver_mutex().unlock();
+    throw RunError("the OpenGL context cannot be bound to this thread");
 }
 
-GlContext::Current::~Current() { gl_backend().make_current(nullptr); }
+GlContext::Current::~Current() {
+    gl_backend().make_current(nullptr);
+    driver_mutex().unlock();
+}
+
+void finish_drawing() {
+    constexpr GLuint64 kSecond_ns = 1'000'000'000;
+    const GLsync drawn = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glFlush();
+    driver_mutex().unlock();
+    while (glClientWaitSync(drawn, 0, kSecond_ns) == GL_TIMEOUT_EXPIRED) {
+    }
+    driver_mutex().lock();
+    glDeleteSync(drawn);
+}
 
 GlProgram::GlProgram(const std::string& name, const std::string& vertex,
                      const std::string& fragment) {

@@ -16,7 +16,9 @@ class GlContext {
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    /// Binds to the calling thread for a scope; draws go to framebuffer objects.
+    /// Binds to the calling thread for a scope; draws go to framebuffer objects. One context of the process at a time: where a texture
+    /// or buffer is touched, llvmpipe of Mesa 22.3 looks through what all contexts have to draw, without a lock, while they free it
+    /// (about one film in a hundred ended with a segmentation fault). Others have their turn in finish_drawing().
     class Current {
       public:
         explicit Current(GlContext& context);
@@ -28,6 +30,9 @@ class GlContext {
   private:
     void* context_ = nullptr;  ///< of gl_backend()
 };
+
+/// Waits until what was drawn in the context of this thread is drawn; meanwhile other threads may give theirs something to draw.
+void finish_drawing();
 
 /// Compiles and links; throws RunError with the compiler's words. An empty fragment source draws depth only.
 class GlProgram {

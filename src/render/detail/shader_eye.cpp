@@ -146,7 +146,7 @@ void main() {
     float surface_r = length(q.xy) / iris_radius;
     float r = length(hit.xy) / iris_radius;
     vec3 from_inner = position - lid_inner;
-    float caruncle = lids * exp(-dot(from_inner, from_inner) * 4.5e4);
+    float caruncle = lids * exp(-dot(from_inner, from_inner) * 2.4e4);
 
     vec2 round_ = hit.xy / max(length(hit.xy), 1e-6);
     // Light through the cornea gathers in a crescent on the side away from the lamp, the more the farther the lamp is aside.

@@ -97,6 +97,9 @@ float key_visibility(vec3 p, vec3 n) {
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
+    // Turned from block to block (by the sequence R2, Roberts 2018), or the steps of sixteen taps would show as terraces
+    float turn = 6.2832 * fract(dot(vec2(ivec2(gl_FragCoord.xy) >> 1), vec2(0.7548777, 0.5698403)));
+    e = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * e;
     float below = clamp(mouth_centre.y - p.y - 0.06, 0.0, 0.1);
     e *= (0.0035 + 0.12 * below) / (texel * shadow_places.x);
     vec2 f = vec2(-e.y, e.x);

@@ -26,7 +26,7 @@ uniform float roughness;
 // Of the light in a hollow: what comes out again has been in the skin more than once.
 const vec3 kHollow = vec3(0.40, 0.27, 0.23);
 // Where it begins, some comes through thin walls from outside, red.
-const vec3 kThroughWalls = vec3(0.10, 0.020, 0.013);
+const vec3 kThroughWalls = vec3(0.055, 0.014, 0.010);
 
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);

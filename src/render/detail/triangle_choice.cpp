@@ -207,6 +207,7 @@ void TriangleChoice::keep_if(Keep keep) {
 
 void TriangleChoice::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
                                       const std::function<void(PictureCells&)>& mark_others) {
+    finish_drawing();
     // What lies behind the skin
     ClipBox inner;
     for (std::size_t i = 0; i < triangles_.batches().size(); ++i) {
