@@ -150,6 +150,40 @@ TEST(AverageHead, HasEyesAndMouthLaidOutInIslandsOfTheirOwn) {
     }
 }
 
+/// In profile one sees the columella below the arch of the wing; a nostril leads back and up, longer than wide.
+TEST(AverageHead, HasNostrilsBetweenArchedWingsAndColumella) {
+    const geom::PolygonMesh& mesh = average().mesh;
+    const auto of = [&](const char* region) {
+        std::set<int> vertices;
+        for (const int f : average().regions.at(region))
+            for (int c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+                if (mesh.positions(mesh.corner_vertex[c], 0) > 0)
+                    vertices.insert(mesh.corner_vertex[c]);
+        return vertices;
+    };
+    const std::set<int> wing = of("wing"), nostril = of("nostril");
+    double columella_mm = 0, arch_mm = -100, sill_mm = 0;
+    Vec3 opening = Vec3::Zero();
+    double count = 0, deepest_mm = 0;
+    for (const int v : wing) {
+        const Vec3 p = mesh.positions.row(v).transpose();
+        if (p.z() > 101 && p.z() < 108 && p.x() < 3.5) columella_mm = std::min(columella_mm, p.y());
+        if (!nostril.count(v)) continue;
+        opening += p;
+        ++count;
+        if (p.x() > 9 && p.z() > 99) arch_mm = std::max(arch_mm, p.y());
+        if (p.z() < 98) sill_mm = std::min(sill_mm, p.y());
+    }
+    opening /= count;
+    for (const int v : nostril)
+        deepest_mm = std::max(deepest_mm, (mesh.positions.row(v).transpose() - opening).norm());
+    EXPECT_GT(arch_mm - columella_mm, 4);
+    EXPECT_LT(arch_mm - columella_mm, 9);
+    EXPECT_GT(arch_mm - sill_mm, 2);
+    EXPECT_GT(deepest_mm, 15);
+    EXPECT_LT(deepest_mm, 30);
+}
+
 TEST(AverageHead, HasEveryFaceOfTheSkinInOneNamedRegion) {
     std::set<int> named;
     std::size_t count = 0;
