@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <random>
 
-#include "core/dense_algebra.h"
-#include "solve/force_term.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/force_term.h"
 
 namespace risorius::testing_of {
 

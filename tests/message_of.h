@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "risorius/core/error.h"
 
 namespace risorius {
 

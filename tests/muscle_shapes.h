@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "muscle/muscle_shape.h"
+#include "risorius/muscle/muscle_shape.h"
 
 namespace risorius::testing_of {
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/dense_algebra.h"
-#include "solve/force_term.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/force_term.h"
 
 namespace risorius::testing_of {
 

@@ -8,7 +8,7 @@
 set -euo pipefail
 
 # Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
-sanitized=(core geom signal track muscle solve tissue contact stimuli plot io media)
+sanitized=(core geom signal track muscle solve tissue contact design plot io media)
 
 case ${1:-} in
     '') sanitizers=some ;;

@@ -9,13 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "muscle/fibre_set.h"
-#include "solve/metric_builder.h"
-#include "solve/quasi_newton.h"
-#include "solve/sparse_cholesky.h"
-#include "tissue/skin_sheet.h"
-#include "tissue/tet_solid.h"
-#include "tissue/tethers.h"
+#include "risorius/muscle/fibre_set.h"
+#include "risorius/solve/metric_builder.h"
+#include "risorius/solve/quasi_newton.h"
+#include "risorius/solve/sparse_cholesky.h"
+#include "risorius/tissue/skin_sheet.h"
+#include "risorius/tissue/tet_solid.h"
+#include "risorius/tissue/tethers.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "solve/real_time_step.h"
-#include "tissue/cell_preconditioner.h"
-#include "tissue/gravity.h"
-#include "tissue/grid_shape.h"
+#include "risorius/solve/real_time_step.h"
+#include "risorius/tissue/cell_preconditioner.h"
+#include "risorius/tissue/gravity.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace {
 

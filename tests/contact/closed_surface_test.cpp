@@ -1,4 +1,4 @@
-#include "contact/closed_surface.h"
+#include "risorius/contact/detail/closed_surface.h"
 
 #include <gtest/gtest.h>
 

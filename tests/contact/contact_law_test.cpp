@@ -1,14 +1,14 @@
-#include "contact/contact_law.h"
+#include "risorius/contact/contact_law.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "contact/shapes.h"
-#include "contact/surface_samples.h"
-#include "core/error.h"
 #include "force_term_checks.h"
 #include "geom/test_surfaces.h"
+#include "risorius/contact/surface_samples.h"
+#include "risorius/core/error.h"
 
 namespace risorius::contact {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstring>
 
-#include "contact/distance_field.h"
-#include "contact/obstacle_contact.h"
 #include "contact/shapes.h"
 #include "contact/soft_scene.h"
-#include "contact/surface_contact.h"
 #include "geom/test_surfaces.h"
-#include "tissue/grid_surface.h"
+#include "risorius/contact/distance_field.h"
+#include "risorius/contact/obstacle_contact.h"
+#include "risorius/contact/surface_contact.h"
+#include "risorius/tissue/grid_surface.h"
 
 namespace risorius::contact {
 namespace {

@@ -1,12 +1,12 @@
-#include "contact/obstacle_contact.h"
+#include "risorius/contact/obstacle_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "contact/distance_field.h"
 #include "contact/shapes.h"
 #include "force_term_checks.h"
+#include "risorius/contact/distance_field.h"
 
 namespace risorius::contact {
 namespace {

@@ -1,15 +1,15 @@
-#include "contact/obstacle.h"
+#include "risorius/contact/obstacle.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <string>
 
-#include "contact/distance_field.h"
 #include "contact/shapes.h"
-#include "core/error.h"
 #include "force_term_checks.h"
 #include "geom/test_surfaces.h"
+#include "risorius/contact/distance_field.h"
+#include "risorius/core/error.h"
 
 namespace risorius::contact {
 namespace {

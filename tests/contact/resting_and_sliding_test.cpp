@@ -5,10 +5,10 @@
 #include <cstring>
 #include <string>
 
-#include "contact/distance_field.h"
-#include "contact/obstacle_contact.h"
 #include "contact/soft_scene.h"
 #include "geom/test_surfaces.h"
+#include "risorius/contact/distance_field.h"
+#include "risorius/contact/obstacle_contact.h"
 
 namespace risorius::contact {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "core/types.h"
+#include "risorius/core/types.h"
 
 namespace risorius::contact::testing {
 

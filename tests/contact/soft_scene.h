@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "contact/surface_samples.h"
-#include "solve/integrator.h"
-#include "solve/motion_system.h"
-#include "solve/part_term.h"
-#include "tissue/cell_solid.h"
-#include "tissue/gravity.h"
-#include "tissue/grid_shape.h"
+#include "risorius/contact/surface_samples.h"
+#include "risorius/solve/integrator.h"
+#include "risorius/solve/motion_system.h"
+#include "risorius/solve/part_term.h"
+#include "risorius/tissue/cell_solid.h"
+#include "risorius/tissue/gravity.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::contact::testing {
 

@@ -1,13 +1,13 @@
-#include "contact/surface_contact.h"
+#include "risorius/contact/surface_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "contact/carried_frame.h"
 #include "contact/shapes.h"
 #include "force_term_checks.h"
 #include "geom/test_surfaces.h"
+#include "risorius/contact/detail/carried_frame.h"
 
 namespace risorius::contact {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/dense_algebra.h"
+#include "risorius/core/dense_algebra.h"
 
 #include <gtest/gtest.h>
 

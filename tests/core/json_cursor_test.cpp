@@ -1,5 +1,5 @@
 // What a person reads when a JSON file is wrong: place, expected, found. Messages are compared whole.
-#include "core/json_cursor.h"
+#include "risorius/core/json_cursor.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

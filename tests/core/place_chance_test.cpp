@@ -1,4 +1,4 @@
-#include "core/place_chance.h"
+#include "risorius/core/place_chance.h"
 
 #include <gtest/gtest.h>
 

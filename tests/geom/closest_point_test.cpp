@@ -1,4 +1,4 @@
-#include "geom/closest_point.h"
+#include "risorius/geom/closest_point.h"
 
 #include <gtest/gtest.h>
 

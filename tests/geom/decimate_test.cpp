@@ -1,5 +1,5 @@
 // Coarsening keeps the surface a surface: same outline, same sides, sizes as asked.
-#include "geom/decimate.h"
+#include "risorius/geom/decimate.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "geom/surface_topology.h"
+#include "risorius/geom/surface_topology.h"
 
 namespace risorius::geom {
 namespace {

@@ -1,4 +1,4 @@
-#include "geom/fitted_sphere.h"
+#include "risorius/geom/fitted_sphere.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "geom/mesh_checks.h"
+#include "risorius/geom/mesh_checks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "core/error.h"
 #include "geom/test_surfaces.h"
+#include "risorius/core/error.h"
 
 namespace risorius::geom {
 namespace {

@@ -1,5 +1,5 @@
 // A surface that is its own mirror image is found to be, and coarsened in pairs; any other is left alone.
-#include "geom/mirror.h"
+#include "risorius/geom/mirror.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-#include "geom/surface_topology.h"
+#include "risorius/geom/surface_topology.h"
 
 namespace risorius::geom {
 namespace {

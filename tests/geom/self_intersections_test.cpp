@@ -1,4 +1,4 @@
-#include "geom/self_intersections.h"
+#include "risorius/geom/self_intersections.h"
 
 #include <gtest/gtest.h>
 

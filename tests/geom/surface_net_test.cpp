@@ -1,9 +1,9 @@
 // Surfaces of fields on a grid: where they lie, which way they face, that they are closed.
-#include "geom/surface_net.h"
+#include "risorius/geom/surface_net.h"
 
 #include <gtest/gtest.h>
 
-#include "geom/surface_topology.h"
+#include "risorius/geom/surface_topology.h"
 
 namespace risorius::geom {
 namespace {

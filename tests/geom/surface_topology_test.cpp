@@ -1,4 +1,4 @@
-#include "geom/surface_topology.h"
+#include "risorius/geom/surface_topology.h"
 
 #include <gtest/gtest.h>
 

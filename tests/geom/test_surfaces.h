@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/types.h"
+#include "risorius/core/types.h"
 
 namespace risorius::geom::testing {
 

@@ -1,9 +1,9 @@
-#include "geom/weld.h"
+#include "risorius/geom/weld.h"
 
 #include <gtest/gtest.h>
 
-#include "geom/surface_topology.h"
 #include "geom/test_surfaces.h"
+#include "risorius/geom/surface_topology.h"
 
 namespace risorius::geom {
 namespace {

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "geom/mesh_checks.h"
-#include "io/read_mesh.h"
 #include "paths.h"
+#include "risorius/core/error.h"
+#include "risorius/geom/mesh_checks.h"
+#include "risorius/io/read_mesh.h"
 
 namespace risorius::io {
 namespace {

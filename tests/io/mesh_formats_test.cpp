@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <set>
 
-#include "geom/weld.h"
-#include "io/read_mesh.h"
 #include "paths.h"
+#include "risorius/geom/weld.h"
+#include "risorius/io/read_mesh.h"
 
 namespace risorius::io {
 namespace {

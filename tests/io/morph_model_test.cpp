@@ -1,5 +1,5 @@
 // Blend shapes survive a glTF file: names, numbers, vertices in their order, weights over time.
-#include "io/morph_model.h"
+#include "risorius/io/morph_model.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "paths.h"
+#include "risorius/core/error.h"
 #include "temporary_folder.h"
 
 namespace risorius::io {

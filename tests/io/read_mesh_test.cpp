@@ -1,4 +1,4 @@
-#include "io/read_mesh.h"
+#include "risorius/io/read_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
-#include "geom/mesh_checks.h"
-#include "io/detail/obj_reader.h"
 #include "paths.h"
+#include "risorius/core/error.h"
+#include "risorius/geom/mesh_checks.h"
+#include "risorius/io/detail/obj_reader.h"
 
 namespace risorius::io {
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/error.h"
-#include "io/read_mesh.h"
 #include "paths.h"
+#include "risorius/core/error.h"
+#include "risorius/io/read_mesh.h"
 
 namespace risorius::io {
 namespace {

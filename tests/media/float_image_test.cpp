@@ -1,11 +1,11 @@
 // Pictures of numbers written and read back to the bit.
-#include "media/float_image.h"
+#include "risorius/media/float_image.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/error.h"
+#include "risorius/core/error.h"
 #include "temporary_folder.h"
 
 namespace risorius::media {

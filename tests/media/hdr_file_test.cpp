@@ -1,5 +1,5 @@
 // Light read from Radiance files, from files made here.
-#include "media/hdr_file.h"
+#include "risorius/media/hdr_file.h"
 
 #include <gtest/gtest.h>
 

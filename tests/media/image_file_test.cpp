@@ -1,10 +1,10 @@
 // PNG pictures written and read back.
-#include "media/image_file.h"
+#include "risorius/media/image_file.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "media/pictures.h"
+#include "risorius/core/error.h"
 
 namespace risorius::media {
 namespace {

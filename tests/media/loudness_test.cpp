@@ -1,12 +1,12 @@
 // Against the signals of EBU Tech 3341 (2016), table 1, whose loudness is published.
-#include "media/loudness.h"
+#include "risorius/media/loudness.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "media/wav_file.h"
+#include "risorius/media/wav_file.h"
 #include "temporary_folder.h"
 
 namespace risorius::media {

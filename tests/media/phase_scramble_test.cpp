@@ -1,4 +1,4 @@
-#include "media/phase_scramble.h"
+#include "risorius/media/phase_scramble.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Pictures to write and to read back.
 #pragma once
 
-#include "core/image.h"
+#include "risorius/core/image.h"
 #include "temporary_folder.h"
 
 namespace risorius::media {

@@ -1,10 +1,10 @@
 // SHA-256 against the vectors of FIPS 180-4 and NIST's example file.
-#include "media/sha256.h"
+#include "risorius/media/sha256.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "media/pictures.h"
+#include "risorius/core/error.h"
 
 namespace risorius::media {
 namespace {

@@ -1,15 +1,15 @@
 // Sound put beside a video and read back: every sample in its place, at every format's own precision.
-#include "media/sound.h"
+#include "risorius/media/detail/sound.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "core/error.h"
 #include "media/pictures.h"
-#include "media/video_reader.h"
-#include "media/video_writer.h"
+#include "risorius/core/error.h"
+#include "risorius/media/video_reader.h"
+#include "risorius/media/video_writer.h"
 
 namespace risorius::media {
 namespace {

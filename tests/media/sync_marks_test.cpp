@@ -1,15 +1,15 @@
 // What machines that watch the screen get: numbers of frames that survive encoders, squares, luminance.
-#include "media/sync_marks.h"
+#include "risorius/media/sync_marks.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
-#include "media/luminance.h"
 #include "media/pictures.h"
-#include "media/video_reader.h"
-#include "media/video_writer.h"
+#include "risorius/core/error.h"
+#include "risorius/media/luminance.h"
+#include "risorius/media/video_reader.h"
+#include "risorius/media/video_writer.h"
 
 namespace risorius::media {
 namespace {

@@ -1,8 +1,8 @@
-#include "media/tone.h"
+#include "risorius/media/tone.h"
 
 #include <gtest/gtest.h>
 
-#include "media/luminance.h"
+#include "risorius/media/luminance.h"
 
 namespace risorius::media {
 namespace {

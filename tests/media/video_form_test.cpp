@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "media/image_file.h"
 #include "media/pictures.h"
-#include "media/video_reader.h"
-#include "media/video_writer.h"
+#include "risorius/core/error.h"
+#include "risorius/media/image_file.h"
+#include "risorius/media/video_reader.h"
+#include "risorius/media/video_writer.h"
 
 namespace risorius::media {
 namespace {

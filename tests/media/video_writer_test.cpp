@@ -1,6 +1,6 @@
 // Videos written and read back: every frame once, at its time, with its colour; and nothing left of
 // what failed.
-#include "media/video_writer.h"
+#include "risorius/media/video_writer.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,10 +10,10 @@
 #include <csignal>
 #include <set>
 
-#include "core/error.h"
-#include "media/image_file.h"
 #include "media/pictures.h"
-#include "media/video_reader.h"
+#include "risorius/core/error.h"
+#include "risorius/media/image_file.h"
+#include "risorius/media/video_reader.h"
 
 namespace risorius::media {
 namespace {

@@ -1,4 +1,4 @@
-#include "muscle/activation.h"
+#include "risorius/muscle/activation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Chains of fibres with tendons in series.
-#include "muscle/chain_set.h"
+#include "risorius/muscle/chain_set.h"
 
 #include <gtest/gtest.h>
 

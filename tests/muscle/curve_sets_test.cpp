@@ -1,6 +1,6 @@
 // The published sets of force curves against their sources, and how a file chooses and tunes one.
 
-#include "muscle/curve_sets.h"
+#include "risorius/muscle/curve_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "muscle/published_tables.h"
+#include "risorius/muscle/published_tables.h"
 
 namespace risorius::muscle {
 namespace {

@@ -1,13 +1,13 @@
 // Tables of curves: where they agree with the curve, and that their force is the slope of their energy.
-#include "muscle/curve_table.h"
+#include "risorius/muscle/detail/curve_table.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "muscle/hill_shape.h"
-#include "muscle/muscle_curves.h"
+#include "risorius/muscle/detail/hill_shape.h"
+#include "risorius/muscle/muscle_curves.h"
 
 namespace risorius::muscle {
 namespace {

@@ -1,6 +1,6 @@
 // A musculotendon at rest in one dimension, and how its five parameters scale it.
 
-#include "muscle/equilibrium.h"
+#include "risorius/muscle/equilibrium.h"
 
 #include <gtest/gtest.h>
 

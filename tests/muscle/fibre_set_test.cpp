@@ -1,4 +1,4 @@
-#include "muscle/fibre_set.h"
+#include "risorius/muscle/fibre_set.h"
 
 #include <gtest/gtest.h>
 

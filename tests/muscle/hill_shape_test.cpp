@@ -1,4 +1,4 @@
-#include "muscle/hill_shape.h"
+#include "risorius/muscle/detail/hill_shape.h"
 
 #include <gtest/gtest.h>
 

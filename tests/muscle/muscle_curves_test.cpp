@@ -1,6 +1,6 @@
 // The force curves of a musculotendon against tabulated values, their slopes and integrals against differences.
 
-#include "muscle/muscle_curves.h"
+#include "risorius/muscle/muscle_curves.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "muscle/curve_sets.h"
+#include "risorius/muscle/curve_sets.h"
 
 namespace risorius::muscle {
 namespace {

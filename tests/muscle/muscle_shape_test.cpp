@@ -1,17 +1,17 @@
 // Grids of every muscle shape: what volume, lengths and directions they have, and what is refused.
 
-#include "muscle/muscle_shape.h"
+#include "risorius/muscle/muscle_shape.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "geom/closest_point.h"
 #include "muscle_shapes.h"
-#include "tissue/cell_solid.h"
-#include "tissue/grid_shape.h"
+#include "risorius/core/error.h"
+#include "risorius/geom/closest_point.h"
+#include "risorius/tissue/cell_solid.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::muscle {
 namespace {

@@ -1,6 +1,6 @@
 // The musculotendon's forces: laws, derivatives against differences, pennation, and what is refused.
 
-#include "muscle/musculotendon.h"
+#include "risorius/muscle/musculotendon.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "core/dense_algebra.h"
-#include "core/error.h"
-#include "core/json_cursor.h"
 #include "force_term_checks.h"
-#include "tissue/grid_shape.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::muscle {
 namespace {

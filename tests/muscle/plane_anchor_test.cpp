@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/error.h"
 #include "force_term_checks.h"
-#include "muscle/musculotendon.h"
-#include "tissue/grid_shape.h"
+#include "risorius/core/error.h"
+#include "risorius/muscle/musculotendon.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::muscle {
 namespace {

@@ -1,4 +1,4 @@
-#include "plot/write_chart.h"
+#include "risorius/plot/write_chart.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/error.h"
+#include "risorius/core/error.h"
 #include "temporary_folder.h"
 
 namespace risorius::plot {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "message_of.h"
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

@@ -1,5 +1,5 @@
 // Skin of fewer triangles for small pictures: near to what it stands for, with the same rim and what must stay.
-#include "render/detail/coarser_faces.h"
+#include "risorius/render/detail/coarser_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "render/detail/shaders.h"
+#include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
 namespace {

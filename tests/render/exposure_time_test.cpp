@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/offscreen_view.h"
+#include "risorius/render/offscreen_view.h"
 #include "round_head.h"
 
 namespace risorius::render {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/object_view.h"
+#include "risorius/render/object_view.h"
 
 namespace risorius::render {
 

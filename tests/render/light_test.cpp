@@ -1,6 +1,6 @@
 // Laws of light: exposure on a grey card, no energy made or lost, and what presets promise.
 
-#include "render/light.h"
+#include "risorius/render/detail/light.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
-#include "render/detail/environment.h"
-#include "render/detail/lights.h"
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
+#include "risorius/core/error.h"
+#include "risorius/render/detail/environment.h"
+#include "risorius/render/detail/lights.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

@@ -1,9 +1,9 @@
 // Pictures to measure by: things are where they are drawn, in the colour they were given.
-#include "render/measure_view.h"
+#include "risorius/render/measure_view.h"
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "risorius/core/error.h"
 
 namespace risorius::render {
 namespace {

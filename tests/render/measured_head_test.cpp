@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/json_cursor.h"
 #include "paths.h"
-#include "render/offscreen_view.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "message_of.h"
-#include "render/activation_colour.h"
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
+#include "risorius/render/detail/activation_colour.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

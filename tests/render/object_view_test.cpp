@@ -1,12 +1,12 @@
-#include "render/object_view.h"
+#include "risorius/render/object_view.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <thread>
 
-#include "core/error.h"
 #include "render/grid_objects.h"
+#include "risorius/core/error.h"
 
 namespace risorius::render {
 namespace {

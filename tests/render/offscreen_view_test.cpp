@@ -1,4 +1,4 @@
-#include "render/offscreen_view.h"
+#include "risorius/render/offscreen_view.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -12,11 +12,11 @@
 #include <string>
 #include <thread>
 
-#include "core/error.h"
 #include "message_of.h"
-#include "render/gl_choice.h"
 #include "render/round_head.h"
 #include "render/small_pictures.h"
+#include "risorius/core/error.h"
+#include "risorius/render/gl_choice.h"
 
 namespace risorius::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/scene.h"
+#include "risorius/render/scene.h"
 
 namespace risorius::render {
 

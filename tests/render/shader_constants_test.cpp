@@ -1,4 +1,4 @@
-#include "render/detail/shader_constants.h"
+#include "risorius/render/detail/shader_constants.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "message_of.h"
-#include "render/detail/skin_plan.h"
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
+#include "risorius/render/detail/skin_plan.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/image.h"
-#include "render/offscreen_view.h"
+#include "risorius/core/image.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 

@@ -1,12 +1,12 @@
 // Ground truth of pictures against what is known of simple bodies, and against the picture that is drawn.
-#include "render/surface_passes.h"
+#include "risorius/render/surface_passes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
+#include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
 namespace {

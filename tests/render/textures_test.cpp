@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "core/error.h"
-#include "render/offscreen_view.h"
+#include "risorius/core/error.h"
+#include "risorius/render/offscreen_view.h"
 #include "round_head.h"
 
 namespace risorius::render {

@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
-#include "core/error.h"
-#include "render/lettering.h"
-#include "render/offscreen_view.h"
 #include "render/round_head.h"
-#include "render/value_colour.h"
+#include "risorius/core/error.h"
+#include "risorius/render/lettering.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/render/value_colour.h"
 
 namespace risorius::render {
 namespace {

@@ -1,5 +1,5 @@
 // The standard anatomy is complete, the same on both sides, and speaks of landmarks that exist.
-#include "rig/atlas.h"
+#include "risorius/rig/atlas.h"
 
 #include <gtest/gtest.h>
 

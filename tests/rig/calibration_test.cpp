@@ -1,5 +1,5 @@
 // What a rig was calibrated on is told by the rig itself, as a list or as the file of one.
-#include "rig/calibration.h"
+#include "risorius/rig/calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/error.h"
 #include "paths.h"
+#include "risorius/core/error.h"
 #include "temporary_folder.h"
 
 namespace risorius::rig {

@@ -1,10 +1,10 @@
 // Lips of scans are told from lips that part, and cut into two with a mouth behind.
-#include "rig/cut_lips.h"
+#include "risorius/rig/cut_lips.h"
 
 #include <gtest/gtest.h>
 
-#include "geom/surface_topology.h"
 #include "rig/head_variants.h"
+#include "risorius/geom/surface_topology.h"
 
 namespace risorius::rig {
 namespace {

@@ -1,5 +1,5 @@
 // A head is found however its mesh lies in space, and whatever its units.
-#include "rig/head_frame.h"
+#include "risorius/rig/detail/head_frame.h"
 
 #include <gtest/gtest.h>
 

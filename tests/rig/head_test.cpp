@@ -1,5 +1,5 @@
 // A placed head knows each of its vertices: what is skin, what turns with an eye, what goes with the jaw.
-#include "rig/head.h"
+#include "risorius/rig/head.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geom/closest_point.h"
 #include "rig/heads.h"
+#include "risorius/geom/closest_point.h"
 
 namespace risorius::rig {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "geom/polygon_mesh.h"
-#include "io/read_mesh.h"
 #include "paths.h"
-#include "rig/head.h"
-#include "rig/rig_description.h"
+#include "risorius/geom/polygon_mesh.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
 
 namespace risorius::rig {
 

@@ -1,5 +1,5 @@
 // Wrong landmarks are found by what the others say of them, and right ones are left alone on people of all kinds.
-#include "rig/landmark_check.h"
+#include "risorius/rig/landmark_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The warp through landmarks goes where it is told, and leaves alone what an affine map explains.
-#include "rig/landmark_warp.h"
+#include "risorius/rig/landmark_warp.h"
 
 #include <gtest/gtest.h>
 

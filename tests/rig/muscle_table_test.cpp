@@ -1,5 +1,5 @@
 // Muscles as the standard table gives them, and their paths laid into a head.
-#include "rig/muscle_table.h"
+#include "risorius/rig/muscle_table.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "heads.h"
-#include "rig/muscle_path.h"
+#include "risorius/rig/muscle_path.h"
 
 namespace risorius::rig {
 namespace {

@@ -1,5 +1,5 @@
 // A rig file means the same after it is written and read again, and says what is wrong with it.
-#include "rig/rig_description.h"
+#include "risorius/rig/rig_description.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "paths.h"
-#include "rig/head.h"
 #include "rig/heads.h"
+#include "risorius/rig/head.h"
 
 namespace risorius::rig {
 namespace {

@@ -1,5 +1,5 @@
 // Which muscles are solids, as a rig file says it.
-#include "rig/solid_muscles.h"
+#include "risorius/rig/detail/solid_muscles.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "core/types.h"
 #include "paths.h"
+#include "risorius/core/types.h"
 
 namespace {
 

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/fit_rig.h"
-#include "app/landmark_points.h"
-#include "app/rig_files.h"
-#include "io/read_mesh.h"
 #include "rig/head_variants.h"
+#include "risorius/fitting/fit_rig.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/scene/rig_files.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// Mesh and landmarks as files, and what `fit` makes of them.
 struct Brought {
     Folder folder;
-    app::FitOptions options;
+    fitting::FitOptions options;
 
     Brought(geom::PolygonMesh mesh, const std::map<std::string, Vec3>& landmarks, double unit) {
         mesh.positions /= unit;
@@ -45,9 +45,9 @@ struct Moves {
     double jaw_mm, smile_mm;
     bool finite;
     explicit Moves(const fs::path& rig) {
-        const app::RigFiles files = app::read_rig_files(rig);
-        sim::Face face(files.rig, files.mesh, sim::quality_named("preview"), files.place());
-        const app::LandmarkPoints points(face.head(), files.rig);
+        const scene::RigFiles files = scene::read_rig_files(rig);
+        face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+        const scene::LandmarkPoints points(face.head(), files.rig);
         const Points rest = face.pose().vertices;
         track::Drive none;
         none.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
@@ -74,7 +74,7 @@ TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
     Brought scan(rig::scan_of(adult, rig::adult().mesh, 56, 76), twenty_of(adult), 1.0);
     scan.options.report = scan.folder / "report";
     try {
-        app::fit_rig(scan.options);
+        fitting::fit_rig(scan.options);
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(
@@ -86,7 +86,7 @@ TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
     EXPECT_EQ(scan.folder.listing(), (std::set<std::string>{"head.obj", "landmarks.json"}));
 
     scan.options.cut_lips = true;
-    const app::FitReport report = app::fit_rig(scan.options);
+    const fitting::FitReport report = fitting::fit_rig(scan.options);
     EXPECT_TRUE(report.lips_cut);
     EXPECT_EQ(report.bone.through_skin, 0);
     EXPECT_GT(report.bone.thinnest_mm, 0.3);
@@ -114,7 +114,7 @@ TEST(AnyHead, SoupOfTrianglesInInchesIsWeldedAndMeasured) {
         plain.face_group.push_back(0);
     }
     Brought soup(rig::soup_of(plain), twenty_of(adult), 0.0254);
-    const app::FitReport report = app::fit_rig(soup.options);
+    const fitting::FitReport report = fitting::fit_rig(soup.options);
     EXPECT_EQ(report.metres_per_unit, 0.0254);
     EXPECT_NEAR(report.size, 1.0, 0.02);
     EXPECT_EQ(report.inverted_tets, 0);
@@ -136,13 +136,13 @@ TEST(AnyHead, AnotherPersonIsFittedFromTwentyLandmarks) {
     geom::PolygonMesh metres = person.mesh;
     metres.positions *= 0.01;
     Brought brought(metres, given, 0.01);
-    const app::FitReport report = app::fit_rig(brought.options);
+    const fitting::FitReport report = fitting::fit_rig(brought.options);
     EXPECT_EQ(report.metres_per_unit, 0.01);
     EXPECT_TRUE(report.eyes && report.teeth);
     EXPECT_EQ(report.inverted_tets, 0);
     EXPECT_LT(report.dropped_tets, report.tets / 50);
     // What was not given lies where it was marked on this person, in front
-    const app::RigFiles files = app::read_rig_files(brought.options.out);
+    const scene::RigFiles files = scene::read_rig_files(brought.options.out);
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     double squared = 0;
     int count = 0;

@@ -5,12 +5,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "app/animate.h"
-#include "app/fit_rig.h"
-#include "app/run_figure.h"
-#include "core/error.h"
-#include "core/json_cursor.h"
 #include "paths.h"
+#include "risorius/animate/animate.h"
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/figures/run_figure.h"
+#include "risorius/fitting/fit_rig.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -90,10 +90,10 @@ TEST(BrokenInput, EveryScriptIsRefusedByRender) {
     expect_every_file_refused("scripts",
                               {.call =
                                    [&](const std::string& file) {
-                                       app::AnimateOptions options;
+                                       animate::AnimateOptions options;
                                        options.script = file;
                                        options.out = out / "x.mp4";
-                                       app::animate(options);
+                                       animate::animate(options);
                                    },
                                .arguments =
                                    [&](const std::string& file) {
@@ -108,11 +108,11 @@ TEST(BrokenInput, EveryRigIsRefusedByRender) {
     expect_every_file_refused("rigs",
                               {.call =
                                    [&](const std::string& file) {
-                                       app::AnimateOptions options;
+                                       animate::AnimateOptions options;
                                        options.script = script;
                                        options.rig = file;
                                        options.out = out / "x.mp4";
-                                       app::animate(options);
+                                       animate::animate(options);
                                    },
                                .arguments =
                                    [&](const std::string& file) {
@@ -128,11 +128,11 @@ TEST(BrokenInput, EveryLandmarkFileIsRefusedByFit) {
     expect_every_file_refused("landmarks",
                               {.call =
                                    [&](const std::string& file) {
-                                       app::FitOptions options;
+                                       fitting::FitOptions options;
                                        options.mesh = mesh;
                                        options.landmarks = file;
                                        options.out = out / "rig.json";
-                                       app::fit_rig(options);
+                                       fitting::fit_rig(options);
                                    },
                                .arguments =
                                    [&](const std::string& file) {
@@ -147,10 +147,10 @@ TEST(BrokenInput, EveryExperimentIsRefusedByFigure) {
     expect_every_file_refused("experiments",
                               {.call =
                                    [&](const std::string& file) {
-                                       app::FigureOptions options;
+                                       figures::FigureOptions options;
                                        options.figure = file;
                                        options.out = out / "figure";
-                                       app::run_figures(options);
+                                       figures::run_figures(options);
                                    },
                                .arguments =
                                    [&](const std::string& file) {
@@ -181,13 +181,13 @@ TEST(BrokenInput, EveryMeshIsRefusedByTheRigThatNamesIt) {
             at != std::string::npos)
             text.replace(text.find(quoted, at), quoted.size(),
                          "\"" + (kBroken / "meshes" / file).string() + "\"");
-        app::AnimateOptions options;
+        animate::AnimateOptions options;
         options.script = kRoot / "samples/smile/script.json";
         options.rig = rigs / "rig.json";
         options.out = out / "x.mp4";
-        EXPECT_EQ(message_of(
-                      {.call = [&](const std::string&) { app::animate(options); }, .arguments = {}},
-                      file),
+        EXPECT_EQ(message_of({.call = [&](const std::string&) { animate::animate(options); },
+                              .arguments = {}},
+                             file),
                   text);
         EXPECT_EQ(out.listing(), std::set<std::string>{}) << file;
     }

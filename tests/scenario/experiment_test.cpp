@@ -6,17 +6,17 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/batch.h"
-#include "app/run_program.h"
-#include "media/loudness.h"
-#include "media/wav_file.h"
+#include "risorius/media/loudness.h"
+#include "risorius/media/wav_file.h"
+#include "risorius/report/run_program.h"
+#include "risorius/stimuli/batch.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using app::run_program;
+using report::run_program;
 
 const fs::path kStandIns = kRoot / "tests/data/experiment";
 
@@ -65,11 +65,11 @@ class Experiment : public testing::Test {
                              " >events & pid=$!; head -n 1 events; kill -9 $pid; wait $pid; } "
                              "2>/dev/null; ls set"})
                 .output);
-        app::BatchOptions options;
+        stimuli::BatchOptions options;
         options.design = *folder / "design.json";
         options.out = *folder / "set";
         options.workers = 1;
-        report = new app::BatchReport(app::make_batch(options));
+        report = new stimuli::BatchReport(stimuli::make_batch(options));
         ASSERT_TRUE(report->complete);
     }
     static void TearDownTestSuite() {
@@ -79,11 +79,11 @@ class Experiment : public testing::Test {
     }
     static Folder* folder;
     static std::string* first_event;
-    static app::BatchReport* report;
+    static stimuli::BatchReport* report;
 };
 Folder* Experiment::folder = nullptr;
 std::string* Experiment::first_event = nullptr;
-app::BatchReport* Experiment::report = nullptr;
+stimuli::BatchReport* Experiment::report = nullptr;
 
 TEST_F(Experiment, GoesOnAfterAKillWhereItWas) {
     EXPECT_NE(first_event->find(R"({"event":"made","stim_id":"happiness"})"), std::string::npos)
@@ -113,7 +113,7 @@ TEST_F(Experiment, SoundIsAsLoudAsAskedForInTableClipAndFile) {
 TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsItsCodes) {
     if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
     const fs::path here = *folder / "set/experiment";
-    app::ProgramResult result = run_program(
+    report::ProgramResult result = run_program(
         {"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(), "PYTHONDONTWRITEBYTECODE=1",
          "python3", (here / "experiment.py").string(), "--participant", "7", "--window"});
     ASSERT_EQ(result.exit_code, 0) << result.output;
@@ -156,7 +156,7 @@ TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
     if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
     if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
     fs::create_directory_symlink(modules, *folder / "node_modules");
-    const app::ProgramResult played =
+    const report::ProgramResult played =
         run_program({"python3", (kStandIns / "play.py").string(), folder->path().string(),
                      "set/experiment/index.html", (*folder / "data.json").string(), "chromium"});
     ASSERT_EQ(played.exit_code, 0) << played.output;
@@ -189,11 +189,11 @@ TEST_F(Experiment, PageNamesTheVersionsAndHashesOfWhatItLoads) {
     Json design = Json::parse(text_of(*folder / "design.json"));
     design["experiment"].erase("jspsych_from");
     std::ofstream(*folder / "design.json") << design.dump();
-    app::BatchOptions options;
+    stimuli::BatchOptions options;
     options.design = *folder / "design.json";
     options.out = *folder / "set";
     options.workers = 1;
-    EXPECT_EQ(app::make_batch(options).kept, 2);
+    EXPECT_EQ(stimuli::make_batch(options).kept, 2);
     const std::string page = text_of(options.out / "experiment/index.html");
     const Json wanted = Json::parse(text_of(kStandIns / "package.json")).at("dependencies");
     int found = 0;
@@ -204,7 +204,7 @@ TEST_F(Experiment, PageNamesTheVersionsAndHashesOfWhatItLoads) {
         const std::size_t version = address.rfind('@'), slash = address.find('/', version);
         const std::string package = address.substr(0, version);
         EXPECT_EQ(wanted.at(package), address.substr(version + 1, slash - version - 1));
-        const app::ProgramResult hash =
+        const report::ProgramResult hash =
             run_program({"sh", "-c", "openssl dgst -sha384 -binary \"$0\" | openssl base64 -A",
                          (modules / package).string() + address.substr(slash)});
         EXPECT_NE(page.find("integrity=\"sha384-" + hash.output + "\"", at), std::string::npos)

@@ -4,12 +4,12 @@
 #include <map>
 #include <memory>
 
-#include "app/fit_rig.h"
-#include "app/landmark_points.h"
-#include "app/rig_files.h"
 #include "paths.h"
+#include "risorius/fitting/fit_rig.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/track/facs.h"
 #include "scenario/run_program.h"
-#include "track/facs.h"
 
 namespace risorius::scenario {
 namespace {
@@ -28,24 +28,24 @@ const HeadFiles kHeads[] = {
 /// One head, fitted and built once for all tests of it.
 struct Fitted {
     Folder folder;
-    app::FitReport report;
-    app::RigFiles files;
-    std::unique_ptr<sim::Face> face;
-    std::unique_ptr<app::LandmarkPoints> points;
+    fitting::FitReport report;
+    scene::RigFiles files;
+    std::unique_ptr<face::Face> face;
+    std::unique_ptr<scene::LandmarkPoints> points;
     Points rest;
     mutable bool came_to_rest = false;  // in settled()
 
     explicit Fitted(const HeadFiles& head) {
-        app::FitOptions options;
+        fitting::FitOptions options;
         options.mesh = fs::path(RISORIUS_SHARED_DIR) / head.mesh;
         options.landmarks = kRoot / "tests/data/heads" / head.landmarks;
         options.out = folder / "rig.json";
         options.together = std::string(head.name) == "makehuman";  // takes its time: once
-        report = app::fit_rig(options);
-        files = app::read_rig_files(options.out);
-        face = std::make_unique<sim::Face>(files.rig, files.mesh, sim::quality_named("video"),
-                                           files.place());
-        points = std::make_unique<app::LandmarkPoints>(face->head(), files.rig);
+        report = fitting::fit_rig(options);
+        files = scene::read_rig_files(options.out);
+        face = std::make_unique<face::Face>(files.rig, files.mesh, face::quality_named("video"),
+                                            files.place());
+        points = std::make_unique<scene::LandmarkPoints>(face->head(), files.rig);
         rest = face->pose().vertices;
     }
 
@@ -56,7 +56,7 @@ struct Fitted {
     }
 
     /// At rest under the drive, from the neutral face.
-    sim::FacePose settled(const track::Drive& drive) const {
+    face::FacePose settled(const track::Drive& drive) const {
         track::Drive none = drive;
         none.excitation.setZero();
         none.kinematic.fill(0);
@@ -65,7 +65,7 @@ struct Fitted {
         return face->pose();
     }
 
-    Vec3 moved_mm(const std::string& id, const sim::FacePose& pose) const {
+    Vec3 moved_mm(const std::string& id, const face::FacePose& pose) const {
         return 1e3 * (points->at(id, pose.vertices) - points->at(id, rest));
     }
 };
@@ -87,7 +87,7 @@ class FittedHead : public testing::TestWithParam<HeadFiles> {
 };
 
 TEST_P(FittedHead, IsFoundToBeAHeadInCentimetresWithEveryMuscleStrongEnough) {
-    const app::FitReport& report = fitted->report;
+    const fitting::FitReport& report = fitted->report;
     EXPECT_EQ(report.metres_per_unit, 0.01);
     EXPECT_GT(report.size, 0.85);
     EXPECT_LT(report.size, 1.15);
@@ -98,7 +98,7 @@ TEST_P(FittedHead, IsFoundToBeAHeadInCentimetresWithEveryMuscleStrongEnough) {
     EXPECT_LT(report.dropped_tets, report.tets / 50);
     EXPECT_EQ(report.strengths.size(), 28u);
     int reached = 0;
-    for (const app::MuscleStrength& m : report.strengths) {
+    for (const fitting::MuscleStrength& m : report.strengths) {
         // Limits of each muscle by itself, then of the factor when all are scaled together
         EXPECT_GE(m.strength, 0.1 / std::exp(1.0) - 1e-4) << m.muscle;
         EXPECT_LE(m.strength, 6.0 * std::exp(1.0) + 1e-4) << m.muscle;
@@ -127,7 +127,7 @@ TEST_P(FittedHead, RestsExactlyAsItsMesh) {
 }
 
 TEST_P(FittedHead, ZygomaticusDrawsTheCornersUpAndOut) {
-    const sim::FacePose pose = fitted->settled(fitted->drive_of("AU12"));
+    const face::FacePose pose = fitted->settled(fitted->drive_of("AU12"));
     EXPECT_TRUE(pose.vertices.allFinite());
     const Vec3 left = fitted->moved_mm("ch_l", pose), right = fitted->moved_mm("ch_r", pose);
     EXPECT_GT(left.norm(), 5) << left.transpose();
@@ -139,7 +139,7 @@ TEST_P(FittedHead, ZygomaticusDrawsTheCornersUpAndOut) {
 }
 
 TEST_P(FittedHead, BlinkClosesTheLids) {
-    const sim::FacePose pose = fitted->settled(fitted->drive_of("AU45"));
+    const face::FacePose pose = fitted->settled(fitted->drive_of("AU45"));
     EXPECT_TRUE(pose.vertices.allFinite());
     for (const auto& [upper, lower] : {std::pair{"ps_l", "pi_l"}, std::pair{"ps_r", "pi_r"}}) {
         EXPECT_GT(1e3 * fitted->points->distance(upper, lower, fitted->rest), 6);
@@ -155,7 +155,7 @@ TEST_P(FittedHead, OpenJawOpensTheMouth) {
     drive.excitation.setZero();
     drive.kinematic.fill(0);
     drive.kinematic[static_cast<std::size_t>(track::Kinematic::kJawOpen)] = 1;
-    const sim::FacePose pose = fitted->settled(drive);
+    const face::FacePose pose = fitted->settled(drive);
     EXPECT_TRUE(pose.vertices.allFinite());
     EXPECT_TRUE(fitted->came_to_rest);
     EXPECT_GT(1e3 * fitted->points->distance("stos", "stoi", pose.vertices), 20);
@@ -166,7 +166,7 @@ TEST_P(FittedHead, OpenJawOpensTheMouth) {
 TEST_P(FittedHead, FrontalisRaisesTheBrows) {
     track::Drive drive = fitted->drive_of("AU1");
     drive.excitation = drive.excitation.cwiseMax(fitted->drive_of("AU2").excitation);
-    const sim::FacePose pose = fitted->settled(drive);
+    const face::FacePose pose = fitted->settled(drive);
     EXPECT_TRUE(pose.vertices.allFinite());
     for (const char* brow : {"bm_l", "bm_r", "bc_l", "bc_r"})
         EXPECT_GT(fitted->moved_mm(brow, pose).y(), 3) << brow;
@@ -175,7 +175,7 @@ TEST_P(FittedHead, FrontalisRaisesTheBrows) {
 TEST_P(FittedHead, OneSideMovesAlone) {
     for (const auto& [side, own, other, sign] : {std::tuple{Side::kLeft, "ch_l", "ch_r", 1.0},
                                                  std::tuple{Side::kRight, "ch_r", "ch_l", -1.0}}) {
-        const sim::FacePose pose = fitted->settled(fitted->drive_of("AU12", side));
+        const face::FacePose pose = fitted->settled(fitted->drive_of("AU12", side));
         const Vec3 here = fitted->moved_mm(own, pose), there = fitted->moved_mm(other, pose);
         EXPECT_GT(here.norm(), 5);
         EXPECT_GT(sign * here.x(), 1);
@@ -184,7 +184,7 @@ TEST_P(FittedHead, OneSideMovesAlone) {
     }
     for (const auto& [side, own, other] :
          {std::tuple{Side::kLeft, "bc_l", "bc_r"}, std::tuple{Side::kRight, "bc_r", "bc_l"}}) {
-        const sim::FacePose pose = fitted->settled(fitted->drive_of("AU2", side));
+        const face::FacePose pose = fitted->settled(fitted->drive_of("AU2", side));
         EXPECT_GT(fitted->moved_mm(own, pose).y(), 2);
         EXPECT_LT(fitted->moved_mm(other, pose).norm(), 0.5);
     }
@@ -195,10 +195,10 @@ TEST_P(FittedHead, EveryActionUnitComesToRestAndPassesThroughNothing) {
     int turn = std::string(GetParam().name) == kHeads[0].name ? 0 : 1;
     for (const track::ActionUnit& unit : fitted->files.rig.facs.units) {
         if (!unit.unsupported.empty() || turn++ % 2) continue;
-        const sim::FacePose pose = fitted->settled(fitted->drive_of(unit.id));
+        const face::FacePose pose = fitted->settled(fitted->drive_of(unit.id));
         EXPECT_TRUE(pose.vertices.allFinite()) << unit.id;
         EXPECT_TRUE(fitted->came_to_rest) << unit.id;
-        const sim::Penetration penetration = fitted->face->penetration();
+        const face::Penetration penetration = fitted->face->penetration();
         EXPECT_LT(1e3 * penetration.lips_m, 0.3) << unit.id;
         EXPECT_LT(1e3 * penetration.bone_m, 0.2) << unit.id;
         EXPECT_LT(1e3 * penetration.eyeball_m, 0.2) << unit.id;
@@ -211,15 +211,15 @@ TEST_P(FittedHead, EveryActionUnitComesToRestAndPassesThroughNothing) {
 // A lip that is sucked in too hard folds under itself where the mesh is fine, and circles.
 TEST_P(FittedHead, ALipSuckedInComesToRestOnAFineMesh) {
     if (std::string(GetParam().name) != kHeads[0].name) return;  // settles in seconds: one head
-    sim::Quality quality = sim::quality_named("preview");
+    face::Quality quality = face::quality_named("preview");
     quality.shell_vertices = 3400;
-    sim::Face face(fitted->files.rig, fitted->files.mesh, quality, fitted->files.place());
+    face::Face face(fitted->files.rig, fitted->files.mesh, quality, fitted->files.place());
     EXPECT_GT(face.node_count(), 10000);
     const track::Drive drive = fitted->drive_of("AU28_lower");
     track::Drive none = drive;
     none.excitation.setZero();
     face.start([&](double) { return none; });
-    const sim::StepFigures figures = face.settle(drive.excitation, drive, {.iterations = 400});
+    const face::StepFigures figures = face.settle(drive.excitation, drive, {.iterations = 400});
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);

@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/animate.h"
-#include "core/error.h"
-#include "media/image_file.h"
-#include "media/sha256.h"
-#include "media/video_reader.h"
 #include "paths.h"
+#include "risorius/animate/animate.h"
+#include "risorius/core/error.h"
+#include "risorius/media/image_file.h"
+#include "risorius/media/sha256.h"
+#include "risorius/media/video_reader.h"
+#include "risorius/track/channels.h"
 #include "scenario/run_program.h"
-#include "track/channels.h"
 
 namespace risorius::scenario {
 namespace {
@@ -69,11 +69,11 @@ Json without_timing(const fs::path& record) {
 
 TEST(Render, LeavesAVideoARecordAndATable) {
     const Folder folder;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = short_hello(folder, 0.2, 30);
     options.out = folder / "hello.mp4";
     options.landmarks = true;
-    const app::RunRecord record = app::animate(options);
+    const animate::RunRecord record = animate::animate(options);
 
     media::VideoReader video(options.out);
     EXPECT_EQ(video.frames(), 6);
@@ -130,11 +130,11 @@ TEST(Render, DoesNotWriteItsRecordOverAScriptOfThatName) {
     const Folder folder;
     const fs::path script = short_hello(folder, 0.1, 30);
     const std::string before = text_of(script);
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = script;
     options.out = folder / "hello/";
     try {
-        app::animate(options);
+        animate::animate(options);
         FAIL() << "the script was written over";
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()), script.string() +
@@ -147,12 +147,12 @@ TEST(Render, DoesNotWriteItsRecordOverAScriptOfThatName) {
 
 TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
     const Folder folder;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = short_hello(folder, 0.1, 60);
     const auto render = [&](const char* name, int threads) {
         options.out = folder / name;
         options.threads = threads;
-        app::animate(options);
+        animate::animate(options);
         return without_timing(folder / (std::string(name) + ".json"));
     };
     const Json once = render("once.mkv", 1);
@@ -173,14 +173,14 @@ TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
 // sim_test holds the face to this at many more rates.
 TEST(Render, FrameRatesShareTheirCommonTimes) {
     const Folder folder;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = short_hello(folder, 0.25, 60);
-    options.size = app::PictureSize{32, 32};
+    options.size = animate::PictureSize{32, 32};
     options.landmarks = true;
     for (int fps : {60, 48}) {
         options.fps = fps;
         options.out = folder / (std::to_string(fps) + ".mkv");
-        app::animate(options);
+        animate::animate(options);
     }
     const Table finest(folder / "60.mkv.frames.tsv"), between(folder / "48.mkv.frames.tsv");
     ASSERT_EQ(finest.rows.size(), 15u);
@@ -195,13 +195,13 @@ TEST(Render, FrameRatesShareTheirCommonTimes) {
 
 TEST(Render, AStillIsTheFrameOfItsTime) {
     const Folder folder;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = short_hello(folder, 0.2, 60);
     options.out = folder / "frames" / "";
-    app::animate(options);
+    animate::animate(options);
     options.still_s = 9 / 60.0;
     options.out = folder / "still.png";
-    const app::RunRecord record = app::animate(options);
+    const animate::RunRecord record = animate::animate(options);
     EXPECT_EQ(record.frames, 1);
     const Image frame = media::read_png(folder / "frames/frame_000009.png");
     const Image still = media::read_png(folder / "still.png");
@@ -216,11 +216,11 @@ TEST(Render, ShowsTheMusclesWhenTheScriptOrTheCommandAsks) {
     Json json = Json::parse(text_of(script));
     json["view"]["show"] = "muscles";
     std::ofstream(script) << json.dump();
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = script;
     options.still_s = 0.0;
     options.out = folder / "muscles.png";
-    EXPECT_EQ(app::animate(options).show, "muscles");
+    EXPECT_EQ(animate::animate(options).show, "muscles");
     EXPECT_EQ(Json::parse(text_of(folder / "muscles.png.json"))["show"], "muscles");
     const Image image = media::read_png(options.out);
     const std::uint8_t *rest = image.pixel(5, 5), *full = image.pixel(30, 5);  // of the scale
@@ -244,10 +244,10 @@ TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
         {"duration_s", 0.3},
         {"view",
          {{"width_px", 64}, {"height_px", 64}}}}.dump();
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = folder / "neutral.json";
     options.out = folder / "neutral.mkv";
-    const app::RunRecord record = app::animate(options);
+    const animate::RunRecord record = animate::animate(options);
     EXPECT_EQ(record.solver.most_inverted_tets, 0);
     media::VideoReader video(options.out);
     ASSERT_EQ(video.frames(), 9);
@@ -261,10 +261,10 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     script["channels"] = {{"masseter_deep.l", {{"keys", {{0, 0.5}}}}},
                           {"zygomaticus_major", {{"keys", {{0, 0}}}}}};
     std::ofstream(folder / "jaw.json") << script.dump();
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = folder / "jaw.json";
     options.out = folder / "jaw.mkv";
-    const app::RunRecord record = app::animate(options);
+    const animate::RunRecord record = animate::animate(options);
     ASSERT_EQ(record.warnings.size(), 1u);
     EXPECT_EQ(record.warnings[0],
               "channel masseter_deep.l: does not move the jaw, which follows jaw_open, jaw_forward "
@@ -274,7 +274,7 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
 
     script["jaw"] = "muscles";
     std::ofstream(folder / "jaw.json") << script.dump();
-    const app::RunRecord bitten = app::animate(options);
+    const animate::RunRecord bitten = animate::animate(options);
     EXPECT_TRUE(bitten.warnings.empty());
     EXPECT_EQ(bitten.jaw, "muscles");
     // Half of one deep masseter, 82 N in the table, near the hinge; at rest teeth touch with 5 N.
@@ -283,14 +283,15 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
 
 TEST(Render, AnInterruptedRunLeavesNothing) {
     const Folder folder, out;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     options.script = short_hello(folder, 0.5, 60);
     for (int threads : {1, 2}) {
         options.threads = threads;
         options.out = out / "new/hello.mp4";
         int told = 0;
-        EXPECT_THROW(app::animate(options, {.progress = {}, .stopped = [&] { return ++told > 5; }}),
-                     app::Interrupted);
+        EXPECT_THROW(
+            animate::animate(options, {.progress = {}, .stopped = [&] { return ++told > 5; }}),
+            Interrupted);
         EXPECT_EQ(out.listing(), std::set<std::string>{});
     }
 }

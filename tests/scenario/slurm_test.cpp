@@ -1,5 +1,5 @@
 // A stimulus set made by a job array of a real Slurm that the test starts on the loopback.
-#include "app/slurm.h"
+#include "risorius/stimuli/slurm.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,15 +9,15 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/run_program.h"
 #include "paths.h"
+#include "risorius/report/run_program.h"
 #include "temporary_folder.h"
 
 namespace risorius::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using app::run_program;
+using report::run_program;
 
 std::string text_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -32,7 +32,7 @@ class Slurm : public testing::Test {
             GTEST_SKIP() << "no slurm-wlm and munge here";
         if (geteuid() != 0) GTEST_SKIP() << "starting a Slurm takes root";
         const std::string port = std::to_string(20000 + 2 * (getpid() % 10000));
-        const app::ProgramResult up = run_program({cluster(), "start", folder().string(), port});
+        const report::ProgramResult up = run_program({cluster(), "start", folder().string(), port});
         ASSERT_EQ(up.exit_code, 0) << up.output;
         setenv("SLURM_CONF", (folder() / "slurm.conf").c_str(), 1);
     }
@@ -61,13 +61,13 @@ class Slurm : public testing::Test {
 };
 
 TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
-    app::BatchOptions here;
+    stimuli::BatchOptions here;
     here.design = design();
     here.out = folder() / "here";
     here.workers = 1;
-    app::BatchOptions there = here;
+    stimuli::BatchOptions there = here;
     there.out = folder() / "there";
-    ASSERT_TRUE(app::make_batch(here).complete);
+    ASSERT_TRUE(stimuli::make_batch(here).complete);
 
     // A program that fails the first time, whichever task comes first: a folder is made by one only
     const fs::path program = folder() / "risorius once";
@@ -75,11 +75,11 @@ TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
                            << "' 2>/dev/null; then exit 1; fi\n"
                            << "exec '" RISORIUS_BINARY_DIR "/risorius' \"$@\"\n";
     fs::permissions(program, fs::perms::owner_all);
-    app::SlurmOptions slurm;
+    stimuli::SlurmOptions slurm;
     slurm.program = program;
     slurm.tasks = 2;
     slurm.retries = 0;
-    app::BatchReport report = app::make_batch_on_slurm(there, slurm);
+    stimuli::BatchReport report = stimuli::make_batch_on_slurm(there, slurm);
     EXPECT_FALSE(report.complete);
     EXPECT_EQ(report.made, 0) << "pictures are matched when all films are there";
     EXPECT_EQ(report.unmeasured, 1);
@@ -87,7 +87,7 @@ TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
     EXPECT_FALSE(fs::exists(there.out / "SHA256SUMS"));
     fs::remove(folder() / "failed");
     slurm.retries = 1;
-    report = app::make_batch_on_slurm(there, slurm);
+    report = stimuli::make_batch_on_slurm(there, slurm);
     EXPECT_TRUE(report.complete);
     EXPECT_EQ(report.kept + report.made, 2);
     EXPECT_EQ(text_of(there.out / "SHA256SUMS"), text_of(here.out / "SHA256SUMS"));

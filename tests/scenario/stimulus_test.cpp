@@ -8,16 +8,16 @@
 #include <set>
 #include <sstream>
 
-#include "app/animate.h"
-#include "app/compare.h"
-#include "app/sheet.h"
-#include "core/error.h"
-#include "media/float_image.h"
-#include "media/image_file.h"
-#include "media/luminance.h"
-#include "media/sync_marks.h"
-#include "media/video_reader.h"
 #include "message_of.h"
+#include "risorius/animate/animate.h"
+#include "risorius/animate/compare.h"
+#include "risorius/animate/sheet.h"
+#include "risorius/core/error.h"
+#include "risorius/media/float_image.h"
+#include "risorius/media/image_file.h"
+#include "risorius/media/luminance.h"
+#include "risorius/media/sync_marks.h"
+#include "risorius/media/video_reader.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -86,7 +86,7 @@ class Stimulus : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder = new Folder;
-        app::AnimateOptions options;
+        animate::AnimateOptions options;
         options.script = smile_of(*folder, "smile.json", 0.9);
         options.out = *folder / "a.mkv";
         options.quality = "preview";
@@ -99,7 +99,7 @@ class Stimulus : public testing::Test {
         options.marks.frame_counter = "upper_left";
         options.marks.frame_counter_px = 4;
         options.passes = {"segmentation", "depth", "normals", "flow", "masks"};
-        app::animate(options);
+        animate::animate(options);
         table = new std::map<std::string, std::vector<double>>(
             columns_of(*folder / "a.mkv.frames.tsv"));
     }
@@ -212,7 +212,7 @@ TEST_F(Stimulus, PassesAgreeWithOneAnotherAndAreListed) {
 
 TEST(Comparison, ShowsBothScriptsInEveryFrameUntilTheLongerEnds) {
     const Folder folder;
-    app::AnimateOptions left, right;
+    animate::AnimateOptions left, right;
     left.script = smile_of(folder, "weak.json", 0.2);
     right.script = smile_of(folder, "strong.json", 1);
     Json shorter = Json::parse(text_of(right.script));
@@ -220,8 +220,8 @@ TEST(Comparison, ShowsBothScriptsInEveryFrameUntilTheLongerEnds) {
     std::ofstream(right.script) << shorter.dump();
     left.quality = right.quality = "preview";
     left.out = folder / "both.mkv";
-    left.size = app::PictureSize{48, 48};
-    const Json record = app::compare(left, right);
+    left.size = animate::PictureSize{48, 48};
+    const Json record = animate::compare(left, right);
     media::VideoReader video(left.out);
     EXPECT_EQ(video.frames(), 5);
     EXPECT_EQ(video.width_px(), 100);
@@ -243,14 +243,14 @@ TEST(Comparison, ShowsBothScriptsInEveryFrameUntilTheLongerEnds) {
 
 TEST(Comparison, SheetHasTheTimesInTheirColumnsWhateverTheirOrder) {
     const Folder folder;
-    app::SheetOptions options;
+    animate::SheetOptions options;
     options.scripts = {smile_of(folder, "smile.json", 0.9)};
     options.times_s = {0.16, 0, 0.16};
     options.out = folder / "sheet.png";
     options.view.quality = "preview";
     options.view.show = "wire";
-    options.view.size = app::PictureSize{64, 64};
-    const Json record = app::make_sheet(options);
+    options.view.size = animate::PictureSize{64, 64};
+    const Json record = animate::make_sheet(options);
     EXPECT_EQ(record["runs"].size(), 1u);
     EXPECT_EQ(record["runs"][0]["frames"], 3);
     // A picture's top left corner is grey where the sheet is white
@@ -269,7 +269,7 @@ TEST(Comparison, SheetHasTheTimesInTheirColumnsWhateverTheirOrder) {
 
 TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
     const Folder folder;
-    app::SheetOptions options;
+    animate::SheetOptions options;
     options.scripts = {smile_of(folder, "smile.json", 0.9)};
     options.times_s = {0};
     options.cameras = {"front", "top", "mouth"};
@@ -280,8 +280,8 @@ TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
     options.beside = {folder / "red.png"};
     options.out = folder / "sheet.png";
     options.view.quality = "preview";
-    options.view.size = app::PictureSize{64, 64};
-    const Json record = app::make_sheet(options);
+    options.view.size = animate::PictureSize{64, 64};
+    const Json record = animate::make_sheet(options);
     ASSERT_EQ(record["runs"].size(), 3u);
     EXPECT_EQ(record["runs"][1]["camera"], "top");
     const Image sheet = media::read_png(options.out);
@@ -300,9 +300,10 @@ TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
             reds += sheet.pixel(x, y)[0] == 200 && sheet.pixel(x, y)[1] == 10;
     EXPECT_EQ(reds, 20 * 40);
     options.cameras = {"below"};
-    EXPECT_NE(
-        risorius::message_of([&] { app::make_sheet(options); }).find("--cameras: expected one of"),
-        std::string::npos);
+    EXPECT_NE(risorius::message_of([&] {
+                  animate::make_sheet(options);
+              }).find("--cameras: expected one of"),
+              std::string::npos);
 }
 
 TEST(StimulusOptions, OfNoUseTogetherAreRefusedWithTheirPlace) {

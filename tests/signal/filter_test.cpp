@@ -1,6 +1,6 @@
 // Filters against the frequency response that defines them, and against what must not happen: delay and drift.
 
-#include "signal/filter.h"
+#include "risorius/signal/filter.h"
 
 #include <gtest/gtest.h>
 

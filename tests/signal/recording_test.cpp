@@ -1,6 +1,6 @@
 // Recordings as files: what is read, and what is refused with file, line and column.
 
-#include "signal/recording.h"
+#include "risorius/signal/recording.h"
 
 #include <gtest/gtest.h>
 

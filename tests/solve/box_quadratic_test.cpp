@@ -1,5 +1,5 @@
 // Least squares in a box with a price: against the conditions of its minimum and cases known by hand.
-#include "solve/box_quadratic.h"
+#include "risorius/solve/box_quadratic.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solve/integrator.h"
+#include "risorius/solve/integrator.h"
 #include "toy_terms.h"
 
 namespace risorius::solve {

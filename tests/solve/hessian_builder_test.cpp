@@ -1,9 +1,9 @@
 // Assembly of second derivatives against a dense sum.
-#include "solve/hessian_builder.h"
+#include "risorius/solve/hessian_builder.h"
 
 #include <gtest/gtest.h>
 
-#include "solve/conjugate_gradients.h"
+#include "risorius/solve/detail/conjugate_gradients.h"
 
 namespace risorius::solve {
 namespace {

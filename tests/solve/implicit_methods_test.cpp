@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dense_algebra.h"
-#include "solve/integrator.h"
-#include "solve/newton.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/integrator.h"
+#include "risorius/solve/newton.h"
 #include "toy_terms.h"
 
 namespace risorius::solve {

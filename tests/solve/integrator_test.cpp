@@ -1,5 +1,5 @@
 // Names and options of the methods.
-#include "solve/integrator.h"
+#include "risorius/solve/integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sums over terms, masses and fixed nodes.
-#include "solve/motion_system.h"
+#include "risorius/solve/motion_system.h"
 
 #include <gtest/gtest.h>
 

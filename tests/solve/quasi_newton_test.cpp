@@ -1,11 +1,11 @@
-#include "solve/quasi_newton.h"
+#include "risorius/solve/quasi_newton.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "solve/metric_builder.h"
+#include "risorius/solve/metric_builder.h"
 
 namespace risorius::solve {
 namespace {

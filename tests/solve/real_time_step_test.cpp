@@ -1,8 +1,8 @@
-#include "solve/real_time_step.h"
+#include "risorius/solve/real_time_step.h"
 
 #include <gtest/gtest.h>
 
-#include "solve/integrator.h"
+#include "risorius/solve/integrator.h"
 #include "toy_terms.h"
 
 namespace risorius::solve {

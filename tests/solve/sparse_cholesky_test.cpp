@@ -1,12 +1,12 @@
-#include "solve/sparse_cholesky.h"
+#include "risorius/solve/sparse_cholesky.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "core/dense_algebra.h"
-#include "solve/metric_builder.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/metric_builder.h"
 
 namespace risorius::solve {
 namespace {

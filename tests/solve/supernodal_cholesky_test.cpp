@@ -1,4 +1,4 @@
-#include "solve/supernodal_cholesky.h"
+#include "risorius/solve/supernodal_cholesky.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "solve/motion_system.h"
+#include "risorius/solve/motion_system.h"
 
 namespace risorius::solve::toy {
 

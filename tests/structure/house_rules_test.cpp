@@ -29,9 +29,21 @@ std::pair<std::string, int> run(const std::string& command) {
 }
 
 TEST(HouseRules, TopLevelHoldsOnlyWhatTheReadmeNames) {
-    const Names allowed = {
-        "CMakeLists.txt", "CMakePresets.json", "src",     "rigs",      "models", "tools",
-        "tests",          "samples",           "LICENSE", "README.md", "out"};
+    const Names allowed = {"CMakeLists.txt",
+                           "CMakePresets.json",
+                           "src",
+                           "rigs",
+                           "models",
+                           "tools",
+                           "tests",
+                           "samples",
+                           "docs",
+                           "README.md",
+                           "CONTRIBUTING.md",
+                           "CHANGELOG.md",
+                           "CITATION.cff",
+                           "LICENSE",
+                           "out"};
     const Names required = {"CMakeLists.txt", "CMakePresets.json", "src", "tools", "tests",
                             "LICENSE"};
     Names found;
@@ -123,7 +135,31 @@ TEST(HouseRules, NoFileIsNamedForNothing) {
              {"utils", "util", "helpers", "helper", "common", "misc", "manager"})
             EXPECT_NE(name, vague) << shown(file);
     }
-    EXPECT_TRUE(std::filesystem::exists(source_dir() / "src/core"));
+    EXPECT_TRUE(std::filesystem::exists(source_dir() / "src/risorius/core"));
+}
+
+// Libraries name fields; the program translates between them and the flags of its command line.
+TEST(HouseRules, LibrariesNameNoCommandLineFlags) {
+    const std::regex flag("\"--[a-z]");
+    int files = 0;
+    for (const auto& file : files_below("src", kSources)) {
+        ++files;
+        int number = 0;
+        for (const std::string& line : lines_of(text_of(file))) {
+            ++number;
+            EXPECT_FALSE(std::regex_search(line, flag))
+                << shown(file) << ":" << number << ": " << line;
+        }
+    }
+    EXPECT_GT(files, 100);
+}
+
+TEST(HouseRules, NoSourcePathIsCompiledIn) {
+    for (const char* list : {"CMakeLists.txt", "src/CMakeLists.txt", "tools/CMakeLists.txt"})
+        for (const std::string& line : lines_of(text_of(source_dir() / list)))
+            EXPECT_FALSE(line.find("DEFINITIONS") != std::string::npos &&
+                         line.find("_DIR}") != std::string::npos)
+                << list << ": " << line;
 }
 
 TEST(HouseRules, SourcesAreLaidOutByClangFormat) {

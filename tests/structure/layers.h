@@ -30,13 +30,22 @@ inline std::map<std::string, std::set<std::string>> declared_uses(const std::str
     return uses;
 }
 
-/// The folders named by #include "folder/..." lines.
-inline std::set<std::string> included_folders(const std::string& source) {
-    std::set<std::string> folders;
-    const std::regex include(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"/]+)/[^"]*")re");
+/// The modules named by #include "risorius/<module>/..." lines.
+inline std::set<std::string> included_modules(const std::string& source) {
+    std::set<std::string> modules;
+    const std::regex include(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"risorius/([^"/]+)/[^"]*")re");
     for (std::sregex_iterator i(source.begin(), source.end(), include), end; i != end; ++i)
-        folders.insert((*i)[1]);
-    return folders;
+        modules.insert((*i)[1]);
+    return modules;
+}
+
+/// The headers named by #include "risorius/..." lines, as written.
+inline std::set<std::string> included_headers(const std::string& source) {
+    std::set<std::string> headers;
+    const std::regex include(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"(risorius/[^"]*)")re");
+    for (std::sregex_iterator i(source.begin(), source.end(), include), end; i != end; ++i)
+        headers.insert((*i)[1]);
+    return headers;
 }
 
 /// Includes of project headers without their folder, which would get round the check above.

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <iostream>
+#include <map>
 
 #include "structure/source_tree.h"
 
@@ -24,41 +26,81 @@ TEST(Layers, DeclarationIsReadWithoutLinksAndComments) {
     EXPECT_EQ(uses.at("rig"), (Names{"core", "geom"}));
 }
 
-TEST(Layers, IncludesAreReadWithTheirFolder) {
+TEST(Layers, IncludesAreReadWithTheirModule) {
     const std::string source =
-        "#include \"core/error.h\"\n// #include \"sim/face.h\"\n  #  include \"geom/detail/a.h\"\n"
-        "#include <rig/none.h>\n#include \"bare.h\"\n#include \"../io/up.h\"\n";
-    EXPECT_EQ(included_folders(source), (Names{"..", "core", "geom"}));
+        "#include \"risorius/core/error.h\"\n// #include \"risorius/face/face.h\"\n"
+        "  #  include \"risorius/geom/detail/a.h\"\n#include <rig/none.h>\n"
+        "#include \"bare.h\"\n#include \"../io/up.h\"\n";
+    EXPECT_EQ(included_modules(source), (Names{"core", "geom"}));
+    EXPECT_EQ(included_headers(source),
+              (Names{"risorius/core/error.h", "risorius/geom/detail/a.h"}));
     EXPECT_EQ(bare_includes(source), (std::vector<std::string>{"bare.h", "../io/up.h"}));
 }
 
-TEST(Layers, EveryFolderIncludesOnlyWhatItDeclares) {
+/// The module of a file below src/risorius.
+std::string module_of(const std::filesystem::path& file) {
+    return *file.lexically_relative(source_dir() / "src/risorius").begin();
+}
+
+TEST(Layers, EveryModuleIncludesOnlyWhatItDeclares) {
     const auto uses = declared_uses(text_of(source_dir() / "src/CMakeLists.txt"));
     ASSERT_GE(uses.size(), 5u);
     for (const auto& file : files_below("src", {".h", ".cpp"})) {
-        const std::string folder = *file.lexically_relative(source_dir() / "src").begin();
-        ASSERT_TRUE(uses.contains(folder))
-            << shown(file) << ": src/" << folder << " is not declared";
+        const std::string module = module_of(file);
+        ASSERT_TRUE(uses.contains(module))
+            << shown(file) << ": src/risorius/" << module << " is not declared";
         const std::string source = text_of(file);
-        for (const std::string& used : included_folders(source)) {
-            if (!uses.contains(used)) continue;  // a system header in quotes, or caught below
-            EXPECT_TRUE(used == folder || uses.at(folder).contains(used))
+        for (const std::string& used : included_modules(source))
+            EXPECT_TRUE(used == module || uses.at(module).contains(used))
                 << shown(file) << " includes " << used << "/, but src/CMakeLists.txt does not let "
-                << folder << " use it";
-        }
+                << module << " use it";
+        for (const std::string& header : included_headers(source))
+            EXPECT_TRUE(std::filesystem::exists(source_dir() / "src" / header))
+                << shown(file) << " includes " << header << ", which is not there";
         for (const std::string& name : bare_includes(source))
-            ADD_FAILURE() << shown(file) << " includes \"" << name << "\" without its folder";
+            ADD_FAILURE() << shown(file) << " includes \"" << name << "\" without its module";
     }
 }
 
-TEST(Layers, PrivateHeadersStayInTheirFolder) {
-    for (const auto& file : files_below("src", {".h", ".cpp"})) {
-        const std::string folder = *file.lexically_relative(source_dir() / "src").begin();
-        const std::string source = text_of(file);
-        const std::regex include(R"re(#include "([^"/]+)/detail/)re");
-        for (std::sregex_iterator i(source.begin(), source.end(), include), end; i != end; ++i)
-            EXPECT_EQ((*i)[1], folder)
-                << shown(file) << " includes a private header of " << (*i)[1];
+TEST(Layers, NoHeaderIncludesItself) {
+    std::map<std::string, Names> includes;
+    for (const auto& file : files_below("src", {".h"}))
+        includes[file.lexically_relative(source_dir() / "src").generic_string()] =
+            included_headers(text_of(file));
+    // Depth first; a header that is met while it is still open closes a cycle.
+    std::map<std::string, int> state;
+    const std::function<void(const std::string&, const std::string&)> visit =
+        [&](const std::string& header, const std::string& way) {
+            state[header] = 1;
+            for (const std::string& next : includes[header]) {
+                EXPECT_NE(state[next], 1) << "a cycle of includes: " << way << " -> " << next;
+                if (state[next] == 0) visit(next, way + " -> " + next);
+            }
+            state[header] = 2;
+        };
+    for (const auto& [header, ignored] : std::map(includes))
+        if (state[header] == 0) visit(header, header);
+    EXPECT_GT(includes.size(), 100u);
+}
+
+// A header is public when another module or a program includes it, and private, in a folder `detail`, when none does.
+TEST(Layers, PrivateHeadersStayInTheirModuleAndPublicOnesAreIncludedFromOutside) {
+    std::map<std::string, Names> used_by;
+    for (const char* folder : {"src", "tools", "samples"})
+        for (const auto& file : files_below(folder, {".h", ".cpp"}))
+            for (const std::string& header : included_headers(text_of(file)))
+                used_by[header].insert(folder == std::string("src") ? module_of(file) : folder);
+    for (const auto& file : files_below("src", {".h"})) {
+        const std::string module = module_of(file);
+        const std::string header = file.lexically_relative(source_dir() / "src").generic_string();
+        Names outside = used_by[header];
+        outside.erase(module);
+        if (header.find("/detail/") != std::string::npos)
+            EXPECT_TRUE(outside.empty())
+                << header << " is private, but " << *outside.begin() << " includes it";
+        else
+            EXPECT_FALSE(outside.empty())
+                << header << " is included by no other module and belongs into detail/";
     }
 }
 
@@ -89,8 +131,7 @@ TEST(Layers, FoldersDeclaredButNotIncludedAreNamed) {
     const auto uses = declared_uses(text_of(source_dir() / "src/CMakeLists.txt"));
     std::map<std::string, Names> included;
     for (const auto& file : files_below("src", {".h", ".cpp"}))
-        included[*file.lexically_relative(source_dir() / "src").begin()].merge(
-            included_folders(text_of(file)));
+        included[module_of(file)].merge(included_modules(text_of(file)));
     int used_uses = 0;
     for (const auto& [folder, used] : uses)
         for (const std::string& name : used) {

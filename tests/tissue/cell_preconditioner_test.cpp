@@ -1,14 +1,14 @@
-#include "tissue/cell_preconditioner.h"
+#include "risorius/tissue/cell_preconditioner.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 
 #include "cell_solids.h"
-#include "core/dense_algebra.h"
-#include "solve/integrator.h"
-#include "solve/real_time_step.h"
-#include "tissue/gravity.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/integrator.h"
+#include "risorius/solve/real_time_step.h"
+#include "risorius/tissue/gravity.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,11 +1,11 @@
 // The solid of trilinear cells: forces, energies, stiffness, volume, moduli, on uniform and on refined meshes.
-#include "tissue/cell_solid.h"
+#include "risorius/tissue/cell_solid.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/dense_algebra.h"
+#include "risorius/core/dense_algebra.h"
 #include "second_derivative_checks.h"
 #include "tissue/cell_solids.h"
 

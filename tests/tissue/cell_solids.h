@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "solve/motion_system.h"
-#include "tissue/cell_solid.h"
-#include "tissue/grid_shape.h"
+#include "risorius/solve/motion_system.h"
+#include "risorius/tissue/cell_solid.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::tissue::cell_solids {
 

@@ -1,15 +1,15 @@
-#include "tissue/difference_solid.h"
+#include "risorius/tissue/difference_solid.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <limits>
 
-#include "core/dense_algebra.h"
 #include "force_term_checks.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/metric_builder.h"
+#include "risorius/tissue/grid_shape.h"
 #include "second_derivative_checks.h"
-#include "solve/metric_builder.h"
-#include "tissue/grid_shape.h"
 
 namespace risorius::tissue {
 namespace {

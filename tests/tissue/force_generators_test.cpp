@@ -1,4 +1,4 @@
-#include "tissue/force_generators.h"
+#include "risorius/tissue/force_generators.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/error.h"
 #include "force_term_checks.h"
+#include "risorius/core/error.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,4 +1,4 @@
-#include "tissue/grid_curve.h"
+#include "risorius/tissue/grid_curve.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/dense_algebra.h"
-#include "core/error.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/core/error.h"
 #include "tissue/term_checks.h"
 
 namespace risorius::tissue {

@@ -1,4 +1,4 @@
-#include "tissue/grid_shape.h"
+#include "risorius/tissue/grid_shape.h"
 
 #include <gtest/gtest.h>
 

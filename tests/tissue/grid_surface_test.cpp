@@ -1,4 +1,4 @@
-#include "tissue/grid_surface.h"
+#include "risorius/tissue/grid_surface.h"
 
 #include <gtest/gtest.h>
 

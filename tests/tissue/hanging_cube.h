@@ -10,9 +10,9 @@
 #include <memory>
 #include <numeric>
 
-#include "solve/motion_system.h"
-#include "tissue/gravity.h"
-#include "tissue/grid_shape.h"
+#include "risorius/solve/motion_system.h"
+#include "risorius/tissue/gravity.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::tissue {
 

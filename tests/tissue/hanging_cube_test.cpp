@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "tissue/difference_solid.h"
+#include "risorius/tissue/difference_solid.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,4 +1,4 @@
-#include "tissue/hinge_angle.h"
+#include "risorius/tissue/detail/hinge_angle.h"
 
 #include <gtest/gtest.h>
 

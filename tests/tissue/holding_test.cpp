@@ -3,10 +3,10 @@
 
 #include <Eigen/LU>
 
-#include "tissue/contacts.h"
-#include "tissue/dead_loads.h"
+#include "risorius/tissue/contacts.h"
+#include "risorius/tissue/dead_loads.h"
+#include "risorius/tissue/tethers.h"
 #include "tissue/layered_block.h"
-#include "tissue/tethers.h"
 
 namespace risorius::tissue {
 namespace {

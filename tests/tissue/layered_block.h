@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/types.h"
+#include "risorius/core/types.h"
 
 namespace risorius::tissue {
 

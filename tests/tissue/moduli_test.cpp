@@ -1,9 +1,9 @@
-#include "tissue/moduli.h"
+#include "risorius/tissue/moduli.h"
 
 #include <gtest/gtest.h>
 
-#include "tissue/difference_solid.h"
-#include "tissue/grid_shape.h"
+#include "risorius/tissue/difference_solid.h"
+#include "risorius/tissue/grid_shape.h"
 
 namespace risorius::tissue {
 namespace {

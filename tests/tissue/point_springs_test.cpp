@@ -1,4 +1,4 @@
-#include "tissue/point_springs.h"
+#include "risorius/tissue/point_springs.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/dense_algebra.h"
-#include "core/error.h"
 #include "force_term_checks.h"
-#include "solve/integrator.h"
-#include "tissue/grid_point.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/core/error.h"
+#include "risorius/solve/integrator.h"
+#include "risorius/tissue/grid_point.h"
 
 namespace risorius::tissue {
 namespace {

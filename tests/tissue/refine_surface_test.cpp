@@ -1,5 +1,5 @@
 // Adaptive resolution of surfaces: bisection keeps the mesh and the material, the estimate knows where to look.
-#include "tissue/refine_surface.h"
+#include "risorius/tissue/detail/refine_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "solve/newton.h"
+#include "risorius/solve/newton.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,15 +1,15 @@
 // Adaptive resolution: the tree keeps its balance, the estimate knows the error, and the body stays what it is.
-#include "tissue/refine.h"
+#include "risorius/tissue/refine.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "solve/newton.h"
+#include "risorius/solve/newton.h"
+#include "risorius/tissue/gravity.h"
+#include "risorius/tissue/strain_error.h"
 #include "tissue/cell_solids.h"
-#include "tissue/gravity.h"
-#include "tissue/strain_error.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,11 +1,11 @@
 // Second derivatives of the tissue of a face: tetrahedra, skin, tethers, contacts.
+#include "risorius/tissue/contacts.h"
+#include "risorius/tissue/detail/principal_stretches.h"
+#include "risorius/tissue/skin_sheet.h"
+#include "risorius/tissue/tet_solid.h"
+#include "risorius/tissue/tethers.h"
 #include "second_derivative_checks.h"
-#include "tissue/contacts.h"
-#include "tissue/detail/principal_stretches.h"
 #include "tissue/layered_block.h"
-#include "tissue/skin_sheet.h"
-#include "tissue/tet_solid.h"
-#include "tissue/tethers.h"
 
 namespace risorius::tissue {
 namespace {

@@ -1,4 +1,4 @@
-#include "tissue/skin_sheet.h"
+#include "risorius/tissue/skin_sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "tissue/solid_material.h"
+#include "risorius/tissue/solid_material.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/error.h"
 #include "force_term_checks.h"
-#include "tissue/drag.h"
-#include "tissue/gravity.h"
+#include "risorius/core/error.h"
+#include "risorius/tissue/drag.h"
+#include "risorius/tissue/gravity.h"
 
 namespace risorius::tissue {
 namespace {

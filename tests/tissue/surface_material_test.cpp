@@ -1,4 +1,4 @@
-#include "tissue/surface_material.h"
+#include "risorius/tissue/surface_material.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.h"
+#include "risorius/core/error.h"
 
 namespace risorius::tissue {
 namespace {

@@ -2,8 +2,8 @@
 // damp what is measured here, so the classic Runge-Kutta method steps at 0.6 of its limit.
 #include <gtest/gtest.h>
 
-#include "solve/integrator.h"
-#include "tissue/difference_solid.h"
+#include "risorius/solve/integrator.h"
+#include "risorius/tissue/difference_solid.h"
 #include "tissue/hanging_cube.h"
 
 namespace risorius::tissue {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/dense_algebra.h"
 #include "force_term_checks.h"
-#include "solve/force_term.h"
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/force_term.h"
 #include "tissue/layered_block.h"
 
 namespace risorius::tissue::laws {

@@ -1,5 +1,5 @@
 // Fans of tetrahedra: all tets once, each where its fan says it is.
-#include "tissue/tet_fans.h"
+#include "risorius/tissue/detail/tet_fans.h"
 
 #include <gtest/gtest.h>
 

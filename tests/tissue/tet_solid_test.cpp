@@ -1,4 +1,4 @@
-#include "tissue/tet_solid.h"
+#include "risorius/tissue/tet_solid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tissue/triangle_sheet.h"
+#include "risorius/tissue/triangle_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 #include <numbers>
 
-#include "core/error.h"
-#include "tissue/grid_surface.h"
-#include "tissue/skin_sheet.h"
+#include "risorius/core/error.h"
+#include "risorius/tissue/grid_surface.h"
+#include "risorius/tissue/skin_sheet.h"
 #include "tissue/term_checks.h"
 
 namespace risorius::tissue {

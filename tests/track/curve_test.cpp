@@ -1,4 +1,4 @@
-#include "track/curve.h"
+#include "risorius/track/detail/curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Electromyograms in, and simulated ones out: what is read from where, and how much a way there and back loses.
 
-#include "track/emg_source.h"
+#include "risorius/track/detail/emg_source.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <random>
 
 #include "own_folder_test.h"
-#include "track/simulated_emg.h"
+#include "risorius/track/simulated_emg.h"
+#include "risorius/track/timeline.h"
 #include "track/standard_tables.h"
-#include "track/timeline.h"
 
 namespace risorius::track {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "track/script.h"
+#include "risorius/track/script.h"
+#include "risorius/track/timeline.h"
 #include "track/standard_tables.h"
-#include "track/timeline.h"
 
 namespace risorius::track {
 namespace {

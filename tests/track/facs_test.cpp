@@ -1,4 +1,4 @@
-#include "track/facs.h"
+#include "risorius/track/facs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "paths.h"
-#include "track/arkit_names.h"
+#include "risorius/track/arkit_names.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {

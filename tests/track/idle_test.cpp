@@ -1,14 +1,14 @@
 // A face left to itself blinks, looks about and sways as people do, the same way for the same seed.
-#include "track/idle.h"
+#include "risorius/track/detail/idle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "track/script.h"
+#include "risorius/track/script.h"
+#include "risorius/track/timeline.h"
 #include "track/standard_tables.h"
-#include "track/timeline.h"
 
 namespace risorius::track {
 namespace {

@@ -1,4 +1,4 @@
-#include "track/script.h"
+#include "risorius/track/script.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "paths.h"
-#include "track/facs.h"
+#include "risorius/track/facs.h"
 
 namespace risorius::track {
 

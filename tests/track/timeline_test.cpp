@@ -1,4 +1,4 @@
-#include "track/timeline.h"
+#include "risorius/track/timeline.h"
 
 #include <gtest/gtest.h>
 

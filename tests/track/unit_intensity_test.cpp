@@ -1,5 +1,5 @@
 // How much of an action unit a script asks for, whatever way it asks.
-#include "track/unit_intensity.h"
+#include "risorius/track/unit_intensity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "calibration.h"
+#include "tools/calibrate/calibration.h"
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
-#include "app/expression_score.h"
-#include "sim/face.h"
-#include "sim/tissue_mesh.h"
-#include "solve/box_quadratic.h"
+#include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/face.h"
+#include "risorius/scene/expression_score.h"
+#include "risorius/solve/box_quadratic.h"
 
 namespace risorius::calibrate {
 
@@ -15,8 +15,8 @@ namespace {
 
 // Per expression: what is measured at the skin nodes, and the activations' part of the unknowns.
 struct Expression {
-    const app::MeasuredShape* shape;
-    std::vector<app::ActivationUnknown> unknowns;
+    const inverse::MeasuredShape* shape;
+    std::vector<inverse::ActivationUnknown> unknowns;
     Eigen::VectorXd price;        // what the table does not list costs more
     Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
     double size;                  // |goal|^2
@@ -24,7 +24,7 @@ struct Expression {
 };
 
 struct Trial {
-    std::vector<std::unique_ptr<sim::Face>> faces;
+    std::vector<std::unique_ptr<face::Face>> faces;
     std::vector<track::Drive> drives;
     std::vector<Eigen::VectorXd> miss;
     double cost = 0;
@@ -38,30 +38,31 @@ struct SparseForce {
 
 class Calibration {
   public:
-    Calibration(const app::RigFiles& files, const std::vector<app::MeasuredShape>& shapes,
+    Calibration(const scene::RigFiles& files, const std::vector<inverse::MeasuredShape>& shapes,
                 const std::vector<Parameter>& parameters, const Options& options)
         : files_(files), parameters_(parameters), options_(options) {
-        const sim::Face face = make_face(files.rig);
-        const sim::Shell& shell = face.shell();
-        const Eigen::VectorXd fine = app::vertex_areas(face.simulated_skin(), face.head().vertices);
+        const face::Face face = make_face(files.rig);
+        const face::Shell& shell = face.shell();
+        const Eigen::VectorXd fine =
+            scene::vertex_areas(face.simulated_skin(), face.head().vertices);
         root_area_ = Eigen::VectorXd::Zero(static_cast<long>(shell.vertex.size()));
         for (long v = 0; v < fine.size(); ++v)
             if (fine[v] > 0) root_area_[shell.collapsed_to[static_cast<std::size_t>(v)]] += fine[v];
         root_area_ = root_area_.cwiseSqrt();
         long unknowns = static_cast<long>(parameters.size());
-        for (const app::MeasuredShape& shape : shapes) {
+        for (const inverse::MeasuredShape& shape : shapes) {
             Expression one;
             one.shape = &shape;
-            one.unknowns = app::activation_unknowns(files.rig, shape.drive, shape.sided);
+            one.unknowns = inverse::activation_unknowns(files.rig, shape.drive, shape.sided);
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
-                one.table[static_cast<long>(i)] = app::value_of(one.unknowns[i], shape.drive);
+                one.table[static_cast<long>(i)] = inverse::value_of(one.unknowns[i], shape.drive);
             // Lids go where their table says, jaws only where it moves them: the face around them is to be found
-            for (app::ActivationUnknown& unknown : one.unknowns)
+            for (inverse::ActivationUnknown& unknown : one.unknowns)
                 if (unknown.name.starts_with("levator_palpebrae") ||
                     unknown.name.starts_with("superior_tarsal") ||
-                    (!unknown.channels.empty() && app::value_of(unknown, shape.drive) == 0))
-                    unknown.least = unknown.most = app::value_of(unknown, shape.drive);
+                    (!unknown.channels.empty() && inverse::value_of(unknown, shape.drive) == 0))
+                    unknown.least = unknown.most = inverse::value_of(unknown, shape.drive);
             one.price = one.table.unaryExpr(
                 [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
@@ -117,8 +118,8 @@ class Calibration {
     }
 
   private:
-    sim::Face make_face(const rig::RigDescription& rig) const {
-        return sim::Face(rig, files_.mesh, sim::quality_named(options_.quality), files_.place());
+    face::Face make_face(const rig::RigDescription& rig) const {
+        return face::Face(rig, files_.mesh, face::quality_named(options_.quality), files_.place());
     }
     Eigen::VectorXd weighted(const Points& nodes) const {
         Eigen::VectorXd out(3 * nodes.rows());
@@ -132,7 +133,7 @@ class Calibration {
     track::Drive drive_of(const Expression& one, const Eigen::VectorXd& z) const {
         track::Drive drive = one.shape->drive;
         for (std::size_t i = 0; i < one.unknowns.size(); ++i)
-            app::set_value(one.unknowns[i], z[one.first + static_cast<long>(i)], drive);
+            inverse::set_value(one.unknowns[i], z[one.first + static_cast<long>(i)], drive);
         return drive;
     }
 
@@ -142,8 +143,8 @@ class Calibration {
             changed(files_.rig, parameters_, z.head(static_cast<long>(parameters_.size())));
         for (const Expression& one : expressions_) {
             out.drives.push_back(drive_of(one, z));
-            out.faces.push_back(std::make_unique<sim::Face>(make_face(rig)));
-            sim::Face& face = *out.faces.back();
+            out.faces.push_back(std::make_unique<face::Face>(make_face(rig)));
+            face::Face& face = *out.faces.back();
             face.settle(out.drives.back().excitation, out.drives.back());
             out.miss.push_back(weighted(face.skin_nodes() - face.rest_skin_nodes()) - one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
@@ -182,8 +183,8 @@ class Calibration {
             for (const double side : {+1.0, -1.0}) {
                 Eigen::VectorXd at = p;
                 at[i] += side * step;
-                sim::Face::Variant variant(*now.faces.front(),
-                                           changed(files_.rig, parameters_, at));
+                face::Face::Variant variant(*now.faces.front(),
+                                            changed(files_.rig, parameters_, at));
                 for (std::size_t e = 0; e < expressions_.size(); ++e) {
                     Points gradient = variant.static_gradient(
                         now.faces[e]->nodes(), now.drives[e].excitation, now.drives[e]);
@@ -203,15 +204,16 @@ class Calibration {
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];
             const long own = one.table.size();
-            sim::Face& face = *now.faces[e];
-            sim::Face::Variant same(face, rig);
+            face::Face& face = *now.faces[e];
+            face::Face::Variant same(face, rig);
             const Points nodes = face.nodes();
             for (long i = 0; i < own; ++i) {
-                const app::ActivationUnknown& unknown = one.unknowns[static_cast<std::size_t>(i)];
+                const inverse::ActivationUnknown& unknown =
+                    one.unknowns[static_cast<std::size_t>(i)];
                 constexpr double kStep = 1e-3;
                 const auto at = [&](double change) {
                     track::Drive drive = now.drives[e];
-                    app::set_value(unknown, z_[one.first + i] + change, drive);
+                    inverse::set_value(unknown, z_[one.first + i] + change, drive);
                     return same.static_gradient(nodes, drive.excitation, drive);
                 };
                 force[e].push_back(difference(at(kStep), at(-kStep), 2 * kStep));
@@ -226,7 +228,7 @@ class Calibration {
                 const Points moved = face.solve_static(b);
                 Points skin(root_area_.size(), 3);
                 for (long v = 0; v < skin.rows(); ++v)
-                    skin.row(v) = moved.row(sim::node_of(static_cast<int>(v), sim::kSkin));
+                    skin.row(v) = moved.row(face::node_of(static_cast<int>(v), face::kSkin));
                 J.col(i) = weighted(skin);
             }
             force[e].clear();
@@ -279,7 +281,7 @@ class Calibration {
         tell(line);
     }
 
-    const app::RigFiles& files_;
+    const scene::RigFiles& files_;
     const std::vector<Parameter>& parameters_;
     Options options_;
     std::vector<Expression> expressions_;
@@ -288,7 +290,7 @@ class Calibration {
 
 }  // namespace
 
-Result calibrate(const app::RigFiles& files, const std::vector<app::MeasuredShape>& shapes,
+Result calibrate(const scene::RigFiles& files, const std::vector<inverse::MeasuredShape>& shapes,
                  const std::vector<Parameter>& parameters, const Options& options,
                  const std::function<void(const std::string&)>& tell) {
     return Calibration(files, shapes, parameters, options).run(tell);

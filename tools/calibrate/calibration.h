@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "app/fit_activations.h"
-#include "app/measured_shapes.h"
-#include "app/rig_files.h"
-#include "parameters.h"
+#include "risorius/inverse/fit_activations.h"
+#include "risorius/inverse/measured_shapes.h"
+#include "risorius/scene/rig_files.h"
+#include "tools/calibrate/parameters.h"
 
 namespace risorius::calibrate {
 
@@ -30,11 +30,11 @@ struct Options {
 struct Result {
     Eigen::VectorXd parameters;
     std::vector<Eigen::VectorXd> activations;  ///< per expression, of its unknowns
-    std::vector<std::vector<app::ActivationUnknown>> unknowns;
+    std::vector<std::vector<inverse::ActivationUnknown>> unknowns;
     std::vector<double> relative_before, relative_after;
 };
 
-Result calibrate(const app::RigFiles& files, const std::vector<app::MeasuredShape>& shapes,
+Result calibrate(const scene::RigFiles& files, const std::vector<inverse::MeasuredShape>& shapes,
                  const std::vector<Parameter>& parameters, const Options& options,
                  const std::function<void(const std::string&)>& tell);
 

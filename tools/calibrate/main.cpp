@@ -4,23 +4,24 @@
 #include <map>
 #include <set>
 
-#include "app/evaluate.h"
-#include "app/landmark_ways.h"
-#include "app/rig_files.h"
-#include "calibration.h"
-#include "core/error.h"
-#include "rig/head.h"
-#include "sim/face.h"
-#include "tables.h"
+#include "risorius/core/error.h"
+#include "risorius/face/face.h"
+#include "risorius/inverse/evaluate.h"
+#include "risorius/rig/head.h"
+#include "risorius/scene/landmark_ways.h"
+#include "risorius/scene/rig_files.h"
+#include "tools/calibrate/calibration.h"
+#include "tools/calibrate/tables.h"
 
 namespace {
 
 using namespace risorius;
 
 // Mean length of each muscle's fibres at full activation, by itself.
-std::map<std::string, double> stretches(const app::RigFiles& files, const rig::RigDescription& rig,
+std::map<std::string, double> stretches(const scene::RigFiles& files,
+                                        const rig::RigDescription& rig,
                                         const std::string& quality) {
-    sim::Face face(rig, files.mesh, sim::quality_named(quality), files.place());
+    face::Face face(rig, files.mesh, face::quality_named(quality), files.place());
     const track::ChannelTable channels = rig.channels();
     track::Drive rest;
     rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
@@ -40,13 +41,13 @@ std::map<std::string, double> stretches(const app::RigFiles& files, const rig::R
 // How the landmarks go in every standard expression of the calibrated head.
 void write_ways(const std::filesystem::path& rig_file, const std::string& quality,
                 const std::filesystem::path& standard) {
-    const app::RigFiles files = app::read_rig_files(rig_file);
-    sim::Face face(files.rig, files.mesh, sim::quality_named(quality), files.place());
-    app::LandmarkWays ways(face, files.rig, files.place());
-    app::WayTable table;
+    const scene::RigFiles files = scene::read_rig_files(rig_file);
+    face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
+    scene::LandmarkWays ways(face, files.rig, files.place());
+    scene::WayTable table;
     // Those that lids and jaw bring about say nothing about the strength of muscles
     const std::set<std::string> others{"eyeBlink", "eyeWide", "jawForward", "jawOpen"};
-    for (const std::string& name : app::twenty_four_expressions()) {
+    for (const std::string& name : inverse::twenty_four_expressions()) {
         if (others.count(name)) continue;
         const Points moved = ways.settle(ways.drive(name));
         for (std::size_t i = 0; i < ways.landmarks().size(); ++i)
@@ -97,10 +98,10 @@ int main(int argc, char** argv) {
         }
         if (shapes_file.empty() || only.empty())
             throw Error("calibrate", "--shapes and --only, or --ways-only", "neither");
-        const app::RigFiles files = app::read_rig_files(rig_file);
+        const scene::RigFiles files = scene::read_rig_files(rig_file);
         const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
-        const std::vector<app::MeasuredShape> shapes =
-            app::read_measured_shapes(shapes_file, {.only = only}, files.rig, head);
+        const std::vector<inverse::MeasuredShape> shapes =
+            inverse::read_measured_shapes(shapes_file, {.only = only}, files.rig, head);
         const std::vector<calibrate::Parameter> parameters =
             calibrate::anatomy_parameters(files.rig);
         std::printf("%zu parameters, %zu expressions\n", parameters.size(), shapes.size());

@@ -1,4 +1,4 @@
-#include "parameters.h"
+#include "tools/calibrate/parameters.h"
 
 #include <algorithm>
 #include <cmath>

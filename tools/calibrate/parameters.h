@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rig/rig_description.h"
+#include "risorius/rig/rig_description.h"
 
 namespace risorius::calibrate {
 

@@ -1,11 +1,11 @@
-#include "tables.h"
+#include "tools/calibrate/tables.h"
 
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/staged_file.h"
-#include "core/json_cursor.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/report/staged_file.h"
 
 namespace risorius::calibrate {
 
@@ -49,8 +49,8 @@ std::string text_of(const Json& value, int depth, const std::string& indent = ""
     return out + indent + (value.is_object() ? "}" : "]");
 }
 
-bool searched(const std::string& muscle, const std::vector<app::ActivationUnknown>& unknowns) {
-    for (const app::ActivationUnknown& unknown : unknowns)
+bool searched(const std::string& muscle, const std::vector<inverse::ActivationUnknown>& unknowns) {
+    for (const inverse::ActivationUnknown& unknown : unknowns)
         if (track::split_side(unknown.name).id == muscle) return true;
     return false;
 }
@@ -65,7 +65,7 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
     for (const rig::AttachmentSample& sample : rig.atlas.attachments)
         attachments["attachments"][sample.landmark] = {short_of(sample.normal_pa_per_m),
                                                        short_of(sample.tangential_pa_per_m)};
-    app::write_text(folder / "attachments.json", text_of(attachments, 2) + "\n");
+    report::write_text(folder / "attachments.json", text_of(attachments, 2) + "\n");
 
     Json bands = read(folder / "muscle_bands.json");
     std::size_t b = 0;
@@ -83,10 +83,10 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
                     band["points"][i]["depth"] = rounded(found.points[i].depth, 0.01);
             }
         }
-    app::write_text(folder / "muscle_bands.json", text_of(bands, 3) + "\n");
+    report::write_text(folder / "muscle_bands.json", text_of(bands, 3) + "\n");
 }
 
-void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& result,
+void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Result& result,
                   const rig::RigDescription& rig, double least,
                   const std::filesystem::path& folder) {
     Json facs = read(folder / "facs.json");
@@ -119,10 +119,10 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
                     if (!searched(track::split_side(id).id, result.unknowns[e]))
                         muscles[id] = value;
             for (std::size_t i = 0; i < result.unknowns[e].size(); ++i) {
-                const app::ActivationUnknown& unknown = result.unknowns[e][i];
+                const inverse::ActivationUnknown& unknown = result.unknowns[e][i];
                 double value = rounded(result.activations[e][static_cast<long>(i)], 0.01);
                 if (std::abs(value) < least) value = 0;
-                const bool listed = app::value_of(unknown, shapes[e].drive) != 0;
+                const bool listed = inverse::value_of(unknown, shapes[e].drive) != 0;
                 if (value == 0 && !(listed && target == &shape)) continue;
                 if (unknown.channels.empty()) {
                     const bool paired = unknown.columns.size() == 2;
@@ -153,15 +153,15 @@ void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& r
         if (left) write(name + "Left", ".l");
         if (right) write(name + "Right", ".r");
     }
-    app::write_text(folder / "facs.json", text_of(facs, 2) + "\n");
+    report::write_text(folder / "facs.json", text_of(facs, 2) + "\n");
 }
 
-void write_ways(const app::WayTable& ways, const std::filesystem::path& folder) {
-    const Json json = app::landmark_ways_json(
+void write_ways(const scene::WayTable& ways, const std::filesystem::path& folder) {
+    const Json json = scene::landmark_ways_json(
         ways,
         "How the landmarks of the head in calibration.json go in its calibrated expressions, mm at "
         "atlas size; written by tools/calibrate");
-    app::write_text(folder / "landmark_ways.json", text_of(json, 2) + "\n");
+    report::write_text(folder / "landmark_ways.json", text_of(json, 2) + "\n");
 }
 
 }  // namespace risorius::calibrate

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "app/landmark_ways.h"
-#include "calibration.h"
+#include "risorius/scene/landmark_ways.h"
+#include "tools/calibrate/calibration.h"
 
 namespace risorius::calibrate {
 
@@ -15,11 +15,11 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
                   const std::filesystem::path& folder);
 
 /// facs.json: the ARKit shapes among `shapes`, or the unit that one of them is, get the activations found. Sources under `least` are left out.
-void write_shapes(const std::vector<app::MeasuredShape>& shapes, const Result& result,
+void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Result& result,
                   const rig::RigDescription& rig, double least,
                   const std::filesystem::path& folder);
 
 /// landmark_ways.json.
-void write_ways(const app::WayTable& ways, const std::filesystem::path& folder);
+void write_ways(const scene::WayTable& ways, const std::filesystem::path& folder);
 
 }  // namespace risorius::calibrate

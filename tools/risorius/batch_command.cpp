@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/batch.h"
-#include "app/slurm.h"
-#include "commands.h"
-#include "core/error.h"
-#include "core/known_names.h"
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/stimuli/batch.h"
+#include "risorius/stimuli/slurm.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -15,11 +15,11 @@ namespace {
 
 struct BatchArguments {
     Common common;
-    app::BatchOptions options;
+    stimuli::BatchOptions options;
     std::string part;
     bool plan = false, list = false;
     std::string engine = "local";
-    app::SlurmOptions slurm;
+    stimuli::SlurmOptions slurm;
 };
 
 std::string time_text(double seconds) {
@@ -33,7 +33,7 @@ std::string time_text(double seconds) {
     return text;
 }
 
-Json balance_json(const std::string& set, const stimuli::Balance& balance) {
+Json balance_json(const std::string& set, const design::Balance& balance) {
     Json factors = Json::object();
     for (const auto& factor : balance.factors)
         factors[factor.name] = {{"least", factor.least}, {"most", factor.most}};
@@ -46,15 +46,15 @@ Json balance_json(const std::string& set, const stimuli::Balance& balance) {
 }
 
 void tell_plan(const BatchArguments& arguments) {
-    const app::BatchPlan plan = app::plan_batch(arguments.options.design);
+    const stimuli::BatchPlan plan = stimuli::plan_batch(arguments.options.design);
     long frames = 0;
-    for (const app::ClipPlan& clip : plan.clips) frames += clip.frames;
+    for (const stimuli::ClipPlan& clip : plan.clips) frames += clip.frames;
     if (arguments.list) {
-        for (const app::ClipPlan& clip : plan.clips)
+        for (const stimuli::ClipPlan& clip : plan.clips)
             std::printf("%s\n", clip.condition.clip.c_str());
     } else if (arguments.common.json) {
         Json clips = Json::array();
-        for (const app::ClipPlan& clip : plan.clips)
+        for (const stimuli::ClipPlan& clip : plan.clips)
             clips.push_back({{"stim_id", clip.condition.clip},
                              {"set", clip.condition.set},
                              {"control", clip.condition.control.name()},
@@ -83,7 +83,7 @@ void tell_plan(const BatchArguments& arguments) {
 }
 
 // "2/8"
-void read_part(const std::string& text, app::BatchOptions& options) {
+void read_part(const std::string& text, stimuli::BatchOptions& options) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%6d/%6d%c", &options.part, &options.parts, &rest) != 2 ||
         options.parts < 1 || options.part < 1 || options.part > options.parts)
@@ -91,7 +91,7 @@ void read_part(const std::string& text, app::BatchOptions& options) {
 }
 
 void run(BatchArguments& arguments) {
-    app::BatchOptions& options = arguments.options;
+    stimuli::BatchOptions& options = arguments.options;
     if (arguments.plan || arguments.list) return tell_plan(arguments);
     if (options.out.empty()) throw Error("--out", "the folder of the set", "none");
     if (options.workers < 1 || options.workers > 256)
@@ -114,12 +114,12 @@ void run(BatchArguments& arguments) {
             std::printf("%s\n", event.dump().c_str());
             std::fflush(stdout);
         };
-    app::BatchReport report;
+    stimuli::BatchReport report;
     {
         ProgressBar bar(arguments.common);
         report = arguments.engine == "slurm"
-                     ? app::make_batch_on_slurm(options, arguments.slurm, bar.watch())
-                     : app::make_batch(options, bar.watch());
+                     ? stimuli::make_batch_on_slurm(options, arguments.slurm, bar.watch())
+                     : stimuli::make_batch(options, bar.watch());
     }
     if (arguments.common.json) {
         std::printf("%s\n", report.json().dump().c_str());
@@ -151,7 +151,7 @@ void run(BatchArguments& arguments) {
 void add_batch(CLI::App& app) {
     CLI::App* command = app.add_subcommand("batch", "All clips of an experiment's design");
     auto arguments = std::make_shared<BatchArguments>();
-    app::BatchOptions& options = arguments->options;
+    stimuli::BatchOptions& options = arguments->options;
     options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     command->add_option("DESIGN", options.design, "The design")->required();
     command->add_option("-o,--out", options.out,

@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/bench_machine.h"
-#include "app/beside.h"
-#include "app/staged_file.h"
-#include "commands.h"
+#include "risorius/report/beside.h"
+#include "risorius/report/staged_file.h"
+#include "tools/bench/bench_machine.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -13,7 +13,7 @@ namespace {
 
 struct BenchArguments {
     Common common;
-    app::BenchOptions options;
+    bench::BenchOptions options;
     std::filesystem::path out;
     bool only_solids = false;
 };
@@ -138,16 +138,17 @@ void print(const Json& report) {
 
 void run(const BenchArguments& arguments) {
     if (!arguments.out.empty())
-        app::check_overwritten(arguments.out, {"risorius-bench"}, "no file, or an earlier report");
+        report::check_overwritten(arguments.out, {"risorius-bench"},
+                                  "no file, or an earlier report");
     Json report;
-    app::BenchOptions options = arguments.options;
+    bench::BenchOptions options = arguments.options;
     options.faces = !arguments.only_solids;
     {
         ProgressBar bar(arguments.common);
-        report = app::bench_machine(options, bar.watch());
+        report = bench::bench_machine(options, bar.watch());
     }
     const std::string text = report.dump(2) + "\n";
-    if (!arguments.out.empty()) app::write_text(arguments.out, text);
+    if (!arguments.out.empty()) report::write_text(arguments.out, text);
     if (arguments.common.json)
         std::printf("%s", text.c_str());
     else if (!arguments.common.quiet)

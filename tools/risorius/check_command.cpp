@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/check_files.h"
-#include "commands.h"
-#include "core/error.h"
-#include "core/json_cursor.h"
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "tools/risorius/check_files.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -21,7 +21,7 @@ void run(const CheckArguments& arguments) {
     Json report = Json::array();
     int broken = 0;
     for (const std::filesystem::path& file : arguments.files) {
-        const app::CheckResult result = app::check_file(file);
+        const cli::CheckResult result = cli::check_file(file);
         broken += !result.ok();
         if (!result.ok()) std::fprintf(stderr, "risorius: %s\n", result.error.c_str());
         report.push_back({{"file", file.generic_string()},

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
-#include "terminal.h"
+#include "tools/risorius/terminal.h"
 
 namespace risorius::cli {
 
@@ -24,8 +24,5 @@ void add_batch(CLI::App& app);
 
 /// The input is wrong, and what is wrong has been said.
 class SaidAlready : public std::exception {};
-
-/// --quiet and --json.
-void add_common(CLI::App& command, Common& common);
 
 }  // namespace risorius::cli

@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/compare.h"
-#include "commands.h"
-#include "core/error.h"
-#include "render_options.h"
+#include "risorius/animate/compare.h"
+#include "risorius/core/error.h"
+#include "tools/risorius/commands.h"
+#include "tools/risorius/render_options.h"
 
 namespace risorius::cli {
 
@@ -13,7 +13,7 @@ namespace {
 
 struct CompareArguments {
     Common common;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     std::vector<std::filesystem::path> scripts, rigs;
     std::string size;
 };
@@ -26,7 +26,7 @@ void run_compare(CompareArguments& arguments) {
     if (rigs.size() > 2) throw Error("--rig", "at most two of them", std::to_string(rigs.size()));
     if (scripts.size() < 2 && rigs.size() < 2)
         throw Error("compare", "two scripts, or one and two times --rig", "nothing to tell apart");
-    app::AnimateOptions left = arguments.options, right = arguments.options;
+    animate::AnimateOptions left = arguments.options, right = arguments.options;
     left.script = scripts.front();
     right.script = scripts.back();
     if (!rigs.empty()) {
@@ -36,7 +36,7 @@ void run_compare(CompareArguments& arguments) {
     Json record;
     {
         ProgressBar bar(arguments.common);
-        record = app::compare(left, right, bar.watch());
+        record = animate::compare(left, right, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", record.dump(2).c_str());
@@ -50,7 +50,7 @@ void run_compare(CompareArguments& arguments) {
 void add_compare(CLI::App& app) {
     CLI::App* command = app.add_subcommand("compare", "Two scripts or two heads side by side");
     auto arguments = std::make_shared<CompareArguments>();
-    app::AnimateOptions& options = arguments->options;
+    animate::AnimateOptions& options = arguments->options;
     command->add_option("SCRIPT", arguments->scripts, "One script or two: left, right")->required();
     command
         ->add_option("-o,--out", options.out,

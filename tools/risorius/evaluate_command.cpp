@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/compare_heads.h"
-#include "app/evaluate.h"
-#include "commands.h"
-#include "core/error.h"
+#include "risorius/core/error.h"
+#include "risorius/inverse/compare_heads.h"
+#include "risorius/inverse/evaluate.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -14,28 +14,28 @@ namespace {
 
 struct EvaluateArguments {
     Common common;
-    app::EvaluateOptions options;
+    inverse::EvaluateOptions options;
     std::filesystem::path like;
     bool no_pictures = false;
 };
 
-void print(const app::HeadComparison& comparison) {
+void print(const inverse::HeadComparison& comparison) {
     std::printf(
         "%s compared with %s: landmarks of brows, eyes, nose and lips, scaled by head size\n",
         comparison.rig.c_str(), comparison.like.c_str());
     std::printf("  %-20s %10s %7s %7s %6s  %s\n", "", "difference", "cosine", "length", "mm",
                 "most at");
-    for (const app::HeadDifference& one : comparison.expressions)
+    for (const inverse::HeadDifference& one : comparison.expressions)
         std::printf("  %-20s %10.3f %7.3f %7.2f %6.2f  %s\n", one.expression.c_str(),
                     one.difference, one.cosine, one.length_ratio, one.landmark_mm,
                     one.worst.c_str());
     std::printf("  %-20s %10.3f\n", "mean", comparison.mean_difference());
 }
 
-void print_means(const char* what, const app::Evaluation& evaluation,
+void print_means(const char* what, const inverse::Evaluation& evaluation,
                  const std::vector<std::string>& names) {
-    const app::ScoreMeans table = evaluation.means(names, false);
-    const app::ScoreMeans fitted = evaluation.means(names, true);
+    const inverse::ScoreMeans table = evaluation.means(names, false);
+    const inverse::ScoreMeans fitted = evaluation.means(names, true);
     if (table.count == 0) return;
     std::printf("  %-20s %6.3f %6.3f %6.2f %6s %6.2f", what, table.cosine, table.relative,
                 1e3 * table.rms_m, "", 1e3 * table.landmark_m);
@@ -46,7 +46,7 @@ void print_means(const char* what, const app::Evaluation& evaluation,
     std::printf("\n");
 }
 
-void print(const app::Evaluation& evaluation, const app::EvaluateOptions& options) {
+void print(const inverse::Evaluation& evaluation, const inverse::EvaluateOptions& options) {
     std::printf("%s, %d nodes, against %s\n", evaluation.rig.c_str(), evaluation.nodes,
                 evaluation.shapes.c_str());
     std::printf(
@@ -54,11 +54,11 @@ void print(const app::Evaluation& evaluation, const app::EvaluateOptions& option
         "mm\n");
     std::printf("  %-20s %6s %6s %6s %6s %6s%s\n", "by the rig's table", "cos", "rel", "rms", "max",
                 "landm", options.fit ? "   | fitted: cos, rel, rms, max, landm" : "");
-    const auto numbers = [](const app::ExpressionScore& score) {
+    const auto numbers = [](const scene::ExpressionScore& score) {
         std::printf("%6.3f %6.3f %6.2f %6.1f %6.2f", score.cosine, score.relative,
                     1e3 * score.rms_m, 1e3 * score.greatest_m, 1e3 * score.landmark_m);
     };
-    for (const app::EvaluatedExpression& one : evaluation.expressions) {
+    for (const inverse::EvaluatedExpression& one : evaluation.expressions) {
         std::printf("  %-20s ", one.name.c_str());
         numbers(one.table.score);
         if (one.fitted) {
@@ -70,21 +70,21 @@ void print(const app::Evaluation& evaluation, const app::EvaluateOptions& option
         if (!one.table.converged) std::printf("  did not come to rest");
         std::printf("\n");
     }
-    for (const app::ExpressionGroup& group : evaluation.groups())
+    for (const inverse::ExpressionGroup& group : evaluation.groups())
         print_means(("mean of " + group.title).c_str(), evaluation, group.names);
     if (!options.out.empty())
         std::printf("report: %s\n", (options.out / "index.html").generic_string().c_str());
 }
 
 void compare(EvaluateArguments& arguments) {
-    app::HeadComparison comparison;
+    inverse::HeadComparison comparison;
     {
         ProgressBar bar(arguments.common);
-        comparison =
-            app::compare_heads(arguments.options.rig, arguments.like,
-                               arguments.options.only.empty() ? app::twenty_four_expressions()
-                                                              : arguments.options.only,
-                               arguments.options.quality, bar.watch());
+        comparison = inverse::compare_heads(arguments.options.rig, arguments.like,
+                                            arguments.options.only.empty()
+                                                ? inverse::twenty_four_expressions()
+                                                : arguments.options.only,
+                                            arguments.options.quality, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", comparison.json().dump(2).c_str());
@@ -98,10 +98,10 @@ void run(EvaluateArguments& arguments) {
                     arguments.like.empty() ? "neither" : "both");
     if (!arguments.like.empty()) return compare(arguments);
     arguments.options.pictures = !arguments.no_pictures;
-    app::Evaluation evaluation;
+    inverse::Evaluation evaluation;
     {
         ProgressBar bar(arguments.common);
-        evaluation = app::evaluate(arguments.options, bar.watch());
+        evaluation = inverse::evaluate(arguments.options, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", evaluation.json().dump(2).c_str());
@@ -115,7 +115,7 @@ void add_evaluate(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("evaluate", "Simulated expressions against measured ones");
     auto arguments = std::make_shared<EvaluateArguments>();
-    app::EvaluateOptions& options = arguments->options;
+    inverse::EvaluateOptions& options = arguments->options;
     command->add_option("RIG", options.rig, "The rig whose expressions are tried")->required();
     command->add_option("--shapes", options.shapes,
                         "Measured displacements of the vertices of the rig's mesh: JSON beside raw "

@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/figure_page.h"
-#include "app/run_figure.h"
-#include "commands.h"
-#include "core/error.h"
+#include "risorius/core/error.h"
+#include "risorius/figures/figure_page.h"
+#include "risorius/figures/run_figure.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -13,7 +13,7 @@ namespace {
 
 struct FigureArguments {
     Common common;
-    app::FigureOptions options;
+    figures::FigureOptions options;
     bool list = false;
 };
 
@@ -29,17 +29,17 @@ std::string about(double seconds) {
 }
 
 void list(const FigureArguments& arguments) {
-    const auto entries = app::list_figures(arguments.options.from);
+    const auto entries = figures::list_figures(arguments.options.from);
     if (arguments.common.json) {
         Json report = Json::array();
-        for (const app::FigureEntry& entry : entries)
+        for (const figures::FigureEntry& entry : entries)
             report.push_back(
                 {{"id", entry.id}, {"title", entry.title}, {"run_time_s", entry.run_time_s}});
         std::printf("%s\n", report.dump(2).c_str());
         return;
     }
     if (arguments.common.quiet) return;
-    for (const app::FigureEntry& entry : entries)
+    for (const figures::FigureEntry& entry : entries)
         std::printf("%-10s %-60s %s\n", entry.id.c_str(), entry.title.c_str(),
                     about(entry.run_time_s).c_str());
 }
@@ -53,24 +53,24 @@ void print_figure(const Json& figure) {
                 figure["title"].get<std::string>().c_str());
 }
 
-std::string told(const app::FailedCheck& failed) {
-    const experiment::Check& check = failed.check;
+std::string told(const figures::FailedCheck& failed) {
+    const figures::Check& check = failed.check;
     const std::string unit = check.unit.empty() ? "" : " " + check.unit;
-    return failed.figure + ": " + check.name + ": expected " + app::range_text(check) + ", found " +
-           app::short_number(check.measured) + unit;
+    return failed.figure + ": " + check.name + ": expected " + figures::range_text(check) +
+           ", found " + figures::short_number(check.measured) + unit;
 }
 
 void run(const FigureArguments& arguments) {
     if (arguments.list) return list(arguments);
-    const app::FigureOptions& options = arguments.options;
+    const figures::FigureOptions& options = arguments.options;
     if (options.figure.empty()) throw Error("figure", "an id, all, a file or --list", "none");
     if (options.out.empty()) throw Error("figure", "--out", "none");
     if (options.threads < 0 || options.threads > 256)
         throw Error("--threads", "an integer in [0, 256]", std::to_string(options.threads));
-    app::FigureReport report;
+    figures::FigureReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::run_figures(options, bar.watch());
+        report = figures::run_figures(options, bar.watch());
     }
     const std::string page = (options.out / "index.html").generic_string();
     if (arguments.common.json) {
@@ -82,7 +82,7 @@ void run(const FigureArguments& arguments) {
             print_figure(report.results);
         std::printf("%s\n", page.c_str());
     }
-    for (const app::FailedCheck& failed : report.failed)
+    for (const figures::FailedCheck& failed : report.failed)
         std::fprintf(stderr, "risorius: %s\n", told(failed).c_str());
     if (!report.failed.empty())
         throw RunError(std::to_string(report.failed.size()) +

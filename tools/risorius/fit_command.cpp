@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/fit_rig.h"
-#include "commands.h"
-#include "core/error.h"
-#include "rig/head.h"
+#include "risorius/core/error.h"
+#include "risorius/fitting/fit_rig.h"
+#include "risorius/rig/head.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -13,7 +13,7 @@ namespace {
 
 struct FitArguments {
     Common common;
-    app::FitOptions options;
+    fitting::FitOptions options;
     std::vector<std::string> parts;
     std::string tables = "inline";
     bool no_calibrate = false, muscles_apart = false;
@@ -39,7 +39,7 @@ std::string joined(const std::vector<std::string>& list, std::size_t most = 1000
     return out;
 }
 
-void print(const app::FitReport& report) {
+void print(const fitting::FitReport& report) {
     std::printf("%s\n", report.out.string().c_str());
     std::printf("  unit        %g m%s\n", report.metres_per_unit,
                 report.guessed_unit ? ", told from the landmarks" : "");
@@ -60,7 +60,7 @@ void print(const app::FitReport& report) {
                 report.bone.thinnest_mm, report.bone.thickest_mm, report.bone.mean_mm);
     if (!report.strengths.empty())
         std::printf("\n  %-40s %8s %8s %8s\n", "muscle", "strength", "length", "target");
-    for (const app::MuscleStrength& m : report.strengths)
+    for (const fitting::MuscleStrength& m : report.strengths)
         std::printf("  %-40s %8.2f %8.2f %8.2f%s%s\n", m.muscle.c_str(), m.strength, m.stretch,
                     m.target_stretch, m.at_limit ? "  at the limit" : "",
                     m.converged ? "" : "  did not come to rest");
@@ -80,10 +80,10 @@ void run(FitArguments& arguments) {
     arguments.options.inline_tables = arguments.tables == "inline";
     arguments.options.calibrate = !arguments.no_calibrate;
     arguments.options.together = !arguments.muscles_apart;
-    app::FitReport report;
+    fitting::FitReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::fit_rig(arguments.options, bar.watch());
+        report = fitting::fit_rig(arguments.options, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());
@@ -96,7 +96,7 @@ void run(FitArguments& arguments) {
 void add_fit(CLI::App& app) {
     CLI::App* command = app.add_subcommand("fit", "A face mesh with landmarks to a muscle rig");
     auto arguments = std::make_shared<FitArguments>();
-    app::FitOptions& options = arguments->options;
+    fitting::FitOptions& options = arguments->options;
     command->add_option("MESH", options.mesh, "The face: OBJ, PLY, glTF, FBX, ...")->required();
     command->add_option("--landmarks", options.landmarks, "Where its landmarks are")->required();
     command->add_option("-o,--out", options.out, "The rig to write")->required();

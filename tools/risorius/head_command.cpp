@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/sculpt_head.h"
-#include "commands.h"
-#include "core/error.h"
+#include "risorius/core/error.h"
+#include "risorius/headmodel/sculpt_head.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -12,24 +12,24 @@ namespace {
 
 struct HeadArguments {
     Common common;
-    app::IdentityChoice choice;
-    app::SculptOptions options;
+    headmodel::IdentityChoice choice;
+    headmodel::SculptOptions options;
 };
 
 void run(HeadArguments& arguments) {
-    arguments.options.identity = app::chosen_identity(arguments.choice);
+    arguments.options.identity = headmodel::chosen_identity(arguments.choice);
     if (!arguments.choice.identity.empty()) arguments.options.place = arguments.choice.identity;
-    app::SculptReport report;
+    headmodel::SculptReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::sculpt_head(arguments.options, bar.watch());
+        report = headmodel::sculpt_head(arguments.options, bar.watch());
     }
     if (arguments.common.json) {
         std::printf("%s\n", report.json().dump(2).c_str());
     } else if (!arguments.common.quiet) {
         std::printf("%s: %s\n", report.out.string().c_str(), report.identity.name.c_str());
         for (const std::string& file : report.files) std::printf("  %s\n", file.c_str());
-        std::printf("%s", sculpt::quality_report(report.quality).c_str());
+        std::printf("%s", headmodel::quality_report(report.quality).c_str());
         for (const std::string& note : report.notes) std::printf("note: %s\n", note.c_str());
     }
 }
@@ -43,13 +43,14 @@ std::string listed(const std::vector<std::string>& names) {
 std::string footer() {
     std::string text;
     try {
-        const auto tables = sculpt::read_design_tables(sculpt::models_folder() / "adult/design");
-        text = "Identities:" + listed(sculpt::named_identities()) +
+        const auto tables =
+            headmodel::read_design_tables(headmodel::models_folder() / "adult/design");
+        text = "Identities:" + listed(headmodel::named_identities()) +
                "\nShapes, in standard deviations from -2 to 2:" +
-               listed(sculpt::shape_parameters(tables)) +
-               "\nSkin:" + listed(sculpt::tone_names(tables, "skin")) +
-               "; iris:" + listed(sculpt::tone_names(tables, "iris")) +
-               "; hair:" + listed(sculpt::tone_names(tables, "hair")) + "\n";
+               listed(headmodel::shape_parameters(tables)) +
+               "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
+               "; iris:" + listed(headmodel::tone_names(tables, "iris")) +
+               "; hair:" + listed(headmodel::tone_names(tables, "hair")) + "\n";
     } catch (const Error& error) {
         text = std::string(error.what()) + "\n";
     }
@@ -64,7 +65,7 @@ void add_head(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "head", "A head of your own making, with its rig: average, named or drawn");
     auto arguments = std::make_shared<HeadArguments>();
-    app::IdentityChoice& choice = arguments->choice;
+    headmodel::IdentityChoice& choice = arguments->choice;
     command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
     command->add_option("--identity", choice.identity,
                         "A name of models/identities, or a file like them (.json)");

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/rig_info.h"
-#include "commands.h"
+#include "tools/risorius/commands.h"
+#include "tools/risorius/rig_info.h"
 
 namespace risorius::cli {
 
@@ -54,7 +54,7 @@ void print_rig(const Json& info) {
 }
 
 void run(const InfoArguments& arguments) {
-    const Json info = app::rig_info(arguments.rig);
+    const Json info = cli::rig_info(arguments.rig);
     if (arguments.common.json)
         std::printf("%s\n", info.dump(2).c_str());
     else if (!arguments.common.quiet)

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "app/watch.h"
-#include "commands.h"
-#include "core/error.h"
-#include "core/known_names.h"
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/core/version.h"
+#include "risorius/core/watch.h"
+#include "tools/risorius/commands.h"
 
 namespace {
 
@@ -85,7 +86,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
 int main(int argc, char** argv) {
     using namespace risorius;
     CLI::App app("Faces moved by muscles: from a script to a video.", "risorius");
-    app.set_version_flag("--version", "risorius " RISORIUS_VERSION);
+    app.set_version_flag("--version", std::string("risorius ") + risorius::kVersion);
     app.require_subcommand(1);
     app.footer("risorius COMMAND --help explains a command and gives an example.");
     cli::add_render(app);
@@ -111,19 +112,10 @@ int main(int argc, char** argv) {
         return say(kWrongInput, error.what());
     } catch (const cli::SaidAlready&) {
         return kWrongInput;
-    } catch (const app::Interrupted&) {
+    } catch (const Interrupted&) {
         return say(kInterrupted, "interrupted, nothing was written");
     } catch (const std::exception& error) {
         return say(kFailed, error.what());
     }
     return kDone;
 }
-
-namespace risorius::cli {
-
-void add_common(CLI::App& command, Common& common) {
-    command.add_flag("--quiet", common.quiet, "Say nothing but errors");
-    command.add_flag("--json", common.json, "The report as JSON on standard output");
-}
-
-}  // namespace risorius::cli

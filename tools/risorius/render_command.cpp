@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/animate.h"
-#include "commands.h"
-#include "render_options.h"
+#include "risorius/animate/animate.h"
+#include "tools/risorius/commands.h"
+#include "tools/risorius/render_options.h"
 
 namespace risorius::cli {
 
@@ -12,16 +12,16 @@ namespace {
 
 struct RenderArguments {
     Common common;
-    app::AnimateOptions options;
+    animate::AnimateOptions options;
     std::string size;
 };
 
 void run(RenderArguments& arguments) {
     settle_view(arguments.options, arguments.size);
-    app::RunRecord record;
+    animate::RunRecord record;
     {
         ProgressBar bar(arguments.common);
-        record = app::animate(arguments.options, bar.watch());
+        record = animate::animate(arguments.options, bar.watch());
     }
     if (arguments.common.json) {
         std::printf("%s\n", record.json().dump(2).c_str());
@@ -39,7 +39,7 @@ void run(RenderArguments& arguments) {
         record.timing.draw_s, record.timing.encode_s);
 }
 
-void add_marks(CLI::App& command, app::SyncMarks& marks) {
+void add_marks(CLI::App& command, animate::SyncMarks& marks) {
     constexpr const char* kMarks = "Marks for machines that watch the screen";
     command
         .add_option("--photodiode", marks.photodiode,
@@ -71,7 +71,7 @@ void add_marks(CLI::App& command, app::SyncMarks& marks) {
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
     auto arguments = std::make_shared<RenderArguments>();
-    app::AnimateOptions& options = arguments->options;
+    animate::AnimateOptions& options = arguments->options;
     command->add_option("SCRIPT", options.script, "The script")->required();
     command
         ->add_option(

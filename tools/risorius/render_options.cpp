@@ -1,23 +1,23 @@
-#include "render_options.h"
+#include "tools/risorius/render_options.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <thread>
 
-#include "core/error.h"
-#include "render/gl_choice.h"
+#include "risorius/core/error.h"
+#include "risorius/render/gl_choice.h"
 
 namespace risorius::cli {
 
-app::PictureSize size_from(const std::string& text) {
-    app::PictureSize size;
+animate::PictureSize size_from(const std::string& text) {
+    animate::PictureSize size;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width_px, &size.height_px, &rest) != 2)
         throw Error("--size", "WIDTHxHEIGHT in pixels, as 1024x1024", "\"" + text + "\"");
     return size;
 }
 
-void add_coding(CLI::App& command, app::AnimateOptions& options) {
+void add_coding(CLI::App& command, animate::AnimateOptions& options) {
     constexpr const char* kCoding = "How the video is coded";
     media::VideoOptions& video = options.video;
     command
@@ -63,7 +63,7 @@ void add_coding(CLI::App& command, app::AnimateOptions& options) {
         ->group(kCoding);
 }
 
-void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size) {
+void add_view(CLI::App& command, animate::AnimateOptions& options, std::string& size) {
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
     command.add_option("--size", size, "Another size of the picture, as 1024x1024");
     command.add_option("--camera", options.camera,
@@ -97,7 +97,7 @@ void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size
         ->capture_default_str();
 }
 
-void settle_view(app::AnimateOptions& options, const std::string& size) {
+void settle_view(animate::AnimateOptions& options, const std::string& size) {
     if (options.threads < 1 || options.threads > 256)
         throw Error("--threads", "an integer in [1, 256]", std::to_string(options.threads));
     if (!size.empty()) options.size = size_from(size);

@@ -4,17 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "app/animate.h"
+#include "risorius/animate/animate.h"
 
 namespace risorius::cli {
 
 /// "1024x1024". Throws Error.
-app::PictureSize size_from(const std::string& text);
+animate::PictureSize size_from(const std::string& text);
 
-void add_coding(CLI::App& command, app::AnimateOptions& options);
+void add_coding(CLI::App& command, animate::AnimateOptions& options);
 /// --size, --camera, --quality, --threads.
-void add_view(CLI::App& command, app::AnimateOptions& options, std::string& size);
+void add_view(CLI::App& command, animate::AnimateOptions& options, std::string& size);
 /// After parsing: checks the number of threads and takes over the size.
-void settle_view(app::AnimateOptions& options, const std::string& size);
+void settle_view(animate::AnimateOptions& options, const std::string& size);
 
 }  // namespace risorius::cli

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/bake_shapes.h"
-#include "commands.h"
-#include "core/error.h"
+#include "risorius/blendshapes/bake_shapes.h"
+#include "risorius/core/error.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -12,7 +12,7 @@ namespace {
 
 struct ShapesArguments {
     Common common;
-    app::ShapesOptions options;
+    blendshapes::ShapesOptions options;
     bool no_pictures = false;
 };
 
@@ -23,14 +23,14 @@ std::string shown_mm(const std::optional<double>& metres) {
     return text;
 }
 
-void print(const app::ShapesReport& report, const app::ShapesOptions& options) {
+void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOptions& options) {
     std::printf("%s, %s: %zu shapes of %d vertices, solved in %.0f s (%d nodes, %s)\n",
                 report.rig.c_str(), report.set.c_str(), report.shapes.list.size(), report.vertices,
                 report.solving_s, report.nodes, report.quality.c_str());
     std::printf("  %-40s %7s %8s %6s %6s %6s %6s %7s\n", "mm, volume in %, stretch a ratio", "peak",
                 "volume", "lip", "eye", "lids", "sides", "stretch");
-    for (const app::MadeShape& made : report.shapes.list) {
-        const app::ShapeCertificate& of = made.certificate;
+    for (const blendshapes::MadeShape& made : report.shapes.list) {
+        const blendshapes::ShapeCertificate& of = made.certificate;
         std::printf("  %-40s %7s %+6.2f %% %6s %6s %6s %6s %7.2f", made.goal.name.c_str(),
                     shown_mm(of.peak_m).c_str(), 100 * of.volume_change,
                     shown_mm(of.lip_depth_m).c_str(), shown_mm(of.eye_depth_m).c_str(),
@@ -47,7 +47,7 @@ void print(const app::ShapesReport& report, const app::ShapesOptions& options) {
                     ? "all within the limits of the certificate"
                     : (std::to_string(beyond) + " beyond a limit of the certificate").c_str(),
                 1e3 * report.shapes.halves_error_m);
-    for (const app::TrackError& track : report.tracks)
+    for (const blendshapes::TrackError& track : report.tracks)
         std::printf(
             "%s, %d frames: linear rig off the simulation by %.2f mm RMS, %.2f at most; "
             "without correctives %.2f, %.2f; %.2f ms a frame\n",
@@ -68,10 +68,10 @@ void run(ShapesArguments& arguments) {
         throw Error("--threads", "an integer in [0, 256]",
                     std::to_string(arguments.options.threads));
     arguments.options.pictures = !arguments.no_pictures;
-    app::ShapesReport report;
+    blendshapes::ShapesReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::bake_shapes(arguments.options, bar.watch());
+        report = blendshapes::bake_shapes(arguments.options, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());
@@ -85,7 +85,7 @@ void add_shapes(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("shapes", "Blend shapes from physics, with a certificate");
     auto arguments = std::make_shared<ShapesArguments>();
-    app::ShapesOptions& options = arguments->options;
+    blendshapes::ShapesOptions& options = arguments->options;
     command->add_option("RIG", options.rig, "The rig whose face is to have blend shapes")
         ->required();
     command

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/sheet.h"
-#include "commands.h"
-#include "render_options.h"
+#include "risorius/animate/sheet.h"
+#include "tools/risorius/commands.h"
+#include "tools/risorius/render_options.h"
 
 namespace risorius::cli {
 
@@ -12,7 +12,7 @@ namespace {
 
 struct SheetArguments {
     Common common;
-    app::SheetOptions options;
+    animate::SheetOptions options;
     std::string size = "256x256";
 };
 
@@ -21,7 +21,7 @@ void run_sheet(SheetArguments& arguments) {
     Json record;
     {
         ProgressBar bar(arguments.common);
-        record = app::make_sheet(arguments.options, bar.watch());
+        record = animate::make_sheet(arguments.options, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", record.dump(2).c_str());
@@ -36,7 +36,7 @@ void add_sheet(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("sheet", "Moments of scripts on one picture, a row per script and head");
     auto arguments = std::make_shared<SheetArguments>();
-    app::SheetOptions& options = arguments->options;
+    animate::SheetOptions& options = arguments->options;
     command->add_option("SCRIPT", options.scripts, "One script or more")->required();
     command->add_option("--times", options.times_s, "Moments, seconds, with commas: a column each")
         ->delimiter(',')

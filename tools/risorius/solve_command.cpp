@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/solve_activations.h"
-#include "commands.h"
-#include "core/error.h"
+#include "risorius/core/error.h"
+#include "risorius/inverse/solve_activations.h"
+#include "tools/risorius/commands.h"
 
 namespace risorius::cli {
 
@@ -12,14 +12,14 @@ namespace {
 
 struct SolveArguments {
     Common common;
-    app::SolveOptions options;
+    inverse::SolveOptions options;
 };
 
-void print(const app::SolveReport& report, const app::SolveOptions& options) {
+void print(const inverse::SolveReport& report, const inverse::SolveOptions& options) {
     std::printf("%s: %zu %s of %s, %d points\n", report.rig.c_str(), report.solved.size(),
                 report.sequence ? "frames" : "shapes", report.given.c_str(), report.points);
     std::printf("  %-24s %9s %9s %9s %8s\n", "mm", "given rms", "left rms", "left max", "highest");
-    for (const app::SolvedDrive& one : report.solved)
+    for (const inverse::SolvedDrive& one : report.solved)
         std::printf("  %-24s %9.3f %9.3f %9.3f %8.2f\n", one.name.c_str(), 1e3 * one.given_rms_m,
                     1e3 * one.rms_m, 1e3 * one.greatest_m, one.highest);
     std::printf("all: %.3f mm RMS left; script: %s\n", 1e3 * report.rms_m(),
@@ -30,10 +30,10 @@ void run(SolveArguments& arguments) {
     if (arguments.options.threads < 0 || arguments.options.threads > 256)
         throw Error("--threads", "an integer in [0, 256]",
                     std::to_string(arguments.options.threads));
-    app::SolveReport report;
+    inverse::SolveReport report;
     {
         ProgressBar bar(arguments.common);
-        report = app::solve_activations(arguments.options, bar.watch());
+        report = inverse::solve_activations(arguments.options, bar.watch());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());
@@ -47,7 +47,7 @@ void add_solve(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("solve", "Shapes, or landmarks over time, to muscle activations");
     auto arguments = std::make_shared<SolveArguments>();
-    app::SolveOptions& options = arguments->options;
+    inverse::SolveOptions& options = arguments->options;
     command->add_option("RIG", options.rig, "The rig whose muscles are sought")->required();
     command
         ->add_option("-o,--out", options.out,

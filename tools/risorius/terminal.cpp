@@ -1,7 +1,8 @@
-#include "terminal.h"
+#include "tools/risorius/terminal.h"
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -37,7 +38,7 @@ ProgressBar::~ProgressBar() {
     if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
 }
 
-app::Watch ProgressBar::watch() {
+Watch ProgressBar::watch() {
     return {.progress = [this](double share, const std::string& what) { show(share, what); },
             .stopped = [] { return interrupted != 0; }};
 }
@@ -66,6 +67,11 @@ void ProgressBar::show(double share, const std::string& what) {
     else
         std::fprintf(stderr, "%3d %%  %s  %s\n", percent, left.c_str(), what.c_str());
     std::fflush(stderr);
+}
+
+void add_common(CLI::App& command, Common& common) {
+    command.add_flag("--quiet", common.quiet, "Print errors only");
+    command.add_flag("--json", common.json, "Print the report as JSON on standard output");
 }
 
 }  // namespace risorius::cli

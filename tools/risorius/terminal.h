@@ -5,7 +5,11 @@
 #include <mutex>
 #include <string>
 
-#include "app/watch.h"
+#include "risorius/core/watch.h"
+
+namespace CLI {
+class App;
+}
 
 namespace risorius::cli {
 
@@ -15,6 +19,9 @@ struct Common {
     bool json = false;   ///< the report as JSON on standard output
 };
 
+/// Adds --quiet and --json to a command.
+void add_common(CLI::App& command, Common& common);
+
 /// Lets SIGINT and SIGTERM end the run between two frames instead of killing it.
 void catch_interrupts();
 
@@ -23,7 +30,7 @@ class ProgressBar {
   public:
     explicit ProgressBar(const Common& common);
     ~ProgressBar();
-    app::Watch watch();
+    Watch watch();
 
   private:
     void show(double share, const std::string& what);

@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <string>
 
-#include "core/error.h"
-#include "sculpt/head_quality.h"
+#include "risorius/core/error.h"
+#include "risorius/headmodel/head_quality.h"
 
 int main(int argc, char** argv) {
-    std::filesystem::path design = risorius::sculpt::models_folder() / "adult/design", output;
+    std::filesystem::path design = risorius::headmodel::models_folder() / "adult/design", output;
     for (int k = 1; k < argc; ++k) {
         const std::string flag = argv[k];
         if (flag == "--output" && k + 1 < argc) {
@@ -23,15 +23,15 @@ int main(int argc, char** argv) {
         }
     }
     try {
-        const auto tables = risorius::sculpt::read_design_tables(design);
-        const auto model = risorius::sculpt::make_head(tables);
+        const auto tables = risorius::headmodel::read_design_tables(design);
+        const auto model = risorius::headmodel::make_head(tables);
         if (!output.empty()) {
             std::filesystem::create_directories(output);
-            risorius::sculpt::write_head(model, output);
+            risorius::headmodel::write_head(model, output);
         }
-        std::printf("%s",
-                    risorius::sculpt::quality_report(risorius::sculpt::head_quality(model, tables))
-                        .c_str());
+        std::printf("%s", risorius::headmodel::quality_report(
+                              risorius::headmodel::head_quality(model, tables))
+                              .c_str());
         return 0;
     } catch (const risorius::Error& error) {
         std::fprintf(stderr, "sculpt: %s\n", error.what());

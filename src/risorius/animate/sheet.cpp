@@ -1,0 +1,156 @@
+#include "risorius/animate/sheet.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "risorius/animate/film.h"
+#include "risorius/animate/studio.h"
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/media/image_file.h"
+#include "risorius/report/beside.h"
+#include "risorius/report/contact_sheet.h"
+#include "risorius/report/staged_file.h"
+
+namespace risorius::animate {
+
+namespace {
+
+constexpr int kMostPictures = 400;
+
+void check_sheet(const SheetOptions& options) {
+    if (options.out.extension() != ".png")
+        throw Error(options.out.string(), "an ending of .png",
+                    "\"" + options.out.extension().string() + "\"");
+    if (options.times_s.empty()) throw Error("--times", "at least one time in seconds", "none");
+    const std::size_t pictures = options.scripts.size() * options.times_s.size() *
+                                 std::max<std::size_t>(1, options.cameras.size()) *
+                                 std::max<std::size_t>(1, options.rigs.size());
+    if (pictures > kMostPictures)
+        throw Error("--times", "at most " + std::to_string(kMostPictures) + " pictures on a sheet",
+                    std::to_string(pictures));
+    for (const std::string& camera : options.cameras)
+        index_of_name("--cameras", camera, render::camera_names());
+    report::check_record(report::beside(options.out, ".json"));
+}
+
+/// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the folder where all files have one name.
+std::string short_name(const std::filesystem::path& file, const char* usual) {
+    const std::string stem = file.stem().string();
+    const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
+    return stem == usual ? folder : stem;
+}
+
+/// As large as fits into a picture of the sheet, on white.
+Image fitted(const Image& picture, int width_px, int height_px) {
+    const double scale = std::min({static_cast<double>(width_px) / picture.width_px,
+                                   static_cast<double>(height_px) / picture.height_px, 1.0});
+    const auto scaled = [&](int side) { return std::max(1, static_cast<int>(scale * side)); };
+    const Image small =
+        report::shrunk(picture, scaled(picture.width_px), scaled(picture.height_px));
+    Image out(width_px, height_px);
+    std::fill(out.rgba.begin(), out.rgba.end(), std::uint8_t{255});
+    const int left = (width_px - small.width_px) / 2, top = (height_px - small.height_px) / 2;
+    for (int y = 0; y < small.height_px; ++y)
+        std::copy_n(small.pixel(0, y), 4 * small.width_px, out.pixel(left, top + y));
+    return out;
+}
+
+/// Of pictures from elsewhere, as many to a row as the sheet has columns.
+std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::path>& files,
+                                            std::size_t columns, int width_px, int height_px) {
+    std::vector<report::ContactRow> rows;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (i % columns == 0) rows.emplace_back();
+        report::ContactRow& row = rows.back();
+        row.name = "beside";
+        row.numbers += (row.numbers.empty() ? "" : ", ") + files[i].stem().string();
+        row.pictures.push_back(fitted(media::read_png(files[i]), width_px, height_px));
+    }
+    Image blank(width_px, height_px);
+    std::fill(blank.rgba.begin(), blank.rgba.end(), std::uint8_t{255});
+    while (!rows.empty() && rows.back().pictures.size() < columns)
+        rows.back().pictures.push_back(blank);
+    return rows;
+}
+
+std::vector<AnimateOptions> runs_of(const SheetOptions& options) {
+    std::vector<AnimateOptions> runs;
+    for (const std::filesystem::path& script : options.scripts) {
+        AnimateOptions run = options.view;
+        run.script = script;
+        run.out = options.out;
+        run.times_s = options.times_s;
+        std::sort(run.times_s.begin(), run.times_s.end());
+        if (options.rigs.empty()) runs.push_back(run);
+        for (const std::filesystem::path& rig : options.rigs) {
+            run.rig = rig;
+            runs.push_back(run);
+        }
+    }
+    return runs;
+}
+
+}  // namespace
+
+Json make_sheet(const SheetOptions& options, const Watch& watch) {
+    check_sheet(options);
+    const std::vector<AnimateOptions> runs = runs_of(options);
+    std::vector<Shot> shots;
+    for (const AnimateOptions& run : runs) shots.push_back(plan_shot(run));
+    for (Shot& shot : shots) {  // one size on a sheet
+        shot.view.width_px = shots.front().view.width_px;
+        shot.view.height_px = shots.front().view.height_px;
+    }
+
+    report::ContactSheet sheet;
+    std::vector<std::string> cameras = options.cameras;
+    if (cameras.empty()) cameras = {shots.front().view.camera};
+    for (const std::string& camera : cameras)
+        for (const double time_s : options.times_s)
+            sheet.columns.push_back(options.cameras.empty() ? format_number(time_s) + " s"
+                                    : options.times_s.size() > 1
+                                        ? camera + ", " + format_number(time_s) + " s"
+                                        : camera);
+    const std::vector<report::ContactRow> others =
+        rows_beside(options.beside, sheet.columns.size(), shots.front().view.width_px,
+                    shots.front().view.height_px);
+    Json record{{"format", "risorius-sheet"}, {"version", 1}, {"runs", Json::array()}};
+    Studio studio;
+    double begun = 0;
+    const double all = static_cast<double>(runs.size() * cameras.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        report::ContactRow row;
+        row.name = short_name(runs[i].script, "script");
+        for (const std::string& camera : cameras) {
+            if (!options.cameras.empty()) shots[i].view.camera = camera;
+            std::vector<Image> pictures;
+            FilmExtras extras;
+            Watch part = watch;
+            if (watch.progress)
+                part.progress = [&](double share, const std::string& what) {
+                    watch.progress((begun + share) / all, what);
+                };
+            const RunRecord run = film(
+                runs[i], shots[i], [&](Image image) { pictures.push_back(std::move(image)); },
+                extras, part, studio);
+            record["runs"].push_back(run.json());
+            row.numbers = short_name(run.rig.path, "rig");
+            for (const double time_s : options.times_s) {
+                const auto at =
+                    std::lower_bound(runs[i].times_s.begin(), runs[i].times_s.end(), time_s);
+                row.pictures.push_back(
+                    pictures[static_cast<std::size_t>(at - runs[i].times_s.begin())]);
+            }
+            begun += 1;
+        }
+        sheet.rows.push_back(std::move(row));
+    }
+    sheet.rows.insert(sheet.rows.end(), others.begin(), others.end());
+    report::StagedFile staged(report::beside(options.out, ".json"), record.dump(2) + "\n");
+    media::write_png(report::draw_contact_sheet(sheet), options.out);
+    staged.commit();
+    return record;
+}
+
+}  // namespace risorius::animate

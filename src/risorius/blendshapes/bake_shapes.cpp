@@ -1,0 +1,309 @@
+#include "risorius/blendshapes/bake_shapes.h"
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "risorius/blendshapes/detail/random_weights.h"
+#include "risorius/blendshapes/detail/shape_files.h"
+#include "risorius/blendshapes/detail/shapes_page.h"
+#include "risorius/core/known_names.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/report/stopwatch.h"
+
+namespace risorius::blendshapes {
+
+namespace {
+
+Json shape_json(const MadeShape& made, const std::vector<MadeShape>& all) {
+    Json out{{"name", made.goal.name}};
+    if (made.goal.partner >= 0) {
+        out["partner"] = all[static_cast<std::size_t>(made.goal.partner)].goal.name;
+        out["half_of"] = made.goal.sides == Sides::kHalves ? Json(made.goal.whole) : Json();
+    }
+    if (made.goal.on_top_of >= 0) {
+        out["on_top_of"] = all[static_cast<std::size_t>(made.goal.on_top_of)].goal.name;
+        out["solved_at"] = made.solved_at;
+    }
+    out["certificate"] = made.certificate.json();
+    return out;
+}
+
+// The greatest of every number over all shapes.
+Json worst_of(const MadeShapes& shapes) {
+    Json out = Json::object();
+    const auto greatest = [&](const char* name, auto&& value) {
+        double worst = 0;
+        bool known = false;
+        for (const MadeShape& made : shapes.list)
+            if (const std::optional<double> one = value(made.certificate)) {
+                worst = std::max(worst, *one);
+                known = true;
+            }
+        out[name] = known ? Json(worst) : Json();
+    };
+    using C = const ShapeCertificate&;
+    using Maybe = std::optional<double>;
+    const auto mm = [](const Maybe& m) { return m ? Maybe(1e3 * *m) : Maybe(); };
+    greatest("volume_change", [](C c) { return Maybe(std::abs(c.volume_change)); });
+    greatest("lip_depth_mm", [&](C c) { return mm(c.lip_depth_m); });
+    greatest("eye_depth_mm", [&](C c) { return mm(c.eye_depth_m); });
+    greatest("bone_depth_mm", [&](C c) { return mm(c.bone_depth_m); });
+    greatest("lid_gap_mm", [&](C c) { return mm(c.lid_gap_m); });
+    greatest("asymmetry_mm", [&](C c) { return mm(c.asymmetry_m); });
+    greatest("largest_stretch", [](C c) { return Maybe(c.stretch.greatest); });
+    out["halves_sum_error_mm"] = 1e3 * shapes.halves_error_m;
+    return out;
+}
+
+constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // any would do, if they are not the same
+constexpr long kFittedOfScript = 24;
+
+Json correctives_json(const Correctives& found) {
+    Json kept = Json::array(), terms = Json::array(), tried = Json::array();
+    for (const blendshapes::Corrective& one : found.rig.correctives)
+        kept.push_back({{"name", one.name}, {"vertices", one.shape.vertex.size()}});
+    for (const blendshapes::Term& term : found.rig.terms) terms.push_back(term.name);
+    for (const TriedCorrective& one : found.tried)
+        tried.push_back({{"name", one.name},
+                         {"max_mm", 1e3 * one.greatest_m},
+                         {"rms_mm", 1e3 * one.rms_m},
+                         {"at_rest", one.at_rest},
+                         {"put_right", one.put_right}});
+    return {{"kept", kept}, {"terms", terms}, {"tried", tried}, {"bytes", found.bytes}};
+}
+
+Json tracks_json(const std::vector<TrackError>& tracks) {
+    Json out = Json::array();
+    for (const TrackError& track : tracks)
+        out.push_back({{"name", track.name},
+                       {"frames", track.frames},
+                       {"rms_mm", 1e3 * track.rms_m},
+                       {"max_mm", 1e3 * track.greatest_m},
+                       {"worst_frame", track.frame_of(track.worst)},
+                       {"worst_vertex", track.worst_vertex},
+                       {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
+                       {"max_without_correctives_mm", 1e3 * track.plain_greatest_m}});
+    return out;
+}
+
+/// So many of a track's frames, evenly.
+std::vector<long> some_frames(long all, int wanted) {
+    std::vector<long> out;
+    const long count = std::min<long>(all, wanted);
+    for (long i = 0; i < count; ++i) out.push_back((2 * i + 1) * all / (2 * count));
+    return out;
+}
+
+bool wants(const ShapesOptions& options, const char* format) {
+    return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(),
+                                                format) != options.formats.end();
+}
+
+// Blend shapes do not turn the head.
+track::Drive unturned(track::Drive drive) {
+    for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
+         k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
+        drive.kinematic[static_cast<std::size_t>(k)] = 0;
+    return drive;
+}
+
+// Frames that correctives are to be good for: of the script, and of a set of action units such as meet in faces.
+ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable& channels,
+                           int random_frames) {
+    ScriptFrames out;
+    const auto shapes = static_cast<long>(report.shapes.list.size());
+    const std::vector<Eigen::VectorXd> random =
+        random_facs_track(report.shapes, random_frames, kFitSeed);
+    const long scripted = report.animation ? report.animation->weights.rows() : 0;
+    out.weights.resize(scripted + static_cast<long>(random.size()), shapes);
+    if (scripted > 0) out.weights.topRows(scripted) = report.animation->weights;
+    // From the first one on: between the frames that the rig is compared at
+    const long some = std::min(kFittedOfScript, scripted);
+    for (long i = 0; i < some; ++i) {
+        out.simulated.push_back(i * scripted / some);
+        out.drives.push_back(
+            unturned(report.animation->drives[static_cast<std::size_t>(out.simulated.back())]));
+    }
+    for (const Eigen::VectorXd& frame : random) {
+        const long at = scripted + static_cast<long>(out.simulated.size()) - some;
+        out.weights.row(at) = frame.transpose();
+        out.simulated.push_back(at);
+        out.drives.push_back(drive_of_weights(report.shapes, frame, channels));
+    }
+    return out;
+}
+
+// The linear rig against the simulation, frame by frame.
+std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const ShapeSolver& solver,
+                                       const ShapesOptions& options, const ShapesReport& report,
+                                       const Watch& watch) {
+    const track::ChannelTable channels = files.rig.channels();
+    struct Track {
+        std::string name;
+        std::vector<Eigen::VectorXd> weights;
+        std::vector<track::Drive> drives = {};
+        std::vector<long> frames = {};
+    };
+    std::vector<Track> tracks;
+    tracks.push_back(
+        {"random weights", random_weights(report.shapes, options.test_frames, kTestSeed)});
+    std::vector<Eigen::VectorXd> facs =
+        random_facs_track(report.shapes, options.test_frames, kTestSeed);
+    if (!facs.empty()) tracks.push_back({"random FACS track", std::move(facs)});
+    for (Track& track : tracks)
+        for (const Eigen::VectorXd& one : track.weights)
+            track.drives.push_back(drive_of_weights(report.shapes, one, channels));
+    if (report.animation) {
+        const ShapeAnimation& script = *report.animation;
+        Track& track = tracks.emplace_back(Track{script.name, {}});
+        track.frames = some_frames(script.weights.rows(), options.test_frames);
+        for (const long f : track.frames) {
+            track.weights.push_back(script.weights.row(f).transpose());
+            track.drives.push_back(unturned(script.drives[static_cast<std::size_t>(f)]));
+        }
+    }
+    std::vector<TrackError> out;
+    const auto all = static_cast<double>(tracks.size());
+    for (const Track& track : tracks) {
+        const auto done = static_cast<double>(out.size());
+        out.push_back(track_error(track.name, report.correctives.rig, solver, track.drives,
+                                  track.weights, watch.part(done / all, (done + 1) / all)));
+        out.back().of_track = track.frames;
+    }
+    return out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& shape_formats() {
+    static const std::vector<std::string> kNames{"glb", "obj", "table", "csv", "cache"};
+    return kNames;
+}
+
+int ShapesReport::complaints() const {
+    return static_cast<int>(std::count_if(
+        shapes.list.begin(), shapes.list.end(),
+        [](const MadeShape& made) { return !made.certificate.complaints().empty(); }));
+}
+
+Json ShapesReport::json() const {
+    const ShapeLimits limits;
+    Json list = Json::array(), left = Json::object(), bytes = Json::object();
+    for (const MadeShape& made : shapes.list) list.push_back(shape_json(made, shapes.list));
+    for (const auto& [shape, why] : left_out) left[shape] = why;
+    for (const auto& [file, size] : sizes) bytes[file] = size;
+    return {{"format", "risorius-shapes-certificate"},
+            {"version", 1},
+            {"name", name},
+            {"rig", rig},
+            {"set", set},
+            {"quality", quality},
+            {"vertices", vertices},
+            {"nodes", nodes},
+            {"mirrored", shapes.mirrored},
+            {"limits",
+             {{"volume_change", limits.volume_ratio},
+              {"penetration_mm", 1e3 * limits.penetration_m},
+              {"lid_gap_mm", 1e3 * limits.lid_gap_m},
+              {"asymmetry_mm", 1e3 * limits.asymmetry_m}}},
+            {"beyond_limits", complaints()},
+            {"worst", worst_of(shapes)},
+            {"shapes", list},
+            {"linear_rig", tracks_json(tracks)},
+            {"correctives", correctives_json(correctives)},
+            {"left_out", left},
+            {"bytes", bytes}};
+}
+
+ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
+    for (const std::string& format : options.formats)
+        index_of_name("--formats", format, shape_formats());
+    const scene::RigFiles files = scene::read_rig_files(options.rig);
+    const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
+    report::StagedFolder folder(options.out);
+
+    // About, of the time of a run
+    const double solved = 0.35, corrected = options.correctives ? 0.65 : solved,
+                 compared = options.test_frames > 0 ? corrected + 0.15 : corrected;
+    const report::Stopwatch time;
+    const ShapeSolver solver(files, face::quality_named(options.quality), options.threads);
+    const rig::Head& head = solver.face().head();
+    ShapesReport report;
+    if (!options.script.empty()) {
+        const std::unique_ptr<face::Face> face = solver.another();
+        report.animation = bake_script(options.script, files, set.goals,
+                                       ShapeWeights(*face, files.rig.channels(), set.goals));
+    }
+    report.shapes = make_shapes(files, set, solver, watch.part(0, solved));
+    CorrectiveOptions corrective = correctives_of_set(set.name);
+    corrective.pairs = options.pairs.value_or(corrective.pairs);
+    corrective.tolerance_m = options.corrective_tolerance_m.value_or(corrective.tolerance_m);
+    corrective.budget_bytes = options.corrective_bytes.value_or(corrective.budget_bytes);
+    if (options.correctives)
+        report.correctives =
+            find_correctives(files, report.shapes, solver, corrective,
+                             frames_to_fit(report, files.rig.channels(), corrective.random_frames),
+                             watch.part(solved, corrected));
+    else
+        for (const MadeShape& made : report.shapes.list)
+            report.correctives.rig.shapes.push_back(made.shape);
+    if (options.test_frames > 0)
+        report.tracks =
+            compare_tracks(files, solver, options, report, watch.part(corrected, compared));
+    report.solving_s = time.seconds();
+    report.name = files.rig.name;
+    report.rig = options.rig.generic_string();
+    report.set = set.name;
+    report.quality = options.quality;
+    report.channels = files.rig.channels();
+    report.left_out = set.left_out;
+    report.vertices = static_cast<int>(head.vertices.rows());
+    report.nodes = solver.face().node_count();
+
+    // What other programs read
+    std::vector<std::string> written{"index.html", "results.json"};
+    const auto keep = [&](const std::vector<std::string>& names) {
+        written.insert(written.end(), names.begin(), names.end());
+        for (const std::string& name : names)
+            report.sizes.emplace_back(
+                name, static_cast<long>(std::filesystem::file_size(folder.partial() / name)));
+    };
+    if (wants(options, "glb")) {
+        io::MorphModel model =
+            morph_model(files, head, report.shapes, set.name, report.correctives.rig,
+                        report.animation ? &*report.animation : nullptr);
+        model.whole_numbers = !options.floats;
+        report::write_text(folder.partial() / "shapes.glb", io::glb_bytes(model));
+        keep({"shapes.glb"});
+    }
+    if (report.animation && set.name == "arkit52" && options.only.empty() &&
+        wants(options, "csv")) {
+        report::write_text(folder.partial() / "live_link.csv", live_link_table(*report.animation));
+        keep({"live_link.csv"});
+    }
+    // Of some size, so only when it is asked for by name
+    if (report.animation && !options.formats.empty() && wants(options, "cache"))
+        keep(write_vertex_cache(files, head, report.correctives.rig, *report.animation,
+                                folder.partial()));
+    if (wants(options, "table"))
+        keep(write_shape_table(files, head, report.shapes, folder.partial()));
+    if (wants(options, "obj")) keep(write_shape_objs(files, head, report.shapes, folder.partial()));
+
+    // What people look at
+    std::optional<ShapesPictures> pictures;
+    if (options.pictures) {
+        pictures = draw_shapes(report, files, head, folder.partial(), watch.part(compared, 1));
+        written.insert(written.end(), pictures->files.begin(), pictures->files.end());
+    }
+    report::write_text(folder.partial() / "index.html",
+                       shapes_page(report, pictures ? &*pictures : nullptr));
+    Json json = report.json();
+    json[report::kFilesKey] = written;
+    report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    folder.commit();
+    return report;
+}
+
+}  // namespace risorius::blendshapes

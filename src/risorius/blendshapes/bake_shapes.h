@@ -1,0 +1,61 @@
+// `risorius shapes`: from a rig to blend shapes with a certificate, in the files that other programs read.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/blendshapes/detail/make_shapes.h"
+#include "risorius/blendshapes/detail/shape_animation.h"
+#include "risorius/blendshapes/detail/shape_correctives.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/core/watch.h"
+
+namespace risorius::blendshapes {
+
+struct ShapesOptions {
+    std::filesystem::path rig = {}, out = {};  ///< out: a folder
+    std::string set = "arkit52";
+    std::vector<std::string> only = {};     ///< names of shapes; empty: the whole set
+    std::string quality = "preview";        ///< of the mesh that is simulated
+    std::vector<std::string> formats = {};  ///< of shape_formats(); empty: all but "cache"
+    bool floats = false;                    ///< in the .glb, in place of 16-bit whole numbers
+    bool pictures = true;
+    bool correctives = true;
+    /// In place of correctives_of_set()
+    std::optional<int> pairs = {};
+    std::optional<double> corrective_tolerance_m = {};
+    std::optional<long> corrective_bytes = {};
+    int test_frames =
+        24;  ///< of each track on which the linear rig is compared with the simulation; 0: none
+    std::filesystem::path script = {};  ///< to be baked into weights; empty: none
+    int threads = 0;  ///< 0 = as many as the machine has; results do not depend on it
+};
+
+/// "glb", "obj", "table"; with a script also "csv" and "cache"
+const std::vector<std::string>& shape_formats();
+
+struct ShapesReport {
+    std::string name;  ///< of the rig
+    std::string rig, set, quality;
+    track::ChannelTable channels;
+    MadeShapes shapes;
+    Correctives correctives;                  ///< rig: the shapes and what was kept
+    std::vector<TrackError> tracks;           ///< of the linear rig against the simulation
+    std::optional<ShapeAnimation> animation;  ///< of the script
+    std::vector<std::pair<std::string, std::string>> left_out;  ///< name, why
+    int vertices = 0, nodes = 0;
+    double solving_s = 0;                             ///< wall time
+    std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes
+
+    /// Shapes beyond a limit.
+    int complaints() const;
+    /// Without times, so that the same rig gives the same bytes.
+    Json json() const;
+};
+
+/// Throws Error when the rig cannot be used, Interrupted; then nothing is left behind.
+ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch = {});
+
+}  // namespace risorius::blendshapes

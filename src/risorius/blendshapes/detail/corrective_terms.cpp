@@ -1,0 +1,234 @@
+#include "risorius/blendshapes/detail/corrective_terms.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace risorius::blendshapes {
+
+namespace {
+
+constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
+
+// Mean squares of terms, where weights are anything from 0 to 1: of a part of a shape's way (the mean of 36 w^4 (1 - w)^4), and what
+// w^2 (1 - w)^2 is of w^2.
+constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfFading = 0.1;
+
+// What a shape lacks a quarter, a half and three quarters of its way, as parts of it (blendshapes/detail/linear_rig.h).
+std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) {
+    Eigen::Matrix3d values;
+    for (int at = 0; at < 3; ++at)
+        for (int part = 1; part <= 3; ++part)
+            values(at, part - 1) = blendshapes::Term{"", {0}, part}.value(
+                Eigen::VectorXd::Constant(1, 0.25 * (at + 1)));
+    const Eigen::Matrix3d inverse = values.inverse();
+    std::array<Points, 3> out;
+    for (int part = 0; part < 3; ++part) {
+        out[static_cast<std::size_t>(part)] = inverse(part, 0) * *lacking[0];
+        for (std::size_t at : {std::size_t{1}, std::size_t{2}})
+            out[static_cast<std::size_t>(part)] +=
+                inverse(part, static_cast<int>(at)) * *lacking[at];
+    }
+    return out;
+}
+
+}  // namespace
+
+track::Drive sum_of(const track::Drive& one, const track::Drive& other, double weight,
+                    const track::ChannelTable& channels) {
+    track::Drive out = one;
+    out.excitation =
+        (one.excitation + weight * other.excitation).cwiseMin(1.0).cwiseMax(channels.column_min());
+    for (std::size_t k = 0; k < out.kinematic.size(); ++k) {
+        const track::KinematicChannel& channel = track::kinematic_channels()[k];
+        out.kinematic[k] =
+            std::clamp(one.kinematic[k] + weight * other.kinematic[k], channel.min, channel.max);
+    }
+    return out;
+}
+
+track::Drive no_drive(const track::ChannelTable& channels) {
+    track::Drive drive;
+    drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    return drive;
+}
+
+std::vector<Unit> units_of(const MadeShapes& shapes, const track::ChannelTable& channels,
+                           long vertices) {
+    std::vector<Unit> out;
+    for (std::size_t i = 0; i < shapes.list.size(); ++i) {
+        const ShapeGoal& goal = shapes.list[i].goal;
+        // Its like is solved with what it lies on already; a right half comes with the left one
+        if (goal.on_top_of >= 0 || (goal.sides == Sides::kHalves && !goal.left)) continue;
+        Unit unit{
+            goal.whole, {static_cast<int>(i)}, goal.drive, shapes.list[i].shape.dense(vertices)};
+        if (goal.sides == Sides::kHalves) {
+            const auto other = static_cast<std::size_t>(goal.partner);
+            unit.parts.push_back(goal.partner);
+            unit.drive = sum_of(goal.drive, shapes.list[other].goal.drive, 1, channels);
+            shapes.list[other].shape.add_to(unit.field, 1);
+        }
+        if (!unit.field.isZero(0.0)) out.push_back(std::move(unit));
+    }
+    return out;
+}
+
+std::vector<OneSidedPair> one_sided_pairs(const Unit& a, const Unit& b) {
+    std::vector<OneSidedPair> out;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        if (a.parts.size() > 1) out.push_back({side, true, false});
+        if (b.parts.size() > 1) out.push_back({side, false, true});
+        if (a.parts.size() > 1 && b.parts.size() > 1) out.push_back({side, true, true});
+    }
+    return out;
+}
+
+TermMaker::TermMaker(const rig::Head& head, const MadeShapes& shapes,
+                     const std::vector<Unit>& units, const Eigen::VectorXd& area)
+    : head_(head), shapes_(shapes), units_(units), area_(area) {
+    for (const Unit& unit : units) moved_.push_back(unit.field.rowwise().norm());
+}
+
+void TermMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
+                        const SolvedPose& three_quarters) {
+    // A pose that did not come to rest: as if it went there in an even bend
+    const auto lacking_at = [&](const SolvedPose& pose, double weight) {
+        return pose.figures.converged ? Points(pose.moved - weight * unit.field)
+                                      : Points(0.75 * lacks);
+    };
+    const Points first = lacking_at(quarter, 0.25), last = lacking_at(three_quarters, 0.75);
+    const std::array<Points, 3> parts = parts_of_way({&first, &lacks, &last});
+    const std::vector<std::size_t> others = sharing(unit);
+    const bool of_two = unit.parts.size() > 1,
+               sided = of_two || std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+                           return units_[other].parts.size() > 1;
+                       });
+    for (int part = 1; part <= 3; ++part)
+        add(
+            parts[static_cast<std::size_t>(part - 1)], sided,
+            [&](std::size_t side) {
+                blendshapes::Term out{"", {unit.of_side(side)}, part};
+                for (const std::size_t other : others)
+                    out.fades_with.push_back(units_[other].of_side(side));
+                return out;
+            },
+            sided && !of_two ? std::array<std::string, 2>{"left", "right"}
+                             : std::array<std::string, 2>{});
+}
+
+void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
+                         const PairPoses& poses) {
+    const std::size_t one_sided = terms_.size();
+    if (poses.one_sided) add_one_sided(a, b, lacks, poses.one_sided);
+    // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b), where shapes on their way and pairs on one side have their say too
+    std::array<Points, 4> field;
+    field[0] = lacks;
+    for (std::size_t k = 0; poses.on_its_way && k < kPairsOnTheirWay.size(); ++k) {
+        if (!poses.on_its_way[k].figures.converged) continue;
+        const PairOnItsWay& at = kPairsOnTheirWay[k];
+        Points& missing = field[k + 1];
+        missing = poses.on_its_way[k].moved - at.a * a.field - at.b * b.field - at.a * at.b * lacks;
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<long>(shapes_.list.size()));
+        for (const int part : a.parts) weights[part] = at.a;
+        for (const int part : b.parts) weights[part] = at.b;
+        const auto take = [&](std::size_t from, std::size_t to) {
+            for (std::size_t t = from; t < to; ++t)
+                if (const double value = terms_[t].term.value(weights); value != 0)
+                    missing -= value * terms_[t].field;
+        };
+        take(0, of_shapes_);
+        take(one_sided, terms_.size());
+        if (k == 2)
+            for (const std::size_t before : {std::size_t{1}, std::size_t{2}})
+                if (field[before].size() > 0) missing -= 0.125 * field[before];
+        missing *= k == 2 ? 16 : 4;
+    }
+    const bool sided = a.parts.size() > 1 || b.parts.size() > 1;
+    for (std::size_t k = 0; k < field.size(); ++k) {
+        if (field[k].size() == 0) continue;
+        const std::string ending = k == 0 ? "" : "~" + std::to_string(k);
+        add(field[k], sided,
+            [&](std::size_t side) {
+                blendshapes::Term out{"", {a.of_side(side), b.of_side(side)}};
+                if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_a)
+                    out.fades_with.push_back(a.of_side(side));
+                if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_b)
+                    out.fades_with.push_back(b.of_side(side));
+                return out;
+            },
+            {ending, ending});
+    }
+}
+
+// What a pair lacks of which one shape, or both, are there on one side only, when it is taken for that side's half of both. Each goes
+// as the other side comes.
+void TermMaker::add_one_sided(const Unit& a, const Unit& b, const Points& lacks,
+                              const SolvedPose* poses) {
+    const auto halves =
+        blendshapes::left_and_right(head_.vertices, lacks, head_.mm(kSharedStrip_mm));
+    std::array<Points, 2> known;  // of each side, what the ones that are alone by themselves lack
+    for (Points& one : known) one = Points::Zero(lacks.rows(), 3);
+    const std::vector<OneSidedPair> pairs = one_sided_pairs(a, b);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (!poses[k].figures.converged) continue;
+        const OneSidedPair& at = pairs[k];
+        Points missing = poses[k].moved - (at.side == 0 ? halves.first : halves.second);
+        blendshapes::Term term{"", {a.of_side(at.side), b.of_side(at.side)}};
+        for (const auto& [unit, alone] : {std::pair(&a, at.a_alone), std::pair(&b, at.b_alone)}) {
+            for (const int part : unit->parts)
+                if (!alone || part == unit->of_side(at.side))
+                    shapes_.list[static_cast<std::size_t>(part)].shape.add_to(missing, -1);
+            if (alone) term.fades_with.push_back(unit->of_side(1 - at.side));
+        }
+        if (at.a_alone && at.b_alone)
+            missing -= known[at.side];
+        else
+            known[at.side] += missing;
+        add(missing, std::move(term),
+            at.a_alone && at.b_alone ? "~alone" : (at.a_alone ? "~first" : "~second"));
+    }
+}
+
+std::vector<std::size_t> TermMaker::sharing(const Unit& unit) const {
+    const Eigen::VectorXd& own = moved_[static_cast<std::size_t>(&unit - units_.data())];
+    std::vector<std::size_t> others;
+    for (std::size_t other = 0; other < units_.size(); ++other)
+        if (&units_[other] != &unit &&
+            area_.dot(own.cwiseMin(moved_[other])) > kFadesWith * area_.dot(own))
+            others.push_back(other);
+    return others;
+}
+
+template <class TermOfSide>
+void TermMaker::add(const Points& field, bool sided, const TermOfSide& term,
+                    const std::array<std::string, 2>& endings) {
+    if (!sided) {
+        add(field, term(0), endings[0]);
+        return;
+    }
+    const auto [left, right] =
+        blendshapes::left_and_right(head_.vertices, field, head_.mm(kSharedStrip_mm));
+    add(left, term(0), endings[0]);
+    add(right, term(1), endings[1]);
+}
+
+void TermMaker::add(const Points& field, blendshapes::Term term, const std::string& ending) {
+    if (field.isZero(0.0)) return;
+    std::sort(term.drivers.begin(), term.drivers.end());
+    for (const int i : term.drivers)
+        term.name +=
+            (term.name.empty() ? "" : "*") + shapes_.list[static_cast<std::size_t>(i)].goal.name;
+    const bool single = term.drivers.size() == 1;
+    term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
+    double use = single ? kSquareOfPart : kPairIsMet * kSquareOfProduct;
+    for (std::size_t k = 0; !single && k < term.fades_with.size(); ++k) use *= kSquareOfFading;
+    terms_.push_back({std::move(term), field, use});
+}
+
+std::string weight_rule(const blendshapes::Term& term) {
+    if (term.drivers.size() > 1) return "product";
+    static const std::array<const char*, 3> kRules{"4 w (1 - w)^3", "6 w^2 (1 - w)^2",
+                                                   "4 w^3 (1 - w)"};
+    return kRules.at(static_cast<std::size_t>(term.part - 1));
+}
+
+}  // namespace risorius::blendshapes

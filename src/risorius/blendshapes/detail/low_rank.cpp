@@ -1,0 +1,170 @@
+#include "risorius/blendshapes/detail/low_rank.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace risorius::blendshapes {
+
+namespace {
+
+constexpr double kMoved_m = 2e-5;  // what frames lack by less is not fitted where no field moves
+constexpr double kOfLargest =
+    1e-3;  // smaller singular values than this share of the largest are left out
+constexpr double kOfOthers = 0.1;      // frames of any kind against those that are given
+constexpr double kCoarser = 1.2;       // where there is no room
+constexpr double kShareCounts = 1e-3;  // of a term in a corrective, against its largest
+
+/// Fields of the vertices that any of them moves, one below the other.
+struct Stack {
+    std::vector<int> vertex;
+    Eigen::MatrixXd column;  ///< 3 rows per vertex
+};
+
+Eigen::VectorXd rows_of(const Points& field, const std::vector<int>& vertex) {
+    Eigen::VectorXd out(3 * static_cast<long>(vertex.size()));
+    for (std::size_t i = 0; i < vertex.size(); ++i)
+        out.segment<3>(3 * static_cast<long>(i)) = field.row(vertex[i]).transpose();
+    return out;
+}
+
+Stack stacked(const std::vector<TermField>& fields, const std::vector<PlayedFrame>& frames,
+              long vertices) {
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(vertices);
+    for (const TermField& one : fields) moved = moved.cwiseMax(one.field.rowwise().squaredNorm());
+    for (const PlayedFrame& frame : frames)
+        for (long v = 0; v < vertices; ++v)
+            if (const double size = frame.left.row(v).norm(); size > kMoved_m)
+                moved[v] = std::max(moved[v], size);
+    Stack out;
+    for (long v = 0; v < vertices; ++v)
+        if (moved[v] > 0) out.vertex.push_back(static_cast<int>(v));
+    out.column.resize(3 * static_cast<long>(out.vertex.size()), static_cast<long>(fields.size()));
+    for (std::size_t t = 0; t < fields.size(); ++t)
+        out.column.col(static_cast<long>(t)) = rows_of(fields[t].field, out.vertex);
+    return out;
+}
+
+Eigen::MatrixXd terms_in(const std::vector<PlayedFrame>& frames,
+                         const std::vector<TermField>& fields) {
+    Eigen::MatrixXd out(static_cast<long>(frames.size()), static_cast<long>(fields.size()));
+    for (std::size_t f = 0; f < frames.size(); ++f)
+        for (std::size_t t = 0; t < fields.size(); ++t)
+            out(static_cast<long>(f), static_cast<long>(t)) =
+                fields[t].term.value(frames[f].weights);
+    return out;
+}
+
+void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::MatrixXd& terms,
+         double price) {
+    if (frames.empty()) return;
+    Eigen::MatrixXd left(stack.column.rows(), static_cast<long>(frames.size()));
+    for (std::size_t f = 0; f < frames.size(); ++f)
+        left.col(static_cast<long>(f)) = rows_of(frames[f].left, stack.vertex);
+    left.noalias() -= stack.column * terms.transpose();
+    Eigen::MatrixXd normal = terms * terms.transpose();
+    normal.diagonal().array() += price;
+    stack.column.noalias() += left * normal.ldlt().solve(terms);
+}
+
+/// Correctives of one side, the largest singular value first.
+struct HalfCorrectives {
+    std::vector<Points> field;
+    Eigen::MatrixXd of_terms;  ///< correctives x terms
+};
+
+HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
+                        const Eigen::VectorXd& root_area, const Eigen::VectorXd& root_use,
+                        const Eigen::MatrixXd& frames, const Compression& how) {
+    Eigen::MatrixXd half = stack.column;
+    Eigen::VectorXd root(half.rows());
+    for (std::size_t i = 0; i < stack.vertex.size(); ++i) {
+        const double share = left_share(rest(stack.vertex[i], 0), how.half_width_m);
+        half.middleRows<3>(3 * static_cast<long>(i)) *= left ? share : 1 - share;
+        root.segment<3>(3 * static_cast<long>(i)).setConstant(root_area[stack.vertex[i]]);
+    }
+    // Singular vectors on the right of  root half root_use: there are far fewer terms than vertices
+    const Eigen::MatrixXd weighted = root.asDiagonal() * half * root_use.asDiagonal();
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(half.cols(), half.cols());
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+    const long all = gram.cols();
+    const double least = kOfLargest * kOfLargest * eigen.eigenvalues()[all - 1];
+    long count = 0;
+    while (count < std::min<long>(all, how.most_of_a_side) &&
+           eigen.eigenvalues()[all - 1 - count] > std::max(0.0, least))
+        ++count;
+    HalfCorrectives out;
+    out.of_terms.resize(count, all);
+    for (long c = 0; c < count; ++c) {
+        Eigen::VectorXd right = eigen.eigenvectors().col(all - 1 - c);
+        // A singular vector has no sign of its own: its largest number is positive
+        Eigen::Index where;
+        right.cwiseAbs().maxCoeff(&where);
+        if (right[where] < 0) right = -right;
+        Eigen::VectorXd shares = right.cwiseQuotient(root_use);
+        // So that its greatest weight in use is 1
+        double greatest = right.cwiseAbs().maxCoeff();
+        if (frames.rows() > 0)
+            greatest = std::max(greatest, (frames * shares).cwiseAbs().maxCoeff());
+        const Eigen::VectorXd field = greatest * (half * root_use.cwiseProduct(right));
+        shares /= greatest;
+        const double counts = kShareCounts * shares.cwiseAbs().maxCoeff();
+        out.of_terms.row(c) = (shares.array().abs() < counts).select(0.0, shares).transpose();
+        Points& moved = out.field.emplace_back(Points::Zero(rest.rows(), 3));
+        for (std::size_t i = 0; i < stack.vertex.size(); ++i)
+            moved.row(stack.vertex[i]) = field.segment<3>(3 * static_cast<long>(i)).transpose();
+    }
+    return out;
+}
+
+SparseShape faded(Points field, const Fade& fade) {
+    fade_out(field, fade);
+    return sparse(field);
+}
+
+}  // namespace
+
+LowRank low_rank(std::vector<TermField> fields, const std::vector<PlayedFrame>& frames,
+                 const Points& rest, const Eigen::VectorXd& area, const Compression& how) {
+    LowRank out;
+    if (fields.empty()) return out;
+    Stack stack = stacked(fields, frames, rest.rows());
+    const Eigen::MatrixXd terms = terms_in(frames, fields);
+    fit(stack, frames, terms, how.price);
+
+    Eigen::VectorXd use(static_cast<long>(fields.size()));
+    for (std::size_t t = 0; t < fields.size(); ++t)
+        use[static_cast<long>(t)] = (frames.empty() ? 1 : kOfOthers) * fields[t].use;
+    if (!frames.empty())
+        use += terms.colwise().squaredNorm().transpose() / static_cast<double>(frames.size());
+    const Eigen::VectorXd root_use = use.cwiseSqrt(), root_area = area.cwiseSqrt();
+    std::array<HalfCorrectives, 2> side;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+        side[k] = side_of(stack, k == 0, rest, root_area, root_use, terms, how);
+
+    // Of all the same detail, as fine as there is room for
+    for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
+        out.correctives.clear();
+        out.bytes = 0;
+        for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+            for (std::size_t c = 0; c < side[k].field.size(); ++c) {
+                SparseShape shape = faded(side[k].field[c], fade);
+                if (shape.empty()) continue;
+                out.bytes += how.bytes_of_a_vertex * static_cast<long>(shape.vertex.size());
+                out.correctives.push_back(
+                    {(k == 0 ? "correctiveLeft" : "correctiveRight") + std::to_string(c + 1),
+                     std::move(shape), side[k].of_terms.row(static_cast<long>(c)).transpose()});
+            }
+        if (out.bytes <= how.budget_bytes) break;
+    }
+    if (out.correctives.empty()) return out;
+    for (TermField& one : fields) out.terms.push_back(std::move(one.term));
+    return out;
+}
+
+}  // namespace risorius::blendshapes

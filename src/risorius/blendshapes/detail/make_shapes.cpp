@@ -1,0 +1,311 @@
+#include "risorius/blendshapes/detail/make_shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "risorius/face/anatomy/lid_measures.h"
+#include "risorius/scene/landmark_points.h"
+
+namespace risorius::blendshapes {
+
+namespace {
+
+using track::Kinematic;
+
+constexpr double kHalfWidth_mm = 15;  // of the strip in the middle of the face that halves share
+constexpr double kClosing = 0.9;      // a lid whose levator has let go by so much is to shut
+constexpr double kPressing = 0.2;     // of orbicularis, likewise
+constexpr int kUprightSteps = 12;
+constexpr double kShutLips_m = 1e-3;  // apart at most, where a shape shuts them
+/// Weights at which lips are tried to be shut over the jaw, the widest open first.
+constexpr std::array<double, 3> kShutTries{0.5, 0.35, 0.2};
+
+/// Which poses have to be found, and which of them are whose.
+struct Plan {
+    std::vector<track::Drive> drives;
+    std::vector<std::vector<std::size_t>> own;    ///< per goal; several where several are tried
+    std::vector<std::vector<std::size_t>> under;  ///< likewise, what each lies on; empty elsewhere
+    std::vector<int> whole;                       ///< per goal: of both halves, -1 elsewhere
+};
+
+track::Drive both(const track::Drive& one, const track::Drive& other,
+                  const track::ChannelTable& channels) {
+    track::Drive out = one;
+    out.excitation =
+        (one.excitation + other.excitation).cwiseMin(1.0).cwiseMax(channels.column_min());
+    for (std::size_t k = 0; k < out.kinematic.size(); ++k) {
+        const track::KinematicChannel& channel = track::kinematic_channels()[k];
+        out.kinematic[k] =
+            std::clamp(one.kinematic[k] + other.kinematic[k], channel.min, channel.max);
+    }
+    return out;
+}
+
+// What shuts, over the jaw of what it shuts. The lips' own muscles of the other are not wanted.
+track::Drive over_jaw(const track::Drive& shuts, const track::Drive& opens, double share) {
+    track::Drive out = shuts;
+    for (const Kinematic k : {Kinematic::kJawOpen, Kinematic::kJawForward, Kinematic::kJawSide})
+        out.kinematic[static_cast<std::size_t>(k)] = share * opens.at(k);
+    return out;
+}
+
+track::Drive part_of_drive(track::Drive drive, double share) {
+    drive.excitation *= share;
+    for (double& value : drive.kinematic) value *= share;
+    return drive;
+}
+
+Plan plan_of(const ShapeSet& set, const track::ChannelTable& channels) {
+    Plan plan;
+    plan.whole.assign(set.goals.size(), -1);
+    const auto add = [&](const track::Drive& drive) {
+        plan.drives.push_back(drive);
+        return plan.drives.size() - 1;
+    };
+    for (std::size_t i = 0; i < set.goals.size(); ++i) {
+        const ShapeGoal& goal = set.goals[i];
+        std::vector<std::size_t>& own = plan.own.emplace_back();
+        std::vector<std::size_t>& under = plan.under.emplace_back();
+        if (goal.on_top_of < 0) {
+            own.push_back(add(goal.drive));
+        } else {
+            const track::Drive& opens = set.goals[static_cast<std::size_t>(goal.on_top_of)].drive;
+            for (const double share : kShutTries) {
+                own.push_back(add(over_jaw(goal.drive, opens, share)));
+                under.push_back(add(part_of_drive(opens, share)));
+            }
+        }
+        if (goal.sides == Sides::kHalves && goal.left)
+            plan.whole[i] = static_cast<int>(add(both(
+                goal.drive, set.goals[static_cast<std::size_t>(goal.partner)].drive, channels)));
+    }
+    return plan;
+}
+
+// A lid that is let go hangs; it takes orbicularis to shut the eye.
+bool shuts_eye(const track::Drive& drive, const track::ChannelTable& channels, Side side) {
+    const int levator = channels.column("levator_palpebrae_superioris", side),
+              orbicularis = channels.column("orbicularis_oculi_palpebral_upper", side);
+    return levator >= 0 && orbicularis >= 0 && drive.excitation[levator] <= -kClosing &&
+           drive.excitation[orbicularis] >= kPressing;
+}
+
+// Whether either drive is what the other would be on the other side of the face.
+bool are_mirrored(const track::Drive& one, const track::Drive& other,
+                  const track::ChannelTable& channels) {
+    constexpr double kSame = 1e-12;
+    for (const track::MuscleChannel& muscle : channels.muscles)
+        for (const Side side : {Side::kLeft, Side::kRight})
+            if (std::abs(one.excitation[channels.column(muscle.id, side)] -
+                         other.excitation[channels.column(
+                             muscle.id, side == Side::kLeft ? Side::kRight : Side::kLeft)]) > kSame)
+                return false;
+    for (int k = 0; k < track::kKinematicCount; ++k) {
+        const auto channel = static_cast<Kinematic>(k);
+        double there = other.at(channel);
+        if (channel == Kinematic::kJawSide) there = -there;
+        if (channel == Kinematic::kGazeYawLeft) there = -other.at(Kinematic::kGazeYawRight);
+        if (channel == Kinematic::kGazeYawRight) there = -other.at(Kinematic::kGazeYawLeft);
+        if (channel == Kinematic::kGazePitchLeft) there = other.at(Kinematic::kGazePitchRight);
+        if (channel == Kinematic::kGazePitchRight) there = other.at(Kinematic::kGazePitchLeft);
+        if (std::abs(one.at(channel) - there) > kSame) return false;
+    }
+    return true;
+}
+
+class Maker {
+  public:
+    Maker(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver)
+        : files_(files),
+          set_(set),
+          solver_(solver),
+          head_(solver.face().head()),
+          channels_(files.rig.channels()),
+          points_(head_, files.rig),
+          mirror_(blendshapes::mirror_of(head_.skin, head_.vertices)) {}
+
+    MadeShapes make(const Watch& watch) {
+        const Plan plan = plan_of(set_, channels_);
+        std::vector<SolvedPose> poses = solver_.solve(plan.drives, watch);
+        keep_upright(plan, poses, watch);
+        MadeShapes out;
+        out.mirrored = mirror_.has_value();
+        const std::vector<std::optional<double>> as_solved = mirror_poses(plan, poses);
+        std::vector<Points> fields;
+        std::vector<const SolvedPose*> solved;
+        for (std::size_t i = 0; i < set_.goals.size(); ++i) {
+            MadeShape& made = out.list.emplace_back();
+            made.goal = set_.goals[i];
+            const std::size_t chosen = choose(plan.own[i], poses);
+            if (made.goal.on_top_of >= 0) made.solved_at = kShutTries[chosen];
+            solved.push_back(&poses[plan.own[i][chosen]]);
+            fields.push_back(solved.back()->moved);
+            // What lies on top is what it does to the other one with the jaw where it is
+            if (made.goal.on_top_of >= 0)
+                fields.back() =
+                    (fields.back() - poses[plan.under[i][chosen]].moved) / made.solved_at;
+            made.eye_rotation = solved.back()->eye_rotation;
+            made.certificate.asymmetry_as_solved_m = as_solved[plan.own[i][chosen]];
+        }
+        // Each pair of halves becomes one of its whole
+        for (std::size_t i = 0; i < set_.goals.size(); ++i)
+            if (plan.whole[i] >= 0)
+                blendshapes::share_the_rest(
+                    head_.vertices, poses[static_cast<std::size_t>(plan.whole[i])].moved,
+                    head_.mm(kHalfWidth_mm), fields[i],
+                    fields[static_cast<std::size_t>(set_.goals[i].partner)]);
+        for (Points& field : fields) blendshapes::fade_out(field);
+        for (std::size_t i = 0; i < set_.goals.size(); ++i)
+            if (plan.whole[i] >= 0) {
+                const Points sum =
+                    fields[i] + fields[static_cast<std::size_t>(set_.goals[i].partner)];
+                const Points& whole = poses[static_cast<std::size_t>(plan.whole[i])].moved;
+                out.halves_error_m =
+                    std::max(out.halves_error_m, (sum - whole).rowwise().norm().maxCoeff());
+            }
+        for (std::size_t i = 0; i < set_.goals.size(); ++i)
+            out.list[i].shape = blendshapes::sparse(fields[i]);
+        for (std::size_t i = 0; i < set_.goals.size(); ++i) certify(out, i, *solved[i], fields);
+        return out;
+    }
+
+  private:
+    // A pose that leans to one side where drive and head do not has buckled on its way; it is sought again in small steps, and the
+    // one that leans less is taken.
+    void keep_upright(const Plan& plan, std::vector<SolvedPose>& poses, const Watch& watch) const {
+        if (!mirror_) return;
+        const auto lean = [&](const SolvedPose& pose) {
+            return blendshapes::asymmetry_m(*mirror_, pose.moved, pose.moved);
+        };
+        std::vector<std::size_t> leaning;
+        std::vector<track::Drive> drives;
+        for (std::size_t i = 0; i < poses.size(); ++i)
+            if (are_mirrored(plan.drives[i], plan.drives[i], channels_) &&
+                lean(poses[i]) > ShapeLimits().asymmetry_m) {
+                leaning.push_back(i);
+                drives.push_back(plan.drives[i]);
+            }
+        if (leaning.empty()) return;
+        std::vector<SolvedPose> again = solver_.solve(
+            drives, {.progress = {}, .stopped = watch.stopped}, {.steps = kUprightSteps});
+        for (std::size_t k = 0; k < leaning.size(); ++k)
+            if (again[k].figures.converged && lean(again[k]) < lean(poses[leaning[k]]))
+                poses[leaning[k]] = std::move(again[k]);
+    }
+
+    // Poses that are mirror images by what drives them become so to the bit: each the mean of itself and of the other's mirror image.
+    // Between two ways to buckle lies the pose that does not. Tells how far each was from being one.
+    std::vector<std::optional<double>> mirror_poses(const Plan& plan,
+                                                    std::vector<SolvedPose>& poses) const {
+        std::vector<std::optional<double>> out(poses.size());
+        if (!mirror_) return out;
+        const auto mirror = [&](std::size_t a, std::size_t b) {
+            if (!are_mirrored(plan.drives[a], plan.drives[b], channels_)) return;
+            out[a] = out[b] = blendshapes::asymmetry_m(*mirror_, poses[a].moved, poses[b].moved);
+            poses[a].moved =
+                blendshapes::mean_with_mirror_image(*mirror_, poses[a].moved, poses[b].moved);
+            if (b != a)
+                poses[b].moved =
+                    blendshapes::with_mirror_image(*mirror_, poses[b].moved, poses[a].moved);
+        };
+        for (std::size_t i = 0; i < set_.goals.size(); ++i) {
+            const ShapeGoal& goal = set_.goals[i];
+            if (goal.partner < 0)
+                for (std::size_t k = 0; k < plan.own[i].size(); ++k) {
+                    mirror(plan.own[i][k], plan.own[i][k]);
+                    if (goal.on_top_of >= 0) mirror(plan.under[i][k], plan.under[i][k]);
+                }
+            else if (goal.left)
+                mirror(plan.own[i][0], plan.own[static_cast<std::size_t>(goal.partner)][0]);
+            if (plan.whole[i] >= 0)
+                mirror(static_cast<std::size_t>(plan.whole[i]),
+                       static_cast<std::size_t>(plan.whole[i]));
+        }
+        return out;
+    }
+
+    double lip_gap_m(const Points& moved) const {
+        const auto gap = [&](const Points& vertices) {
+            return points_.at("stos", vertices).y() - points_.at("stoi", vertices).y();
+        };
+        return gap(head_.vertices + moved) - gap(head_.vertices);
+    }
+
+    // Of several tries the first that shuts the lips, or the one that comes nearest to it.
+    std::size_t choose(const std::vector<std::size_t>& tries,
+                       const std::vector<SolvedPose>& poses) const {
+        if (tries.size() == 1) return 0;
+        std::size_t best = 0;
+        double least = kInfinity;
+        for (std::size_t i = 0; i < tries.size(); ++i) {
+            const double gap = lip_gap_m(poses[tries[i]].moved);
+            if (gap <= kShutLips_m) return i;
+            if (gap < least) std::tie(least, best) = std::tuple(gap, i);
+        }
+        return best;
+    }
+
+    void certify(MadeShapes& out, std::size_t i, const SolvedPose& solved,
+                 const std::vector<Points>& fields) const {
+        MadeShape& made = out.list[i];
+        ShapeCertificate& certificate = made.certificate;
+        const Points& field = fields[i];
+        const Points shown = made.goal.on_top_of < 0 ? Points(head_.vertices + field)
+                                                     : Points(head_.vertices + solved.moved);
+        certificate.volume_change = solved.volume_ratio - 1;
+        certificate.lip_depth_m = solved.figures.lip_depth_m;
+        certificate.bone_depth_m = solved.figures.bone_depth_m;
+        certificate.converged = solved.figures.converged;
+        certificate.inverted_tets = solved.inverted_tets;
+        certificate.eye_depth_m = face::depth_in_eyes_m(head_, made.eye_rotation, shown);
+        for (const Side side : {Side::kLeft, Side::kRight}) {
+            const int s = static_cast<int>(side);
+            if (!head_.eyes[static_cast<std::size_t>(s)].present ||
+                !shuts_eye(made.goal.drive, channels_, side))
+                continue;
+            const face::EyeLids lids(head_, s, files_.rig.eyes.lid_closed_share);
+            certificate.lid_gap_m = std::max(certificate.lid_gap_m.value_or(0.0),
+                                             face::largest_lid_gap_m(head_, lids, shown));
+        }
+        if (made.goal.on_top_of >= 0) certificate.lip_gap_m = lip_gap_m(solved.moved);
+        const std::size_t partner =
+            made.goal.partner >= 0 ? static_cast<std::size_t>(made.goal.partner) : i;
+        if (mirror_ && are_mirrored(made.goal.drive, set_.goals[partner].drive, channels_))
+            certificate.asymmetry_m =
+                made.solved_at * blendshapes::asymmetry_m(*mirror_, field, fields[partner]);
+        certificate.stretch =
+            blendshapes::stretch_of(solver_.face().simulated_skin(), head_.vertices, shown);
+        certificate.peak_m = field.rowwise().norm().maxCoeff();
+        certificate.moved_vertices = static_cast<int>(made.shape.vertex.size());
+    }
+
+    const scene::RigFiles& files_;
+    const ShapeSet& set_;
+    const ShapeSolver& solver_;
+    const rig::Head& head_;
+    track::ChannelTable channels_;
+    scene::LandmarkPoints points_;
+    std::optional<geom::MirrorPairs> mirror_;
+};
+
+}  // namespace
+
+MadeShapes make_shapes(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver,
+                       const Watch& watch) {
+    return Maker(files, set, solver).make(watch);
+}
+
+Points shown_pose(const MadeShapes& shapes, std::size_t index, const Points& rest) {
+    const MadeShape& made = shapes.list[index];
+    Points out = rest;
+    if (made.goal.on_top_of >= 0)
+        shapes.list[static_cast<std::size_t>(made.goal.on_top_of)].shape.add_to(out,
+                                                                                made.solved_at);
+    made.shape.add_to(out, made.goal.on_top_of >= 0 ? made.solved_at : 1.0);
+    return out;
+}
+
+}  // namespace risorius::blendshapes

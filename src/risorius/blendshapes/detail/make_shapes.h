@@ -1,0 +1,40 @@
+// Blend shapes from physics: every shape of a set as the static pose that its drive brings about, on the mesh as imported.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "risorius/blendshapes/detail/shape_certificate.h"
+#include "risorius/blendshapes/detail/shape_goals.h"
+#include "risorius/blendshapes/detail/shape_solver.h"
+#include "risorius/blendshapes/detail/sparse_shape.h"
+#include "risorius/core/watch.h"
+#include "risorius/scene/rig_files.h"
+
+namespace risorius::blendshapes {
+
+struct MadeShape {
+    ShapeGoal goal;
+    blendshapes::SparseShape shape;  ///< head frame, m
+    std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
+    /// Of a shape on top of another: the weight of both at which it was solved, and beyond which it goes on in a line.
+    double solved_at = 1;
+    ShapeCertificate certificate;
+};
+
+struct MadeShapes {
+    std::vector<MadeShape> list;
+    /// Largest difference of two halves' sum from the whole as solved, m.
+    double halves_error_m = 0;
+    bool mirrored = false;  ///< the head is its own mirror image, so that sides can be compared
+};
+
+/// `solver` has the faces; `progress` goes from 0 to 1.
+MadeShapes make_shapes(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver,
+                       const Watch& watch = {});
+
+/// The mesh with a shape at weight 1, V x 3, m, head frame; a shape on top of another with that too.
+Points shown_pose(const MadeShapes& shapes, std::size_t index, const Points& rest);
+
+}  // namespace risorius::blendshapes

@@ -1,0 +1,20 @@
+// Weights of shapes drawn at random: what a linear rig is tried on, and the same for the same names and seed.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "risorius/blendshapes/detail/make_shapes.h"
+
+namespace risorius::blendshapes {
+
+/// Any shapes at all, four at a time and each frame by itself.
+std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames, unsigned seed);
+
+/// Frames, a second apart, of a track in which the action units of FACS's upper and lower face (AU1 to AU28, AU38, AU39, AU43; not the
+/// descriptors of other actions) come and go at random: two and a half at a time, at intensities from trace to maximum, on both sides
+/// more often than on one, with onsets of .25 to .6 s and offsets of .3 to .8 s. Degrees of one thing and opposites, such as AU25,
+/// AU26 and AU27, do not meet. Empty for shapes that are not action units.
+std::vector<Eigen::VectorXd> random_facs_track(const MadeShapes& shapes, int frames, unsigned seed);
+
+}  // namespace risorius::blendshapes

@@ -1,0 +1,85 @@
+#include "risorius/blendshapes/detail/shape_animation.h"
+
+#include <cctype>
+#include <cstdio>
+
+#include "risorius/core/error.h"
+#include "risorius/scene/script_drives.h"
+#include "risorius/track/arkit_names.h"
+#include "risorius/track/script.h"
+
+namespace risorius::blendshapes {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+constexpr const char* kTurns[] = {"HeadYaw",     "HeadPitch",     "HeadRoll",
+                                  "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
+                                  "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
+
+// "00:00:01:29.000": hours, minutes, seconds, frame and part of it
+std::string timecode(long frame, int fps) {
+    const long seconds = frame / fps;
+    char text[96];
+    std::snprintf(text, sizeof text, "%02ld:%02ld:%02ld:%02ld.000", seconds / 3600,
+                  seconds / 60 % 60, seconds % 60, frame % fps);
+    return text;
+}
+
+}  // namespace
+
+ShapeAnimation bake_script(const std::filesystem::path& script_file, const scene::RigFiles& files,
+                           const std::vector<ShapeGoal>& goals, const ShapeWeights& weights) {
+    const track::ScriptDescription script = track::read_script(
+        script_file, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    scene::ScriptDrives drives(script, files.rig);
+    ShapeAnimation out;
+    out.name = script_file.stem().string();
+    out.fps = script.header.fps;
+    for (const ShapeGoal& goal : goals) out.shapes.push_back(goal.name);
+    const int frames = script.header.frame_count();
+    out.weights.resize(frames, static_cast<long>(goals.size()));
+    for (int f = 0; f < frames; ++f) {
+        track::Drive drive = drives.at(static_cast<double>(f) / out.fps);
+        out.weights.row(f) = weights.of(drive).transpose();
+        out.drives.push_back(std::move(drive));
+    }
+    return out;
+}
+
+std::string live_link_table(const ShapeAnimation& animation) {
+    if (animation.shapes != track::arkit_names())
+        throw Error(animation.name, "the 52 shapes of ARKit for a table of Live Link Face",
+                    std::to_string(animation.shapes.size()) + " others");
+    std::string out = "Timecode,BlendshapeCount";
+    for (std::string name : animation.shapes) {
+        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+        out += "," + name;
+    }
+    for (const char* turn : kTurns) out += std::string(",") + turn;
+    out += "\n";
+    const auto add = [&](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, ",%.6f", value == 0 ? 0.0 : value);
+        out += text;
+    };
+    for (long f = 0; f < animation.weights.rows(); ++f) {
+        out += timecode(f, animation.fps) + "," +
+               std::to_string(animation.shapes.size() + std::size(kTurns));
+        for (long s = 0; s < animation.weights.cols(); ++s) add(animation.weights(f, s));
+        const track::Drive& drive = animation.drives[static_cast<std::size_t>(f)];
+        using track::Kinematic;
+        for (const Kinematic k : {Kinematic::kHeadYaw, Kinematic::kHeadPitch, Kinematic::kHeadRoll})
+            add(kRadian * drive.at(k));
+        add(kRadian * drive.at(Kinematic::kGazeYawLeft));
+        add(kRadian * drive.at(Kinematic::kGazePitchLeft));
+        add(0);
+        add(kRadian * drive.at(Kinematic::kGazeYawRight));
+        add(kRadian * drive.at(Kinematic::kGazePitchRight));
+        add(0);
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace risorius::blendshapes

@@ -1,0 +1,244 @@
+#include "risorius/blendshapes/detail/shape_files.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "risorius/blendshapes/detail/corrective_terms.h"
+#include "risorius/blendshapes/detail/shape_correctives.h"
+#include "risorius/core/error.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/report/folder_name.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/rig/expression_drive.h"
+
+namespace risorius::blendshapes {
+
+namespace {
+
+const Vec3 kScleraColour(0.93, 0.91, 0.89), kTeethColour(0.90, 0.87, 0.78),
+    kGumsColour(0.78, 0.45, 0.44), kTongueColour(0.76, 0.44, 0.42), kMouthColour(0.55, 0.26, 0.25),
+    kPupilColour(0.02, 0.02, 0.02);
+
+// The colour of the iris round the axis the eye looks along.
+void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
+              const rig::LookDescription& look, double size, const Points& vertices, Points& tint) {
+    const double iris = 1e-3 * sizes.iris_radius_mm * size,
+                 pupil = 1e-3 * sizes.pupil_radius_mm * size;
+    for (long v = 0; v < vertices.rows(); ++v) {
+        const Vec3 from = vertices.row(v).transpose() - eye.centre;
+        const double along = from.dot(eye.forward), aside = (from - along * eye.forward).norm();
+        if (from.norm() > 1.5 * eye.radius_m || along <= 0 || aside > iris) continue;
+        const Vec3 colour = aside < pupil ? kPupilColour : look.iris_tone;
+        tint.row(v) = colour.cwiseQuotient(kScleraColour).transpose();
+    }
+}
+
+/// Of a role; false for what is not to be seen.
+bool describe_part(const std::string& role, const scene::RigFiles& files, const rig::Head& head,
+                   io::MorphPart& part) {
+    const rig::LookDescription& look = files.rig.look;
+    if (role == "skin") {
+        part.colour = look.skin_tone;
+    } else if (role == "mouth" || role == "eye_socket") {
+        part.colour = kMouthColour;
+        part.roughness = 0.4;
+        part.see_both_sides = true;
+    } else if (role.starts_with("eye_")) {
+        part.colour = kScleraColour;
+        part.roughness = 0.1;
+        part.tint = Points::Ones(head.vertices.rows(), 3);
+        const rig::EyeGeometry& eye = head.eyes[role == "eye_l" ? 0 : 1];
+        if (eye.present) tint_eye(eye, files.rig.eyes, look, head.size, head.vertices, part.tint);
+    } else if (role.starts_with("cornea")) {
+        part.roughness = 0.02;
+        part.opacity = 0.08;
+    } else if (role.starts_with("teeth")) {
+        part.colour = kTeethColour;
+        part.roughness = 0.25;
+    } else if (role.starts_with("gums")) {
+        part.colour = kGumsColour;
+        part.roughness = 0.35;
+    } else if (role == "tongue") {
+        part.colour = kTongueColour;
+    } else if (role.starts_with("lashes")) {
+        part.colour = look.hair_tone;
+        part.see_both_sides = true;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Of a shape's vertex, mesh units.
+Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape, std::size_t i) {
+    return head.frame.rotation.transpose() * shape.delta.row(static_cast<long>(i)).transpose() /
+           head.frame.metres_per_unit;
+}
+
+}  // namespace
+
+io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
+                           const MadeShapes& shapes, const std::string& set,
+                           const blendshapes::LinearRig& linear, const ShapeAnimation* animation) {
+    io::MorphModel model;
+    model.name = files.rig.name;
+    model.vertices = head.vertices;
+    model.stands_for = head.welded;
+    for (std::size_t g = 0; g < files.mesh.group_names.size(); ++g) {
+        io::MorphPart part;
+        part.name = files.mesh.group_names[g];
+        if (!describe_part(head.role_of_group[g], files, head, part)) continue;
+        Triangles corners;
+        part.triangles = geom::triangulate(files.mesh, {static_cast<int>(g)}, &corners);
+        if (part.triangles.rows() == 0) continue;
+        if (files.mesh.corner_texcoord.rows() > 0) {
+            part.texcoords.resize(3 * part.triangles.rows(), 2);
+            for (long c = 0; c < part.texcoords.rows(); ++c)
+                part.texcoords.row(c) = files.mesh.corner_texcoord.row(corners(c / 3, c % 3));
+        }
+        model.parts.push_back(std::move(part));
+    }
+    for (const MadeShape& made : shapes.list)
+        model.targets.push_back({made.goal.name, made.shape.vertex, made.shape.delta});
+    const auto names_of = [&](const std::vector<int>& indices) {
+        Json out = Json::array();
+        for (const int i : indices)
+            out.push_back(shapes.list[static_cast<std::size_t>(i)].goal.name);
+        return out;
+    };
+    Json terms = Json::array(), correctives = Json::array();
+    for (const blendshapes::Term& term : linear.terms) {
+        Json& rule = terms.emplace_back(Json{{"name", term.name},
+                                             {"drivers", names_of(term.drivers)},
+                                             {"value", weight_rule(term)}});
+        if (term.drivers.size() == 1) rule["part"] = term.part;
+        if (!term.fades_with.empty()) rule["fades_with"] = names_of(term.fades_with);
+    }
+    for (const blendshapes::Corrective& corrective : linear.correctives) {
+        model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
+        Json of_terms = Json::array();
+        for (const double share : corrective.of_terms)
+            of_terms.push_back(static_cast<float>(share));
+        correctives.push_back({{"name", corrective.name}, {"of_terms", of_terms}});
+    }
+    Json on_top = Json::object();
+    for (const MadeShape& made : shapes.list)
+        if (made.goal.on_top_of >= 0)
+            on_top[made.goal.name] =
+                shapes.list[static_cast<std::size_t>(made.goal.on_top_of)].goal.name;
+    model.extras = {{"risorius",
+                     {{"rig", files.rig.name},
+                      {"set", set},
+                      {"vertices", head.vertices.rows()},
+                      {"on_top_of", on_top},
+                      {"terms", terms},
+                      {"correctives", correctives}}}};
+    if (animation) {
+        io::MorphAnimation& out = model.animations.emplace_back();
+        out.name = animation->name;
+        out.fps = animation->fps;
+        out.weights.resize(animation->weights.rows(), static_cast<long>(model.targets.size()));
+        for (long f = 0; f < animation->weights.rows(); ++f)
+            out.weights.row(f) =
+                linear.all_weights(animation->weights.row(f).transpose()).transpose().cast<float>();
+    }
+    return model;
+}
+
+std::vector<std::string> write_shape_table(const scene::RigFiles& files, const rig::Head& head,
+                                           const MadeShapes& shapes,
+                                           const std::filesystem::path& folder) {
+    const track::ChannelTable channels = files.rig.channels();
+    const long vertices = head.vertices.rows();
+    Json json{{"format", "risorius-shapes"},
+              {"version", 1},
+              {"shape", {shapes.list.size(), vertices, 3}},
+              {"dtype", "<f4"},
+              {"layout", "[shape][vertex][xyz]"},
+              {"names", Json::array()},
+              {"file", "shapes.f32"},
+              {"units_per_metre", 1 / head.frame.metres_per_unit},
+              {"excitations", Json::object()},
+              {"on_top_of", Json::object()},
+              {"source", "risorius shapes, rig " + files.rig.name}};
+    std::ofstream numbers(folder / "shapes.f32", std::ios::binary);
+    for (const MadeShape& made : shapes.list) {
+        json["names"].push_back(made.goal.name);
+        json["excitations"][made.goal.name] = rig::drive_json(made.goal.drive, channels);
+        if (made.goal.on_top_of >= 0)
+            json["on_top_of"][made.goal.name] =
+                shapes.list[static_cast<std::size_t>(made.goal.on_top_of)].goal.name;
+        std::vector<float> field(3 * static_cast<std::size_t>(vertices), 0.f);
+        for (std::size_t i = 0; i < made.shape.vertex.size(); ++i) {
+            const Vec3 delta = in_mesh_units(head, made.shape, i);
+            for (std::size_t k = 0; k < 3; ++k)
+                field[3 * static_cast<std::size_t>(made.shape.vertex[i]) + k] =
+                    static_cast<float>(delta[static_cast<long>(k)]);
+        }
+        numbers.write(reinterpret_cast<const char*>(field.data()),
+                      static_cast<std::streamsize>(field.size() * sizeof(float)));
+    }
+    numbers.close();
+    if (!numbers) throw RunError("cannot write " + (folder / "shapes.f32").string());
+    report::write_text(folder / "shapes.json", json.dump(1) + "\n");
+    return {"shapes.json", "shapes.f32"};
+}
+
+std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
+                                            const blendshapes::LinearRig& linear,
+                                            const ShapeAnimation& animation,
+                                            const std::filesystem::path& folder) {
+    std::ofstream numbers(folder / "cache.f32", std::ios::binary);
+    std::vector<float> frame(3 * static_cast<std::size_t>(head.vertices.rows()));
+    for (long f = 0; f < animation.weights.rows(); ++f) {
+        Points moved = Points::Zero(head.vertices.rows(), 3);
+        linear.add_to(moved, animation.weights.row(f).transpose());
+        for (long v = 0; v < moved.rows(); ++v) {
+            const Vec3 at = files.mesh.positions.row(v).transpose() +
+                            head.frame.rotation.transpose() * moved.row(v).transpose() /
+                                head.frame.metres_per_unit;
+            for (long k = 0; k < 3; ++k)
+                frame[static_cast<std::size_t>(3 * v + k)] = static_cast<float>(at[k]);
+        }
+        numbers.write(reinterpret_cast<const char*>(frame.data()),
+                      static_cast<std::streamsize>(frame.size() * sizeof(float)));
+    }
+    numbers.close();
+    if (!numbers) throw RunError("cannot write " + (folder / "cache.f32").string());
+    const Json json{{"format", "risorius-vertex-cache"},
+                    {"version", 1},
+                    {"shape", {animation.weights.rows(), head.vertices.rows(), 3}},
+                    {"dtype", "<f4"},
+                    {"layout", "[frame][vertex][xyz]"},
+                    {"file", "cache.f32"},
+                    {"fps", animation.fps},
+                    {"units_per_metre", 1 / head.frame.metres_per_unit}};
+    report::write_text(folder / "cache.json", json.dump(1) + "\n");
+    return {"cache.json", "cache.f32"};
+}
+
+std::vector<std::string> write_shape_objs(const scene::RigFiles& files, const rig::Head& head,
+                                          const MadeShapes& shapes,
+                                          const std::filesystem::path& folder) {
+    std::vector<std::string> written;
+    std::set<std::string> taken;
+    std::filesystem::create_directories(folder / "obj");
+    geom::PolygonMesh mesh = files.mesh;
+    const auto write = [&](const std::string& name) {
+        written.push_back("obj/" + report::folder_name(name, taken) + ".obj");
+        io::write_obj(mesh, folder / written.back());
+    };
+    write("neutral");
+    for (const MadeShape& made : shapes.list) {
+        mesh.positions = files.mesh.positions;
+        for (std::size_t i = 0; i < made.shape.vertex.size(); ++i)
+            mesh.positions.row(made.shape.vertex[i]) +=
+                in_mesh_units(head, made.shape, i).transpose();
+        write(made.goal.name);
+    }
+    return written;
+}
+
+}  // namespace risorius::blendshapes

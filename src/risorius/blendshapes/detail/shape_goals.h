@@ -1,0 +1,52 @@
+// The blend shapes of a set: their names, what drives each, and how they belong together.
+//
+//   arkit52   the 52 names of ARKit face tracking, by the rig's own table
+//   facs      every action unit of the rig's table that moves the face, .l and .r where it has sides
+//   muscles   every muscle at full activation by itself, and the channels that no muscle drives
+//   visemes   the mouth shapes of speech, by the rig's own table
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/rig/rig_description.h"
+#include "risorius/track/channels.h"
+
+namespace risorius::blendshapes {
+
+/// How a shape and its namesake on the other side hang together.
+enum class Sides {
+    kNone,     ///< there is none
+    kHalves,   ///< both together are one expression: a smile
+    kOpposed,  ///< either is the other's mirror image, and they are not meant together: a jaw aside
+};
+
+struct ShapeGoal {
+    std::string name;
+    track::Drive drive;  ///< at weight 1
+    Sides sides = Sides::kNone;
+    int partner = -1;    ///< index of the namesake
+    bool left = false;   ///< of the two
+    int on_top_of = -1;  ///< index of the shape it corrects, at the same weight
+    std::string whole;   ///< what both halves make, "mouthSmile"; its own name without halves
+};
+
+struct ShapeSet {
+    std::string name;
+    std::vector<ShapeGoal> goals;
+    /// What the table has and no shape can be: name, why.
+    std::vector<std::pair<std::string, std::string>> left_out;
+
+    std::optional<int> index(const std::string& name) const;
+};
+
+const std::vector<std::string>& shape_set_names();
+
+/// `only`: names of shapes or wholes to keep; empty: all. Throws Error naming `place` for a set that is unknown, or that
+/// the rig's tables do not have, and naming `only_from`, where `only` was read, for a name that the set does not have.
+ShapeSet shape_set(const rig::RigDescription& rig, const std::string& set,
+                   const std::vector<std::string>& only, const std::string& place,
+                   const std::string& only_from = "--only");
+
+}  // namespace risorius::blendshapes

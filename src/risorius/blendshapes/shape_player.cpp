@@ -1,0 +1,112 @@
+#include "risorius/blendshapes/shape_player.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/io/morph_model.h"
+
+namespace risorius::blendshapes {
+
+namespace {
+
+constexpr double kSamePlace_m = 1e-4;  // of vertices, after they have been rounded in a file
+
+// Vertices have to lie where the rig's mesh has them, or shapes would move others than they are meant to.
+void check_mesh(const io::MorphModel& model, const rig::Head& head,
+                const std::filesystem::path& file) {
+    const auto fail = [&](const std::string& found) {
+        throw Error(file.string(),
+                    "the rig's mesh of " + std::to_string(head.vertices.rows()) + " vertices",
+                    found);
+    };
+    if (model.vertices.rows() > head.vertices.rows())
+        fail("one of " + std::to_string(model.vertices.rows()));
+    for (const io::MorphPart& part : model.parts)
+        for (const int v : part.triangles.reshaped())
+            if (const double apart = (model.vertices.row(v) - head.vertices.row(v)).norm();
+                apart > kSamePlace_m)
+                fail("another, whose vertex " + std::to_string(v) + " is " +
+                     format_number(std::round(1e4 * apart) / 10) + " mm off");
+}
+
+}  // namespace
+
+ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene::RigFiles& files,
+                                 const rig::Head& head) {
+    const io::MorphModel model = io::read_glb(file);
+    check_mesh(model, head, file);
+    const JsonCursor extras = JsonCursor::from_json(model.extras, file.string()).at("risorius");
+    if (const int vertices = extras.at("vertices").integer(1, 1 << 30);
+        vertices != head.vertices.rows())
+        extras.at("vertices")
+            .fail("the " + std::to_string(head.vertices.rows()) + " vertices of the rig's mesh");
+    ShapesOfFile out;
+    out.set = extras.at("set").string();
+
+    // Correctives come behind the shapes, in the order of their list
+    const std::vector<JsonCursor> correctives = extras.at("correctives").items();
+    if (correctives.size() >= model.targets.size())
+        extras.at("correctives").fail("fewer of them than morph targets");
+    const std::size_t count = model.targets.size() - correctives.size();
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < count; ++s) {
+        names.push_back(model.targets[s].name);
+        out.rig.shapes.push_back({model.targets[s].vertex, model.targets[s].delta});
+    }
+    const ShapeSet set = shape_set(files.rig, out.set, names, file.string(), file.string());
+    for (const std::string& name : names) {
+        const auto index = set.index(name);
+        if (!index || set.goals.size() != count)
+            throw Error(file.string(), "shapes of the rig's table, each with its other half",
+                        "\"" + name + "\" among " + std::to_string(count));
+        out.goals.push_back(set.goals[static_cast<std::size_t>(*index)]);
+    }
+    const auto indices_of = [&](const JsonCursor& list) {
+        std::vector<int> indices;
+        for (const JsonCursor& name : list.items())
+            indices.push_back(static_cast<int>(index_of_name(name.place(), name.string(), names)));
+        return indices;
+    };
+    const std::vector<JsonCursor> terms = extras.at("terms").items();
+    for (const JsonCursor& json : terms) {
+        blendshapes::Term& term = out.rig.terms.emplace_back();
+        term.name = json.at("name").string();
+        term.drivers = indices_of(json.at("drivers"));
+        if (term.drivers.empty()) json.at("drivers").fail("at least one shape");
+        if (term.drivers.size() == 1) term.part = json.at("part").integer(1, 3);
+        if (const auto others = json.find("fades_with")) term.fades_with = indices_of(*others);
+    }
+    for (std::size_t c = 0; c < correctives.size(); ++c) {
+        blendshapes::Corrective& one = out.rig.correctives.emplace_back();
+        const io::MorphTarget& target = model.targets[count + c];
+        one.name = correctives[c].at("name").string();
+        if (one.name != target.name)
+            correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
+        const std::vector<JsonCursor> shares = correctives[c].at("of_terms").items();
+        if (shares.size() != terms.size())
+            correctives[c]
+                .at("of_terms")
+                .fail("a number for each of " + std::to_string(terms.size()) + " terms");
+        one.of_terms.resize(static_cast<long>(shares.size()));
+        for (std::size_t t = 0; t < shares.size(); ++t)
+            one.of_terms[static_cast<long>(t)] = shares[t].number();
+        one.shape = {target.vertex, target.delta};
+    }
+    return out;
+}
+
+ShapePlayer::ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::ChannelTable& channels)
+    : shapes_(std::move(shapes)),
+      played_(shapes_.rig),
+      face_(face),
+      weights_(face, channels, shapes_.goals) {}
+
+face::FacePose ShapePlayer::pose(const track::Drive& drive) const {
+    Points vertices = face_.head().vertices;
+    played_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
+    return face_.posed(std::move(vertices), drive);
+}
+
+}  // namespace risorius::blendshapes

@@ -1,0 +1,53 @@
+// A closed triangle surface that tells inside from outside and may be deformed: exact signed distances.
+//
+// The sign is that of the distance along the angle-weighted normal of the nearest face, edge or vertex, which is right at
+// corners too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/geom/closest_point.h"
+
+namespace risorius::contact {
+
+/// Nearest point of the surface, seen from p.
+struct Nearest : geom::SurfacePoint {
+    double gap_m = 0;             ///< signed distance of p
+    Vec3 normal = Vec3::UnitZ();  ///< angle-weighted, out of the surface, length 1
+};
+
+class ClosedSurface {
+  public:
+    /// Throws Error unless every edge joins exactly two triangles that run along it in opposite ways, the volume is
+    /// positive and all is finite.
+    ClosedSurface(const Points& positions, const Triangles& triangles,
+                  const std::string& place = "mesh");
+
+    /// Same triangles, moved.
+    void refit(const Points& positions);
+
+    /// Empty when nothing is within `max_distance_m`. Queries may run in parallel.
+    std::optional<Nearest> nearest(
+        const Vec3& p, double max_distance_m = std::numeric_limits<double>::infinity()) const;
+
+    const geom::SurfaceTree& tree() const { return tree_; }
+    const Triangles& triangles() const { return triangles_; }
+    Vec3 face_normal(int triangle) const { return face_normals_.row(triangle).transpose(); }
+    Vec3 vertex_normal(int vertex) const { return vertex_normals_.row(vertex).transpose(); }
+
+  private:
+    Triangles triangles_;
+    Triangles edge_of_side_;
+    int edge_count_ = 0;
+    geom::SurfaceTree tree_;
+    Points face_normals_, edge_normals_, vertex_normals_;  // length 1, or 0 where there is no area
+};
+
+/// Volume inside, m^3; negative when the surface faces inwards.
+double enclosed_volume(const Points& positions, const Triangles& triangles);
+
+}  // namespace risorius::contact

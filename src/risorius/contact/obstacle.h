@@ -1,0 +1,85 @@
+// Rigid things that soft objects touch: shapes as signed distances, put somewhere and perhaps moved.
+//
+//   gap   signed distance from the surface, m, negative inside
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "risorius/core/types.h"
+
+namespace risorius::contact {
+
+struct Distance {
+    double gap_m;
+    Vec3
+        gradient;  ///< of the gap, out of the shape; of length 1, or nearly so where the gap is interpolated
+};
+
+/// A shape in its own frame. Queries may run in parallel.
+class Shape {
+  public:
+    virtual ~Shape() = default;
+    virtual Distance distance(const Vec3& p) const = 0;
+    virtual Mat3 curvature(const Vec3& p) const = 0;  ///< second derivative of the gap, 1/m
+};
+
+/// The half-space z < 0 is solid.
+std::shared_ptr<const Shape> make_plane();
+/// Around the origin. These two throw Error, its place beginning with `place`, unless every size is > 0 and finite.
+std::shared_ptr<const Shape> make_sphere(double radius_m, const std::string& place = "sphere");
+/// All points within `radius_m` of the segment from `start` to `end`.
+std::shared_ptr<const Shape> make_capsule(const Vec3& start, const Vec3& end, double radius_m,
+                                          const std::string& place = "capsule");
+
+/// Where a rigid thing is and how it moves.
+struct RigidState {
+    Rigid place = Rigid::Identity();
+    Vec3 velocity_m_per_s = Vec3::Zero();  ///< of the place's origin
+    Vec3 spin_rad_per_s = Vec3::Zero();    ///< in the world's axes
+};
+using RigidMotion = std::function<RigidState(double t_s)>;
+
+RigidMotion standing(const Rigid& place);
+/// At `start` at time 0, moving and turning about its own origin at a steady pace.
+RigidMotion steady(const Rigid& start, const Vec3& velocity_m_per_s,
+                   const Vec3& spin_rad_per_s = Vec3::Zero());
+/// Rests at `from`, moves to `to` between the two times with a smooth start and end, rests there.
+RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double end_s);
+
+/// The place that turns the plane z = 0 to one through `point` with `normal` pointing out of the solid.
+Rigid plane_place(const Vec3& point, const Vec3& normal);
+
+/// A shape where it is at one time.
+class PlacedShape {
+  public:
+    PlacedShape(const Shape& shape, const RigidState& state)
+        : shape_(&shape), state_(state), to_shape_(state.place.inverse()) {}
+
+    Distance distance(const Vec3& p) const;
+    Mat3 curvature(const Vec3& p) const;
+    Vec3 velocity(const Vec3& p) const;  ///< of the shape's matter at p, m/s
+    const Rigid& place() const { return state_.place; }
+
+  private:
+    const Shape* shape_;
+    RigidState state_;
+    Rigid to_shape_;
+};
+
+class Obstacle {
+  public:
+    explicit Obstacle(std::shared_ptr<const Shape> shape, RigidMotion motion);
+    explicit Obstacle(std::shared_ptr<const Shape> shape, const Rigid& place = Rigid::Identity())
+        : Obstacle(std::move(shape), standing(place)) {}
+
+    PlacedShape at(double t_s) const { return {*shape_, motion_(t_s)}; }
+
+  private:
+    std::shared_ptr<const Shape> shape_;
+    RigidMotion motion_;
+};
+
+}  // namespace risorius::contact

@@ -1,0 +1,97 @@
+// Contact between two soft bodies of one system, with friction (see contact_law.h for the symbols).
+//
+//   E = sum over pairs of A k w(n . xi)     xi  place of a sample in the frame of the other body's nearest triangle
+//
+// Samples of each body's surface are paired with the triangles of the other, and each side carries half of the stiffness.
+// Pairs and their normals are found at the start of a step and frozen in the frame of the triangle (carried_frame.h), so
+// that net force and torque are zero to rounding at any state, friction and damping included. Friction and damping are
+// lagged as in obstacle_contact.h; the slip is what the triangle sees.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "risorius/contact/contact_law.h"
+#include "risorius/contact/detail/closed_surface.h"
+#include "risorius/contact/surface_samples.h"
+#include "risorius/solve/force_term.h"
+
+namespace risorius::contact {
+
+struct SurfaceContactOptions {
+    int per_side = 2;  ///< parts each side of a triangle is cut into for samples     [1, inf)
+    double search_m =
+        0;  ///< pairs are sought this far beyond the thickness, in and out, and the step's motion farther; 0 = 4 thicknesses
+};
+
+class CarriedFrame;
+
+class SurfaceContact : public solve::ForceTerm {
+  public:
+    /// Between two closed surfaces over the nodes of one system. Throws Error unless both are closed, at rest.
+    SurfaceContact(const Points& rest, const Triangles& first, const Triangles& second,
+                   const ContactMaterial& material, const SurfaceContactOptions& options = {});
+    /// Of a surface that has no inside (a cloth, a curve) with a closed one.
+    SurfaceContact(const Points& rest, std::vector<ContactSample> samples, const Triangles& closed,
+                   const ContactMaterial& material, const SurfaceContactOptions& options = {});
+
+    SurfaceContact(const SurfaceContact&) = delete;  // pairs point into the object
+    SurfaceContact& operator=(const SurfaceContact&) = delete;
+
+    void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
+    double energy(double t_s, const Points& x) const override;
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override;
+    void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const override;
+    /// Every node of either surface may touch some day: each gives half its share of the stiffness, touching or not.
+    void add_metric(double step_s, solve::MetricBuilder& metric) const override;
+
+    /// Negative: penetration. Of the step's pairs; infinite without any.
+    double least_gap_m(const Points& x) const;
+    int pair_count() const { return static_cast<int>(pairs_.size()); }
+    /// On the first body (or the samples) at rest in position x, N.
+    Vec3 force_on_first(const Points& x) const;
+
+  private:
+    /// Samples of one surface against the triangles of another.
+    struct Side {
+        std::vector<ContactSample> samples;
+        int own = -1;  // surface the samples lie on, or none
+        int other = 0;
+        double share = 1;  // of the stiffness
+    };
+    struct Pair {
+        const ContactSample* sample;
+        std::array<int, 3> corners;
+        Vec3 weights;       // of the corners
+        Vec3 normal;        // in the triangle's frame
+        double stiffness;   // N/m per unit of penalty
+        bool of_first;      // the sample is the first body's
+        Vec3 start;         // xi at the step's start
+        double friction_n;  // mu N of the step's start
+        double damping;     // N s/m of the step's start
+    };
+    struct Slip {
+        Vec3 along;
+        double apart;
+    };
+
+    void find_pairs(const Side& side, bool of_first, double reach_m, const Points& x);
+    void add_pair(const Side& side, const ContactSample& sample, bool of_first, int triangle,
+                  const Vec3& weights, const Vec3& normal, const Points& x);
+    static CarriedFrame frame_of(const Pair& pair, const Points& x);
+    static Slip slip_of(const Pair& pair, const Vec3& place);
+    static void scatter(const Pair& pair, const CarriedFrame& frame, const Vec3& y, Points& out);
+
+    std::vector<ClosedSurface> surfaces_;
+    std::vector<std::vector<int>> nodes_;  // of each surface
+    std::vector<Side> sides_;
+    ContactMaterial material_;
+    SurfaceContactOptions options_;
+    std::vector<Pair> pairs_;
+};
+
+}  // namespace risorius::contact

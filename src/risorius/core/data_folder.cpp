@@ -1,0 +1,82 @@
+#include "risorius/core/data_folder.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "risorius/core/error.h"
+
+namespace risorius {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::mutex mutex;
+fs::path chosen;
+
+bool holds_data(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_directory(folder / "rigs" / "standard", ignored) &&
+           fs::is_directory(folder / "models", ignored);
+}
+
+/// The program or shared library that this function was linked into, as a folder; empty where the system does not say.
+fs::path own_folder() {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    Dl_info info{};
+    if (::dladdr(reinterpret_cast<const void*>(&data_folder), &info) != 0 && info.dli_fname) {
+        // A program's own name may be relative to a folder that it has left since; a library's path is absolute.
+        const fs::path file = fs::weakly_canonical(info.dli_fname, failed);
+        if (!failed && file.is_absolute() && fs::exists(file, failed)) return file.parent_path();
+    }
+    return program.parent_path();
+}
+
+std::vector<fs::path> candidates() {
+    std::vector<fs::path> folders;
+    const fs::path own = own_folder();
+    if (!own.empty()) {
+        // bin/risorius and lib/librisorius.so, but also lib/x86_64-linux-gnu/librisorius.so
+        for (const char* up : {"..", "../.."})
+            folders.push_back((own / up / "share" / "risorius").lexically_normal());
+        for (fs::path above = own; above.has_relative_path(); above = above.parent_path())
+            folders.push_back(above);
+    }
+    const char* listed = std::getenv("XDG_DATA_DIRS");
+    std::string rest = listed && *listed ? listed : "/usr/local/share:/usr/share";
+    for (std::size_t begin = 0; begin <= rest.size();) {
+        const std::size_t end = std::min(rest.find(':', begin), rest.size());
+        if (end > begin) folders.push_back(fs::path(rest.substr(begin, end - begin)) / "risorius");
+        begin = end + 1;
+    }
+    return folders;
+}
+
+}  // namespace
+
+std::filesystem::path data_folder() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!chosen.empty()) return chosen;
+    if (const char* named = std::getenv("RISORIUS_DATA"); named && *named) {
+        if (!holds_data(named))
+            throw Error("RISORIUS_DATA", "a folder that holds rigs/standard and models",
+                        quoted(named));
+        return named;
+    }
+    const std::vector<fs::path> folders = candidates();
+    for (const fs::path& folder : folders)
+        if (holds_data(folder)) return chosen = folder;
+    throw Error("data files", "rigs/standard and models in " + folders.front().string(),
+                "no such folders; set RISORIUS_DATA to the folder that holds them");
+}
+
+void set_data_folder(const std::filesystem::path& folder) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    chosen = folder;
+}
+
+}  // namespace risorius

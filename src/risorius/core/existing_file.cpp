@@ -1,0 +1,11 @@
+#include "risorius/core/existing_file.h"
+
+namespace risorius {
+
+std::filesystem::path existing_file(const JsonCursor& json) {
+    const std::filesystem::path file = json.path();
+    if (!std::filesystem::exists(file)) json.fail("an existing file", "\"" + file.string() + "\"");
+    return file;
+}
+
+}  // namespace risorius

@@ -1,0 +1,13 @@
+// A file that a JSON file names: missing, the message is about the key that asks for it.
+#pragma once
+
+#include <filesystem>
+
+#include "risorius/core/json_cursor.h"
+
+namespace risorius {
+
+/// Where the string points, from the folder of its own file. Throws Error when nothing is there.
+std::filesystem::path existing_file(const JsonCursor& json);
+
+}  // namespace risorius

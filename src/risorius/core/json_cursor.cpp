@@ -1,0 +1,281 @@
+#include "risorius/core/json_cursor.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "risorius/core/existing_file.h"
+
+namespace risorius {
+
+namespace {
+
+std::string describe(const Json& value) {
+    std::string text = value.dump();
+    constexpr std::size_t kLongest = 60;
+    if (value.is_object()) return "an object with " + std::to_string(value.size()) + " keys";
+    if (value.is_array() && text.size() > kLongest)
+        return "an array of " + std::to_string(value.size());
+    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+    return text;
+}
+
+std::string describe_character(char c) {
+    if (c == '\n' || c == '\r') return "a line break";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) return "'" + std::string(1, c) + "'";
+    return "a character";
+}
+
+std::string describe_range(Range range) {
+    const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
+    if (!low && !high) return "a finite number";
+    return std::string(low ? "[" : "(") + (low ? format_number(range.min) : "-inf") + ", " +
+           (high ? format_number(range.max) : "inf") + (high ? "]" : ")");
+}
+
+std::string escape_pointer(std::string_view key) {
+    std::string out;
+    for (char c : key) {
+        if (c == '~')
+            out += "~0";
+        else if (c == '/')
+            out += "~1";
+        else
+            out += c;
+    }
+    return out;
+}
+
+// nlohmann keeps the last of two equal keys; a script that sets a channel twice is a mistake worth naming.
+struct DuplicateKeyFinder {
+    std::vector<std::set<std::string>> open;
+    std::string duplicate;
+    bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+        if (event == Json::parse_event_t::object_start) open.emplace_back();
+        if (event == Json::parse_event_t::object_end && !open.empty()) open.pop_back();
+        if (event == Json::parse_event_t::key && !open.empty() && duplicate.empty()) {
+            const std::string key = parsed.get<std::string>();
+            if (!open.back().insert(key).second) duplicate = key;
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+std::string format_number(double value) {
+    char buffer[64];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return std::string(buffer, result.ptr);
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known) {
+    // Optimal string alignment: letters changed, added, left out, or swapped with their neighbour
+    std::string best;
+    std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+    for (std::string_view candidate : known) {
+        std::vector<std::size_t> before, last, row(candidate.size() + 1);
+        for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
+        for (std::size_t i = 1; i <= name.size(); ++i) {
+            before = std::move(last);
+            last = row;
+            row[0] = i;
+            for (std::size_t j = 1; j <= candidate.size(); ++j) {
+                row[j] = std::min(
+                    {last[j] + 1, row[j - 1] + 1, last[j - 1] + (name[i - 1] != candidate[j - 1])});
+                if (i > 1 && j > 1 && name[i - 1] == candidate[j - 2] &&
+                    name[i - 2] == candidate[j - 1])
+                    row[j] = std::min(row[j], before[j - 2] + 1);
+            }
+        }
+        if (row.back() < best_distance) {
+            best_distance = row.back();
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+JsonCursor::JsonCursor(std::shared_ptr<const Json> document, std::filesystem::path file,
+                       std::string pointer, const Json* value)
+    : document_(std::move(document)),
+      file_(std::move(file)),
+      pointer_(std::move(pointer)),
+      value_(value) {}
+
+JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw Error(file.string(), "a JSON file", "no such file");
+    if (std::filesystem::is_directory(file, ignored))
+        throw Error(file.string(), "a JSON file", "a folder");
+    std::ifstream stream(file, std::ios::binary);
+    std::stringstream text;
+    text << stream.rdbuf();
+    if (!stream) throw Error(file.string(), "a readable JSON file", "a file that cannot be read");
+    if (text.str().empty()) throw Error(file.string(), "a JSON file", "an empty file");
+
+    DuplicateKeyFinder duplicates;
+    auto document = std::make_shared<Json>();
+    try {
+        *document = Json::parse(text.str(), std::ref(duplicates));
+    } catch (const Json::parse_error& error) {
+        const std::string content = text.str();
+        const std::size_t at =
+            std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, content.size());
+        const auto line =
+            1 + std::count(content.begin(), content.begin() + static_cast<long>(at), '\n');
+        const std::size_t line_start = at == 0 ? std::string::npos : content.rfind('\n', at - 1);
+        const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
+        const std::string found =
+            at < content.size() ? describe_character(content[at]) + " that does not belong there"
+                                : "the end of the file";
+        throw Error(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
+                    "valid JSON", found);
+    } catch (const Json::out_of_range& error) {
+        // Its text ends with the number in quotes: "number overflow parsing '1e999'".
+        const std::string text_of_error = error.what();
+        throw Error(file.string(), "numbers within +-1.8e308",
+                    text_of_error.substr(std::min(text_of_error.find('\''), text_of_error.size())));
+    }
+    if (!duplicates.duplicate.empty())
+        throw Error(file.string(), "every key once in its object",
+                    "\"" + duplicates.duplicate + "\" twice");
+    const Json* root = document.get();
+    return JsonCursor(std::move(document), file, "", root);
+}
+
+JsonCursor JsonCursor::from_json(Json json, const std::string& name) {
+    auto document = std::make_shared<Json>(std::move(json));
+    const Json* root = document.get();
+    return JsonCursor(std::move(document), name, "", root);
+}
+
+const std::filesystem::path& JsonCursor::file() const { return file_; }
+
+std::string JsonCursor::place() const {
+    return file_.string() + ":" + (pointer_.empty() ? "/" : pointer_);
+}
+
+bool JsonCursor::is_object() const { return value_->is_object(); }
+bool JsonCursor::is_array() const { return value_->is_array(); }
+bool JsonCursor::is_string() const { return value_->is_string(); }
+bool JsonCursor::is_number() const { return value_->is_number(); }
+
+bool JsonCursor::has(std::string_view key) const {
+    return value_->is_object() && value_->contains(key);
+}
+
+JsonCursor JsonCursor::at(std::string_view key) const {
+    if (!value_->is_object()) fail("an object");
+    const auto found = value_->find(key);
+    if (found == value_->end()) fail("the key \"" + std::string(key) + "\"", "none");
+    return JsonCursor(document_, file_, pointer_ + "/" + escape_pointer(key), &*found);
+}
+
+std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
+    if (!value_->is_object()) fail("an object");
+    if (!value_->contains(key)) return std::nullopt;
+    return at(key);
+}
+
+void JsonCursor::allow_keys(const std::vector<std::string_view>& known) const {
+    if (!value_->is_object()) fail("an object");
+    for (const auto& [key, ignored] : value_->items()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        const std::string near = nearest_name(key, known);
+        std::string expected =
+            near.empty() ? "one of" : "a known key (did you mean \"" + near + "\"?)";
+        if (near.empty())
+            for (std::string_view k : known) expected += " " + std::string(k);
+        at(key).fail(expected, "unknown key \"" + key + "\"");
+    }
+}
+
+std::vector<std::string> JsonCursor::keys() const {
+    if (!value_->is_object()) fail("an object");
+    std::vector<std::string> out;
+    for (const auto& [key, ignored] : value_->items()) out.push_back(key);
+    return out;
+}
+
+std::vector<JsonCursor> JsonCursor::items() const {
+    if (!value_->is_array()) fail("an array");
+    std::vector<JsonCursor> out;
+    for (std::size_t i = 0; i < value_->size(); ++i)
+        out.push_back(
+            JsonCursor(document_, file_, pointer_ + "/" + std::to_string(i), &(*value_)[i]));
+    return out;
+}
+
+double JsonCursor::number() const {
+    if (!value_->is_number()) fail("a number");
+    const double value = value_->get<double>();
+    if (!std::isfinite(value)) fail("a finite number");
+    return value;
+}
+
+double JsonCursor::number(Range range) const {
+    if (!value_->is_number()) fail("a number in " + describe_range(range));
+    const double value = value_->get<double>();
+    if (!(value >= range.min && value <= range.max)) fail(describe_range(range));
+    return value;
+}
+
+int JsonCursor::integer(int min, int max) const {
+    const std::string expected =
+        "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]";
+    if (!value_->is_number_integer()) fail(expected);
+    const auto value = value_->get<long long>();
+    if (value < min || value > max) fail(expected);
+    return static_cast<int>(value);
+}
+
+bool JsonCursor::boolean() const {
+    if (!value_->is_boolean()) fail("true or false");
+    return value_->get<bool>();
+}
+
+std::string JsonCursor::string() const {
+    if (!value_->is_string()) fail("a string");
+    return value_->get<std::string>();
+}
+
+std::string JsonCursor::one_of(const std::vector<std::string_view>& choices) const {
+    std::string expected = "one of";
+    for (std::string_view choice : choices) expected += " \"" + std::string(choice) + "\"";
+    if (!value_->is_string()) fail(expected);
+    const std::string value = value_->get<std::string>();
+    if (std::find(choices.begin(), choices.end(), value) == choices.end()) fail(expected);
+    return value;
+}
+
+Vec3 JsonCursor::vec3() const {
+    if (!value_->is_array() || value_->size() != 3) fail("three numbers");
+    const auto parts = items();
+    return Vec3(parts[0].number(), parts[1].number(), parts[2].number());
+}
+
+std::filesystem::path JsonCursor::path() const {
+    const std::filesystem::path written = string();
+    return written.is_absolute() ? written : (folder() / written).lexically_normal();
+}
+
+void JsonCursor::fail(const std::string& expected, const std::string& found) const {
+    throw Error(place(), expected, found);
+}
+
+void JsonCursor::fail(const std::string& expected) const { fail(expected, describe(*value_)); }
+
+JsonCursor follow_table(const JsonCursor& table) {
+    if (!table.is_string()) return table;
+    const std::filesystem::path file = existing_file(table);
+    return JsonCursor::read_file(file);
+}
+
+}  // namespace risorius

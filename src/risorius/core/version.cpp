@@ -1,0 +1,7 @@
+#include "risorius/core/version.h"
+
+namespace risorius {
+
+const char* const kVersion = RISORIUS_VERSION;
+
+}  // namespace risorius

@@ -1,0 +1,182 @@
+#include "risorius/design/conditions.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "risorius/core/error.h"
+
+namespace risorius::design {
+
+namespace {
+
+constexpr std::size_t kLongestClip = 100;
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool holds(const std::vector<Given>& when, const Parameters& values) {
+    return std::all_of(when.begin(), when.end(), [&](const Given& one) {
+        return values.has(one.name) && values.at(one.name) == one.value.json();
+    });
+}
+
+bool holds(const std::map<std::string, Json>& when, const Parameters& values) {
+    return std::all_of(when.begin(), when.end(), [&](const auto& one) {
+        return values.has(one.first) && values.at(one.first) == one.second;
+    });
+}
+
+void append_word(std::string word, std::string& name) {
+    if (!name.empty() && !word.empty())
+        word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
+    name += word;
+}
+
+/// A clip's name, its words filled in one by one so that numbers and signs become letters.
+std::string clip_name(const ConditionSet& set, const Parameters& values) {
+    std::string out;
+    const std::string place = set.place + "/clip";
+    for (std::size_t i = 0; i < set.clip.size();) {
+        if (set.clip.compare(i, 2, "${") != 0) {
+            const std::size_t end = std::min(set.clip.find("${", i), set.clip.size());
+            append_word(clip_word(set.clip.substr(i, end - i)), out);
+            i = end;
+            continue;
+        }
+        const std::size_t end = set.clip.find('}', i);
+        if (end == std::string::npos)
+            throw Error(place, "${name of a parameter}", risorius::quoted(set.clip.substr(i)));
+        append_word(clip_word(values.filled_text(set.clip.substr(i, end + 1 - i), place)), out);
+        i = end + 1;
+    }
+    if (out.empty())
+        throw Error(place, "a name with letters or digits", risorius::quoted(set.clip));
+    if (out.size() > kLongestClip)
+        throw Error(place, "a name of " + std::to_string(kLongestClip) + " letters at most",
+                    risorius::quoted(out));
+    return out;
+}
+
+/// A recording may be none for some of the conditions: null, or no text.
+void add_sound(const ConditionSet& set, const Parameters& values, Condition& condition) {
+    if (!set.audio) return;
+    const Json file = values.filled(*set.audio);
+    if (file.is_null() || file == "") return;
+    if (!file.is_string()) set.audio->fail("the name of a file", file.dump());
+    condition.audio = set.audio->folder() / file.get<std::string>();
+    if (!set.audio_start_s) return;
+    const Json start = values.filled(*set.audio_start_s);
+    if (!start.is_number()) set.audio_start_s->fail("a number", start.dump());
+    condition.audio_start_s = start.get<double>();
+}
+
+/// A clip that may not be named like another one, also where file names know no case.
+class Names {
+  public:
+    void add(const std::string& clip, const std::string& place) {
+        const auto [other, is_new] = taken_.emplace(lower_case(clip), place);
+        if (!is_new)
+            throw Error(place, "a name that no other clip has; put what differs into \"clip\"",
+                        risorius::quoted(clip) + ", as in " + other->second);
+    }
+
+  private:
+    std::map<std::string, std::string> taken_;
+};
+
+}  // namespace
+
+std::string clip_word(const std::string& text) {
+    std::string out;
+    bool capital = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const bool digit_after =
+            i + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[i + 1]));
+        const bool digit_before = i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1]));
+        if (std::isalnum(static_cast<unsigned char>(c))) {
+            out += capital && !out.empty()
+                       ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+                       : c;
+            capital = false;
+        } else if (c == '.' && digit_before && digit_after) {
+            out += 'p';
+        } else if (c == '-' && i == 0 && digit_after) {
+            out += 'm';
+        } else {
+            capital = true;
+        }
+    }
+    return out;
+}
+
+std::vector<Condition> conditions_of(const Design& design) {
+    long all = 0;
+    std::vector<std::vector<long>> wanted;
+    for (const ConditionSet& set : design.sets) {
+        wanted.push_back(wanted_conditions(set, design.seed));
+        all += static_cast<long>(wanted.back().size() * (1 + set.controls.size()));
+        if (all > kMostConditions)
+            throw Error(design.file.string() + ":/sets",
+                        std::to_string(kMostConditions) + " clips at most", "more");
+    }
+    std::vector<Condition> out;
+    Names names;
+    for (std::size_t s = 0; s < design.sets.size(); ++s) {
+        const ConditionSet& set = design.sets[s];
+        for (const long index : wanted[s]) {
+            std::vector<Given> given = design.parameters;
+            given.push_back({"set", JsonCursor::from_json(set.name, set.place)});
+            given.insert(given.end(), set.parameters.begin(), set.parameters.end());
+            const std::vector<int> levels = levels_of(set, index);
+            const std::vector<Given>& row = set.rows[static_cast<std::size_t>(levels[0])];
+            given.insert(given.end(), row.begin(), row.end());
+            for (std::size_t f = 0; f < set.factors.size(); ++f)
+                given.push_back({set.factors[f].name,
+                                 set.factors[f].levels[static_cast<std::size_t>(levels[f + 1])]});
+            const Parameters before(given);
+            for (const Override& one : set.overrides)
+                if (holds(one.when, before))
+                    given.insert(given.end(), one.set.begin(), one.set.end());
+            const Parameters values(given);
+
+            Condition condition;
+            condition.clip = condition.of = clip_name(set, values);
+            condition.set = set.name;
+            for (const std::string& name : values.names())
+                condition.values.emplace_back(name, values.at(name));
+            const Json script = values.filled(set.script);
+            condition.script = script;
+            condition.folder = set.script.folder();
+            add_sound(set, values, condition);
+            const std::string place = set.place + ", condition " + std::to_string(index + 1) +
+                                      " (" + condition.clip + ")";
+            names.add(condition.clip, place);
+            out.push_back(condition);
+            for (const Control& control : set.controls) {
+                if (!holds(control.when, values)) continue;
+                Condition beside = condition;
+                beside.control = control;
+                append_word(control.name(), beside.clip);
+                beside.script = controlled(script, control);
+                // By its name, so that other conditions do not change it
+                std::seed_seq seed(beside.clip.begin(), beside.clip.end());
+                std::array<unsigned, 1> drawn_seed{};
+                seed.generate(drawn_seed.begin(), drawn_seed.end());
+                beside.seed = drawn_seed[0] ^ static_cast<unsigned>(design.seed);
+                names.add(beside.clip, place + ", control " + control.name());
+                out.push_back(std::move(beside));
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace risorius::design

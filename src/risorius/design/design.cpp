@@ -1,0 +1,232 @@
+#include "risorius/design/design.h"
+
+#include <cctype>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "risorius/core/error.h"
+#include "risorius/core/existing_file.h"
+#include "risorius/core/known_names.h"
+#include "risorius/core/place_chance.h"
+#include "risorius/design/conditions.h"
+#include "risorius/design/detail/table.h"
+
+namespace risorius::design {
+
+namespace {
+
+std::vector<Given> read_values(const JsonCursor& json) {
+    std::vector<Given> out;
+    for (const std::string& name : json.keys()) {
+        if (!is_parameter_name(name))
+            json.at(name).fail("a name of letters, digits and _, a letter first",
+                               risorius::quoted(name));
+        out.push_back({name, json.at(name)});
+    }
+    return out;
+}
+
+/// Values of their own, as if each were written in the file.
+std::vector<JsonCursor> made_levels(const std::vector<double>& values, const JsonCursor& from) {
+    std::vector<JsonCursor> out;
+    for (const double value : values)
+        out.push_back(JsonCursor::from_json(json_number(value), from.place()));
+    return out;
+}
+
+// The same number for the same design whatever else is drawn
+double chance(int seed, const std::string& name, int index) {
+    PlaceChance place(static_cast<std::uint64_t>(seed));
+    for (const char c : name) place.at(static_cast<unsigned char>(c));
+    return place.at(static_cast<std::uint64_t>(index)).from_zero();
+}
+
+constexpr int kMostLevels = 100000;
+constexpr double kBroadcastLufs = -23;  // EBU R 128
+
+Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
+    Factor factor{name, {}};
+    if (json.is_array()) {
+        factor.levels = json.items();
+    } else if (json.is_object() && json.has("draw")) {
+        json.allow_keys({"draw", "count"});
+        const std::vector<JsonCursor> ends = json.at("draw").items();
+        if (ends.size() != 2) json.at("draw").fail("[least, most]");
+        const double least = ends[0].number(), most = ends[1].number();
+        std::vector<double> values;
+        for (int i = 0; i < json.at("count").integer(1, kMostLevels); ++i)
+            values.push_back(least + (most - least) * chance(seed, name, i));
+        factor.levels = made_levels(values, json);
+    } else if (json.is_object()) {
+        json.allow_keys({"from", "to", "steps"});
+        const double from = json.at("from").number(), to = json.at("to").number();
+        const int steps = json.at("steps").integer(2, kMostLevels);
+        std::vector<double> values;
+        for (int i = 0; i < steps; ++i)
+            values.push_back(i + 1 == steps ? to : from + (to - from) * i / (steps - 1));
+        factor.levels = made_levels(values, json);
+    } else {
+        json.fail("a list of values, {\"from\", \"to\", \"steps\"} or {\"draw\", \"count\"}");
+    }
+    if (factor.levels.empty()) json.fail("a value at least", "none");
+    return factor;
+}
+
+std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
+    if (json.is_string()) return read_table(existing_file(json));
+    std::vector<std::vector<Given>> rows;
+    for (const JsonCursor& row : json.items()) rows.push_back(read_values(row));
+    if (rows.empty()) json.fail("a condition at least", "none");
+    return rows;
+}
+
+ConditionSet read_set(const JsonCursor& json, int seed) {
+    json.allow_keys({"name", "script", "parameters", "factors", "conditions", "fraction", "draw",
+                     "overrides", "clip", "controls", "audio", "audio_start_s"});
+    const JsonCursor script = json.at("script");
+    ConditionSet set{
+        .name = json.at("name").string(),
+        .script = script.is_string() ? JsonCursor::read_file(existing_file(script)) : script,
+        .parameters = {},
+        .factors = {},
+        .rows = {{}},
+        .fraction = {},
+        .draw = {},
+        .overrides = {},
+        .clip = json.at("clip").string(),
+        .controls = {},
+        .audio = json.find("audio"),
+        .audio_start_s = json.find("audio_start_s"),
+        .place = json.place()};
+    if (clip_word(set.name).empty()) json.at("name").fail("a name with letters or digits");
+    if (!set.script.is_object()) script.fail("a script, or the file of one");
+    if (const auto v = json.find("parameters")) set.parameters = read_values(*v);
+    if (const auto v = json.find("factors"))
+        for (const std::string& name : v->keys()) {
+            if (!is_parameter_name(name))
+                v->at(name).fail("a name of letters, digits and _, a letter first",
+                                 risorius::quoted(name));
+            set.factors.push_back(read_factor(v->at(name), name, seed));
+        }
+    if (const auto v = json.find("conditions")) set.rows = read_rows(*v);
+    if (const auto v = json.find("fraction")) {
+        std::vector<std::string> names;
+        for (const Factor& factor : set.factors) names.push_back(factor.name);
+        set.fraction = read_fraction(*v, names);
+    }
+    if (set.audio_start_s && !set.audio) set.audio_start_s->fail("\"audio\" beside it", "none");
+    if (const auto v = json.find("draw"))
+        set.draw = v->integer(1, static_cast<int>(kMostConditions));
+    if (const auto v = json.find("overrides"))
+        for (const JsonCursor& one : v->items()) {
+            one.allow_keys({"when", "set"});
+            set.overrides.push_back({read_values(one.at("when")), read_values(one.at("set"))});
+        }
+    if (const auto v = json.find("controls"))
+        for (const JsonCursor& one : v->items()) set.controls.push_back(read_control(one));
+    return set;
+}
+
+ClipOptions read_clips(const JsonCursor& json) {
+    json.allow_keys({"ending", "quality", "crf", "lossless", "landmarks", "photodiode"});
+    ClipOptions clips;
+    if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
+    if (const auto v = json.find("quality"))
+        clips.quality = v->one_of({"draft", "preview", "video", "fine"});
+    if (const auto v = json.find("crf")) clips.crf = v->integer(0, 63);
+    if (const auto v = json.find("lossless")) clips.lossless = v->boolean();
+    if (const auto v = json.find("landmarks")) clips.landmarks = v->boolean();
+    if (const auto v = json.find("photodiode")) clips.photodiode = v->string();
+    return clips;
+}
+
+Match read_match(const JsonCursor& json) {
+    json.allow_keys({"luminance", "loudness"});
+    Match match;
+    if (const auto luminance = json.find("luminance")) {
+        luminance->allow_keys({"within", "one_for", "mean", "sd"});
+        LuminanceMatch& out = match.luminance.emplace();
+        if (const auto v = luminance->find("within"))
+            out.within_face = v->one_of({"picture", "face"}) == "face";
+        if (const auto v = luminance->find("one_for"))
+            out.per_clip = v->one_of({"all", "clip"}) == "clip";
+        if (const auto v = luminance->find("mean")) out.mean = v->number({0.001, 0.999});
+        if (const auto v = luminance->find("sd")) out.sd = v->number({0.001, 0.5});
+        if (!out.per_clip && !out.mean && !out.sd)
+            luminance->fail("\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"clip\"",
+                            "none of them");
+    }
+    if (const auto loudness = json.find("loudness")) {
+        loudness->allow_keys({"lufs"});
+        match.loudness_lufs = kBroadcastLufs;
+        if (const auto v = loudness->find("lufs")) match.loudness_lufs = v->number({-70, 0});
+    }
+    return match;
+}
+
+ExperimentOptions read_experiment(const JsonCursor& json) {
+    json.allow_keys({"programs", "question", "answers", "correct", "sets", "controls",
+                     "repetitions", "fixation_s", "jspsych_from"});
+    ExperimentOptions out;
+    for (const JsonCursor& one : json.at("programs").items())
+        out.programs.push_back(one.one_of({"psychopy", "jspsych"}));
+    if (out.programs.empty()) json.at("programs").fail("a program at least", "none");
+    if (const auto v = json.find("question")) out.question = v->string();
+    const JsonCursor answers = json.at("answers");
+    for (const std::string& key : answers.keys()) {
+        // What both programs and every keyboard call the same
+        if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
+                                 std::isdigit(static_cast<unsigned char>(key[0]))))
+            answers.at(key).fail("a key from a to z or 0 to 9", risorius::quoted(key));
+        out.answers.emplace_back(key, answers.at(key).string());
+    }
+    if (out.answers.empty()) answers.fail("a key to answer with at least", "none");
+    if (const auto v = json.find("correct")) out.correct = v->string();
+    if (const auto v = json.find("sets"))
+        for (const JsonCursor& one : v->items()) out.sets.push_back(one.string());
+    if (const auto v = json.find("controls")) out.controls = v->boolean();
+    if (const auto v = json.find("repetitions")) out.repetitions = v->integer(1, 1000);
+    if (const auto v = json.find("fixation_s")) out.fixation_s = v->number({0, 60});
+    if (const auto v = json.find("jspsych_from")) out.jspsych_from = v->string();
+    return out;
+}
+
+/// What the experiment names must be in the design.
+void check_experiment(const JsonCursor& json, const Design& design) {
+    std::vector<std::string> names;
+    for (const ConditionSet& set : design.sets) names.push_back(set.name);
+    for (std::size_t i = 0; i < design.experiment->sets.size(); ++i)
+        index_of_name(json.at("sets").items()[i].place(), design.experiment->sets[i], names);
+}
+
+}  // namespace
+
+Design read_design(const std::filesystem::path& file) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.at("format").one_of({"risorius-design"});
+    const JsonCursor version = json.at("version");
+    if (version.json() != 1) version.fail("1, the version of the format this program reads");
+    json.allow_keys({"format", "version", "name", "seed", "clips", "match", "experiment",
+                     "parameters", "sets"});
+    Design design;
+    design.file = file;
+    design.name = json.at("name").string();
+    if (const auto v = json.find("seed")) design.seed = v->integer(0, 2147483647);
+    if (const auto v = json.find("clips")) design.clips = read_clips(*v);
+    if (const auto v = json.find("match")) design.match = read_match(*v);
+    if (const auto v = json.find("experiment")) design.experiment = read_experiment(*v);
+    if (const auto v = json.find("parameters")) design.parameters = read_values(*v);
+    std::set<std::string> names;
+    for (const JsonCursor& set : json.at("sets").items()) {
+        design.sets.push_back(read_set(set, design.seed));
+        if (!names.insert(design.sets.back().name).second)
+            set.at("name").fail("every set's name once",
+                                risorius::quoted(design.sets.back().name) + " again");
+    }
+    if (design.sets.empty()) json.at("sets").fail("a set of conditions at least", "none");
+    if (design.experiment) check_experiment(json.at("experiment"), design);
+    return design;
+}
+
+}  // namespace risorius::design

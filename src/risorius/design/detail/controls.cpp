@@ -1,0 +1,91 @@
+#include "risorius/design/detail/controls.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/design/conditions.h"
+
+namespace risorius::design {
+
+const std::vector<std::string>& control_names() {
+    static const std::vector<std::string> kNames{
+        "reversed",   "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
+        "mouth_only", "flipped",   "neutral", "knock_out",   "palsy",           "late_side"};
+    return kNames;
+}
+
+std::string Control::name() const {
+    if (kind == ControlKind::kNone) return {};
+    const std::string plain = control_names()[static_cast<std::size_t>(kind) - 1];
+    if (kind == ControlKind::kKnockOut) return clip_word("without_" + muscle);
+    if (kind == ControlKind::kPalsy || kind == ControlKind::kLateSide)
+        return clip_word(plain + "_" + side);
+    return clip_word(plain);
+}
+
+Control read_control(const JsonCursor& json) {
+    Control control;
+    const JsonCursor name = json.is_object() ? json.at("control") : json;
+    control.kind =
+        static_cast<ControlKind>(index_of_name(name.place(), name.string(), control_names()) + 1);
+    const bool one_side =
+        control.kind == ControlKind::kPalsy || control.kind == ControlKind::kLateSide;
+    if (!json.is_object()) {
+        if (control.kind == ControlKind::kKnockOut)
+            json.fail("an object with \"control\" and \"muscle\"");
+        if (one_side) json.fail("an object with \"control\" and \"side\"");
+        return control;
+    }
+    std::vector<std::string_view> keys{"control", "when"};
+    if (control.kind == ControlKind::kKnockOut) keys.push_back("muscle");
+    if (one_side) keys.push_back("side");
+    if (control.kind == ControlKind::kPalsy) keys.push_back("weakness");
+    if (control.kind == ControlKind::kLateSide) keys.push_back("late_s");
+    json.allow_keys(keys);
+    if (control.kind == ControlKind::kKnockOut) control.muscle = json.at("muscle").string();
+    if (one_side) control.side = json.at("side").one_of({"left", "right"});
+    if (const auto v = json.find("weakness")) control.weakness = v->number({0, 1});
+    if (const auto v = json.find("late_s")) control.late_s = v->number({0, 10});
+    if (const auto when = json.find("when"))
+        for (const std::string& key : when->keys()) control.when[key] = when->at(key).json();
+    return control;
+}
+
+Json controlled(Json script, const Control& control) {
+    switch (control.kind) {
+        case ControlKind::kNeutral:
+            for (const char* key : {"channels", "emg", "events"}) script.erase(key);
+            break;
+        case ControlKind::kKnockOut:
+            script["weakness"][control.muscle] = 1;
+            break;
+        case ControlKind::kPalsy:
+            script["weakness"][control.side] = control.weakness;
+            break;
+        case ControlKind::kLateSide:
+            script["late_s"][control.side] = control.late_s;
+            break;
+        default:
+            break;
+    }
+    return script;
+}
+
+std::vector<int> frame_order(const Control& control, int frames, int apex, unsigned seed) {
+    std::vector<int> order(static_cast<std::size_t>(frames));
+    std::iota(order.begin(), order.end(), 0);
+    if (control.kind == ControlKind::kReversed) std::reverse(order.begin(), order.end());
+    if (control.kind == ControlKind::kApex) std::fill(order.begin(), order.end(), apex);
+    if (control.kind == ControlKind::kScrambled) {
+        // Fisher and Yates' shuffle; std::shuffle's draws are not the same everywhere
+        std::mt19937 random(seed);
+        for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    }
+    return order;
+}
+
+}  // namespace risorius::design

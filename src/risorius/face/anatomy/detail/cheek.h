@@ -1,0 +1,30 @@
+// The cheek beside the nasolabial fold: skin that gives way along a crease, and the malar fat pad that it folds against.
+//
+// Muscles that lift the lip take hold of it in front of the fold and pass under the fat, which ligaments hold over the cheekbone.
+// So skin shortens across the crease, by a third in a measured smile, while the cheek behind it moves as one.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/rig/head.h"
+
+namespace risorius::face {
+
+class CheekRegions {
+  public:
+    explicit CheekRegions(const rig::Head& head);
+
+    /// Share of the crease at a skin point: 1 in a strip beside the line from nose wing to mouth corner, 0 away from it.
+    double crease(const Vec3& p) const;
+    /// Share of the fat pad: 1 in its middle, below the cheekbone, 0 in the crease and away from both.
+    double fat(const Vec3& p) const;
+
+  private:
+    double mm_;
+    std::array<std::vector<Vec3>, 2> crease_;
+    std::array<Vec3, 2> fat_;
+};
+
+}  // namespace risorius::face

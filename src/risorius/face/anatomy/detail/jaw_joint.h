@@ -1,0 +1,109 @@
+// How the mandible hangs on the skull: two condyles that slide on the articular eminences and turn, ligaments that limit them,
+// and the teeth, on which the closed jaw rests.
+//
+//   q   open, slide left, slide right, side, hyoid x, y, z, all in m:
+//       open   turn about the line through both condyles x distance of the incisors from it
+//       slide  forward travel of a condyle; its height follows the eminence
+//       side   both condyles to the subject's left
+//       hyoid  displacement of the hyoid bone
+//   E_stop = sum k/2 max(0, c(q))^2 over the limits c
+//
+// Condyles stay on their eminences: disc and capsule are taken as rigid across the path, so that what is left to solve is soft.
+// Sources: skull.json's ranges and path (Hannam et al. 2008; Travers 2000; Ferrario 2005). Stiffness of limits: chosen so that the
+// greatest muscle forces pass them by less than a millimetre.
+#pragma once
+
+#include <array>
+
+#include "risorius/core/types.h"
+#include "risorius/face/anatomy/detail/wrench.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::face {
+
+enum JawCoordinate { kOpen, kSlideLeft, kSlideRight, kSideways, kHyoid, kJawCoordinates = 7 };
+inline constexpr int kMandibleCoordinates = 4;
+using JawVector = Eigen::Matrix<double, kJawCoordinates, 1>;
+using JawMatrix = Eigen::Matrix<double, kJawCoordinates, kJawCoordinates>;
+
+/// Motion of the mandible from rest, and how it changes with each of its coordinates.
+struct JawPose {
+    Rigid motion = Rigid::Identity();
+    Vec3 centre = Vec3::Zero();  ///< the middle between the condyles
+    std::array<Vec3, kMandibleCoordinates> turn,
+        shift;  ///< of the mandible, and of its centre, per m
+
+    /// Where a point of the mandible moves per m of coordinate k; `place` is where it is now.
+    Vec3 velocity(int k, const Vec3& place) const {
+        return shift[k] + turn[k].cross(place - centre);
+    }
+};
+
+/// What a wrench on the mandible does per m of each of its coordinates, N.
+JawVector along(const JawPose& pose, const Wrench& wrench);
+
+/// The jaw as measured.
+struct JawPlace {
+    double open_rad = 0;
+    double open_m = 0;     ///< travel of the lower incisors along the opening path
+    double forward_m = 0;  ///< mean slide of the condyles
+    double side_m = 0;     ///< lower incisors to the subject's left
+};
+
+class JawJoint {
+  public:
+    JawJoint(const rig::Head& head, const rig::JawDescription& description);
+
+    JawPose pose(const JawVector& q) const;
+    JawPlace place(const JawVector& q) const;
+    JawPlace place(const Rigid& motion) const;  ///< of a jaw moved otherwise
+
+    /// Adds E_stop, its gradient and a positive part of its second derivative.
+    double add_stops(const JawVector& q, const JawPose& pose, JawVector& gradient,
+                     JawMatrix& hessian) const;
+
+    /// The molars are pressed together at rest by what closes the jaw with this force along kOpen, N.
+    void close_with(double force_n);
+    /// Something hard of this height between the incisors; 0: nothing.
+    void set_bite_block(double height_m) { bite_block_m_ = height_m; }
+    /// What the lower incisors, and what all teeth, press with, N.
+    double incisor_force_n(const JawVector& q) const;
+    double tooth_force_n(const JawVector& q) const;
+
+    /// Height of a condyle over its rest after sliding forward by s, m, and dh/ds.
+    struct Height {
+        double value, slope;
+    };
+    Height eminence(double s) const;
+
+    double size() const { return size_; }
+    double lever_m() const { return lever_m_; }  ///< incisors to hinge axis
+    const Vec3& hinge() const { return hinge_; }
+    const Vec3& incisor() const { return incisor_; }
+
+  private:
+    struct Limit {  // c, its gradient, and the positive part of its second derivative
+        double depth = 0;
+        JawVector slope = JawVector::Zero();
+        JawMatrix bend = JawMatrix::Zero();
+    };
+    /// A surface of the skull that a tooth rides on: height allowed, and how it changes as the tooth moves.
+    struct Guide {
+        double height = 0;
+        Vec3 slope = Vec3::Zero();
+        Mat3 bend = Mat3::Zero();  ///< second derivative
+    };
+    Limit incisors(const JawPose& pose) const;
+    Limit molars(const JawPose& pose, int side) const;
+    static Limit tooth(const JawPose& pose, const Vec3& rest, const Vec3& up, const Guide& guide);
+
+    double size_;
+    Vec3 hinge_, incisor_;
+    std::array<Vec3, 2> molar_;
+    double half_width_m_, lever_m_;
+    Vec3 opening_;  // direction in which the incisors begin to open
+    double bite_block_m_ = 0, resting_depth_m_ = 0;
+};
+
+}  // namespace risorius::face

@@ -1,0 +1,36 @@
+// Finds where points lie in the tissue: under which skin, and in which tetrahedron.
+#pragma once
+
+#include "risorius/core/types.h"
+#include "risorius/face/anatomy/shell.h"
+#include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/geom/closest_point.h"
+#include "risorius/muscle/fibre_set.h"
+
+namespace risorius::face {
+
+class TissueLocator {
+  public:
+    /// Keeps references.
+    TissueLocator(const Shell& shell, const TissueMesh& mesh);
+
+    /// Skin, thickness and outward direction at a point on, over or under the skin.
+    struct Column {
+        Vec3 skin, outward;
+        double thickness;
+    };
+    Column column_at(const Vec3& p) const;
+
+    /// Weights on the tet that holds p, or on the nearest one when p lies outside the tissue.
+    muscle::FibrePoint embed(const Vec3& p) const;
+
+  private:
+    Eigen::Vector4d weights(long t, const Vec3& p) const;
+
+    const Shell& shell_;
+    const TissueMesh& mesh_;
+    geom::SurfaceTree skin_;
+    Points centres_;
+};
+
+}  // namespace risorius::face

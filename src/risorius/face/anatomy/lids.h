@@ -1,0 +1,93 @@
+// Eyelids: tarsal plates that turn about the canthal axis through the eye centre until the margins meet.
+//
+//   s      place along the canthal axis, 0 at the inner, 1 at the outer canthus
+//   angle  of a point about the axis, rad, 0 forward, positive up
+//   A(s)   angle of a lid's margin at rest, measured on the mesh where skin ends before the eye
+//   q      height over the margin: 1 at the crease of the upper lid, 1 where the lower lid ends
+//
+// Gaze, wide opening and a tightened lower lid give each margin its curve; both then close on the line where they meet:
+//   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - share) (U - L)
+// A margin point slides along its curve, inwards in a blink and with the gaze, so that closed lids meet wherever it goes.
+// The plate's skin turns with gaze as one piece up to the crease; when the eye closes it unrolls from below the crease.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/rig/head.h"
+
+namespace risorius::face {
+
+/// How far each lid has turned: ratio of the way to the meeting line, plus angles that follow gaze.
+struct LidPose {
+    double upper_closure = 0.0;
+    double lower_closure = 0.0;
+    double upper_gaze_rad = 0.0;  ///< positive lowers
+    double lower_gaze_rad = 0.0;  ///< positive lowers
+    double lower_lift = 0.0;      ///< of a tightened lower lid, ratio of the fissure's height
+    double inward = 0.0;          ///< ratio of the way margins slide to the nose in a full blink
+    double aside_rad = 0.0;       ///< positive takes both lids to the subject's left
+};
+
+/// Where a point lies on a lid.
+struct LidMember {
+    bool upper = true;
+    double place = 0.0;   ///< s
+    double height = 0.0;  ///< q, 0 on the margin and before it
+    double share = 1.0;   ///< of the upper lid's motion, the lower lid's takes the rest
+    double beyond = 0.0;  ///< the canthi, m
+};
+
+class EyeLids {
+  public:
+    EyeLids(const rig::Head& head, int side, double upper_share);
+
+    LidMember member(const Vec3& p) const;
+    /// How firmly a point rides on its tarsal plate: 1 on the margin, 0 where the lid ends and beyond the canthi. The ratios
+    /// are heights.
+    static double firmness(const LidMember& member, double upper_core, double upper_end,
+                           double lower_core, double lower_end);
+    double margin_distance(const Vec3& p) const;
+
+    /// Displacement of a rest point that rides on its lid.
+    Vec3 ride(const Vec3& rest, const LidMember& member, const LidPose& pose) const;
+
+    double fissure_m() const { return fissure_m_; }  ///< canthus to canthus
+    double zone_m() const { return zone_m_; }        ///< distance of the canthi from the eye centre
+    const Vec3& centre() const { return centre_; }
+    const Vec3& axis() const { return axis_; }
+    const std::vector<Vec3>& upper_margin() const { return upper_; }
+    const std::vector<Vec3>& lower_margin() const { return lower_; }
+    double place_of(const Vec3& p) const;
+    double angle_of(const Vec3& p) const;
+    double upper_angle(double place) const { return at(upper_angle_, place); }
+    double lower_angle(double place) const { return at(lower_angle_, place); }
+
+  private:
+    double at(const std::vector<double>& table, double place) const;
+    double margin_angle(const std::vector<Vec3>& margin, double place) const;
+    void measure_margins(const rig::Head& head);
+    void widen_gap();
+
+    struct Curves {
+        double upper, lower;  // angles of the margins' curves
+    };
+    double gaze_turn(double place, double own_rad, double other_rad) const;
+    Curves curves(double place, const LidPose& pose) const;
+    double beyond_m(double place) const;  // the canthi
+    double slide_m(double place, bool upper, const LidPose& pose) const;
+    double upper_turn(const LidMember& member, const LidPose& pose) const;
+    double lower_turn(const LidMember& member, const LidPose& pose) const;
+
+    Vec3 centre_, axis_, forward_, up_;
+    double inner_, outer_;  // places of the canthi along the axis, m
+    double fissure_m_, zone_m_;
+    double upper_share_;
+    double to_left_;                       // along the axis
+    double millimetre_;                    // of the atlas head, on this head, m
+    double crease_angle_, lower_reach_m_;  // where the lids end
+    std::vector<Vec3> upper_, lower_;      // margins from inner to outer canthus, by landmarks
+    std::vector<double> upper_angle_, lower_angle_, wide_gap_;  // tables over s
+};
+
+}  // namespace risorius::face

@@ -1,0 +1,395 @@
+#include "risorius/face/anatomy/shell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "risorius/geom/closest_point.h"
+#include "risorius/geom/decimate.h"
+#include "risorius/geom/mirror.h"
+#include "risorius/geom/polyline.h"
+
+namespace risorius::face {
+
+namespace {
+
+// Lips are thin: one vertex more or less at their rims decides how they roll. So that a nose of another form, or a wider face, leaves
+// them their vertices, the size of triangles about the mouth changes by steps only; the rest of the face makes up the number.
+constexpr double kMouth_mm = 8, kOffMouth_mm = 16;  // from the line of the lips
+constexpr double kStep = 1.0773, kSomeStep = 1.538441;
+
+double stepped(double scale) {
+    return kSomeStep * std::pow(kStep, std::round(std::log(scale / kSomeStep) / std::log(kStep)));
+}
+
+// Mean of area-weighted triangle normals around each vertex, weighted by a Gaussian of distance.
+Points smooth_normals(const Points& vertices, const Triangles& triangles,
+                      const std::vector<char>& wanted, double sigma) {
+    struct Face {
+        Vec3 centre, area_normal;
+    };
+    const double reach = 2.5 * sigma;
+    std::map<std::array<int, 3>, std::vector<Face>> cells;
+    const auto cell_of = [&](const Vec3& p) {
+        return std::array<int, 3>{static_cast<int>(std::floor(p.x() / reach)),
+                                  static_cast<int>(std::floor(p.y() / reach)),
+                                  static_cast<int>(std::floor(p.z() / reach))};
+    };
+    for (long f = 0; f < triangles.rows(); ++f) {
+        const Vec3 a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
+                   c = vertices.row(triangles(f, 2));
+        const Vec3 centre = (a + b + c) / 3.0;
+        cells[cell_of(centre)].push_back({centre, 0.5 * (b - a).cross(c - a)});
+    }
+    Points out = Points::Zero(vertices.rows(), 3);
+    for (long v = 0; v < vertices.rows(); ++v) {
+        if (!wanted[v]) continue;
+        const Vec3 p = vertices.row(v).transpose();
+        const auto home = cell_of(p);
+        Vec3 sum = Vec3::Zero();
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j)
+                for (int k = -1; k <= 1; ++k) {
+                    const auto found = cells.find({home[0] + i, home[1] + j, home[2] + k});
+                    if (found == cells.end()) continue;
+                    for (const Face& face : found->second)
+                        sum += std::exp(-(face.centre - p).squaredNorm() / (2 * sigma * sigma)) *
+                               face.area_normal;
+                }
+        if (sum.norm() > 0) out.row(v) = sum.normalized().transpose();
+    }
+    return out;
+}
+
+// Whether skin is a wall of a cavity, as of a nostril: across from other skin, and little of what it faces is open.
+class Cavities {
+  public:
+    explicit Cavities(const rig::Head& head)
+        : tree_(head.vertices, head.skin), across_m_(head.mm(20)) {
+        // Spread evenly by the cosine law, about +z: Fibonacci's spiral
+        constexpr double kGoldenAngle = 2.399963229728653;
+        for (int k = 0; k < kRays; ++k) {
+            const double squared = (k + 0.5) / kRays, r = std::sqrt(squared);
+            rays_.push_back({r * std::cos(kGoldenAngle * k), r * std::sin(kGoldenAngle * k),
+                             std::sqrt(1 - squared)});
+        }
+    }
+    /// `normal` unit, outwards.
+    bool hold(const Vec3& p, const Vec3& normal) const {
+        const Vec3 origin = p + 1e-3 * across_m_ * normal;
+        if (!tree_.cast(origin, normal, across_m_)) return false;
+        const Vec3 u = normal.unitOrthogonal(), w = normal.cross(u);
+        int open = 0;
+        for (const Vec3& ray : rays_)
+            open += !tree_.cast(origin, ray.x() * u + ray.y() * w + ray.z() * normal, across_m_);
+        return open < kLeastOpen * kRays;
+    }
+
+  private:
+    static constexpr int kRays = 64;
+    static constexpr double kLeastOpen = 0.35;  // at the very edge of a cavity it is a half
+    geom::SurfaceTree tree_;
+    double across_m_;
+    std::vector<Vec3> rays_;
+};
+
+// Largest connected piece of a triangle list.
+Triangles largest_piece(const Triangles& triangles, long vertex_count) {
+    std::vector<int> parent(static_cast<std::size_t>(vertex_count));
+    for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
+    const auto find = [&](int v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (long f = 0; f < triangles.rows(); ++f)
+        for (int k = 1; k < 3; ++k) {
+            const int a = find(triangles(f, 0)), b = find(triangles(f, k));
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    std::map<int, long> size;
+    for (long f = 0; f < triangles.rows(); ++f) ++size[find(triangles(f, 0))];
+    int best = -1;
+    for (const auto& [root, count] : size)
+        if (best < 0 || count > size[best]) best = root;
+    std::vector<long> keep;
+    for (long f = 0; f < triangles.rows(); ++f)
+        if (find(triangles(f, 0)) == best) keep.push_back(f);
+    Triangles out(static_cast<long>(keep.size()), 3);
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        out.row(static_cast<long>(i)) = triangles.row(keep[i]);
+    return out;
+}
+
+// Corners that touch the shell with a single triangle fan twice (bow ties) make prisms meet in a line; drop such fans.
+Triangles without_bow_ties(const Triangles& triangles) {
+    Triangles current = triangles;
+    for (int pass = 0; pass < 10; ++pass) {
+        std::unordered_map<int, std::vector<long>> around;
+        for (long f = 0; f < current.rows(); ++f)
+            for (int k = 0; k < 3; ++k) around[current(f, k)].push_back(f);
+        std::set<long> drop;
+        for (const auto& [v, faces] : around) {
+            // Fans: faces joined by a shared edge at v.
+            std::vector<int> fan(faces.size());
+            for (std::size_t i = 0; i < fan.size(); ++i) fan[i] = static_cast<int>(i);
+            const auto find = [&](int i) {
+                while (fan[i] != i) i = fan[i];
+                return i;
+            };
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                for (std::size_t j = i + 1; j < faces.size(); ++j) {
+                    int shared = 0;
+                    for (int a = 0; a < 3; ++a)
+                        for (int b = 0; b < 3; ++b)
+                            shared += current(faces[i], a) == current(faces[j], b);
+                    if (shared >= 2) {
+                        const int x = find(static_cast<int>(i)), y = find(static_cast<int>(j));
+                        fan[std::max(x, y)] = std::min(x, y);
+                    }
+                }
+            std::map<int, std::vector<long>> fans;
+            for (std::size_t i = 0; i < faces.size(); ++i)
+                fans[find(static_cast<int>(i))].push_back(faces[i]);
+            if (fans.size() < 2) continue;
+            std::size_t largest = 0;
+            for (const auto& [root, members] : fans) largest = std::max(largest, members.size());
+            bool kept = false;
+            for (const auto& [root, members] : fans) {
+                if (!kept && members.size() == largest) {
+                    kept = true;
+                    continue;
+                }
+                drop.insert(members.begin(), members.end());
+            }
+        }
+        if (drop.empty()) break;
+        Triangles next(current.rows() - static_cast<long>(drop.size()), 3);
+        long row = 0;
+        for (long f = 0; f < current.rows(); ++f)
+            if (!drop.count(f)) next.row(row++) = current.row(f);
+        current = next;
+    }
+    return current;
+}
+
+}  // namespace
+
+std::vector<Vec3> lip_line(const rig::Head& head) {
+    const auto mid = [&](const char* a, const char* b) {
+        return Vec3(0.5 * (head.landmark(a) + head.landmark(b)));
+    };
+    return {head.landmark("ch_r"), mid("uli_r", "lli_r"), head.landmark("sto"),
+            mid("uli_l", "lli_l"), head.landmark("ch_l")};
+}
+
+Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
+                  const ShellOptions& options) {
+    const long count = head.vertices.rows();
+    const std::vector<Vec3> lips = lip_line(head);
+    Shell shell;
+
+    // Region of the face
+    const auto in_region = [&](const Vec3& p) {
+        return p.z() > head.mm(8) && p.y() > head.mm(-135) && p.y() < head.mm(112);
+    };
+    std::vector<char> inside(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v) inside[v] = in_region(head.vertices.row(v).transpose());
+    std::vector<long> region;
+    std::vector<char> border(static_cast<std::size_t>(count), 0);
+    std::vector<char> used(static_cast<std::size_t>(count), 0);
+    for (long f = 0; f < head.skin.rows(); ++f) {
+        const bool whole =
+            inside[head.skin(f, 0)] && inside[head.skin(f, 1)] && inside[head.skin(f, 2)];
+        for (int k = 0; k < 3; ++k) (whole ? used : border)[head.skin(f, k)] = 1;
+        if (whole) region.push_back(f);
+    }
+
+    // Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given
+    shell.direction = smooth_normals(head.vertices, head.skin, used, head.mm(7));
+    std::vector<char> direction_given(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v) {
+        if (!used[v]) continue;
+        const Vec3 p = head.vertices.row(v).transpose();
+        Vec3 d = shell.direction.row(v).transpose();
+        const double from_mouth = geom::distance_to_polyline(p, lips);
+        const Vec3 out_of_mouth = Vec3(0.035 * p.x() / head.mm(1), 0, 1).normalized();
+        const double mouth = 1.0 - geom::smoothstep(head.mm(6), head.mm(18), from_mouth);
+        d = ((1 - mouth) * d + mouth * out_of_mouth).normalized();
+        double given = mouth;
+        for (const EyeLids& lid : lids) {
+            const Vec3 r = p - lid.centre();
+            const double eye =
+                1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
+            d = ((1 - eye) * d + eye * r.normalized()).normalized();
+            given = std::max(given, eye);
+        }
+        direction_given[v] = given > 0.5;
+        shell.direction.row(v) = d.transpose();
+    }
+
+    // A head with vertices in pairs gets a shell that is its own mirror image
+    Triangles face(static_cast<long>(region.size()), 3);
+    for (std::size_t i = 0; i < region.size(); ++i)
+        face.row(static_cast<long>(i)) = head.skin.row(region[i]);
+    const geom::MirrorPairs mirror =
+        geom::find_mirror_pairs(face, head.vertices, Vec3::UnitX(), 0.0);
+    if (mirror.found())
+        for (long v = 0; v < count; ++v) {
+            if (!used[v] || mirror.side(static_cast<int>(v), head.vertices) < 0) continue;
+            const Vec3 here = shell.direction.row(v).transpose(),
+                       there = shell.direction.row(mirror.partner[v]).transpose();
+            const Vec3 d = (here + mirror.reflect(there)).normalized();
+            shell.direction.row(v) = d.transpose();
+            shell.direction.row(mirror.partner[v]) = mirror.reflect(d).transpose();
+        }
+
+    // Shell rule: what turns away from the direction is left out, and what lies in a nostril: tissue under its walls would bind
+    // the wing to the septum, and leave no depth for either.
+    constexpr double kLeastFacing = 0.12;
+    const Cavities cavities(head);
+    Triangles facing(face.rows(), 3);
+    long rows = 0;
+    for (long f = 0; f < face.rows(); ++f) {
+        const int a = face(f, 0), b = face(f, 1), c = face(f, 2);
+        const Vec3 pa = head.vertices.row(a), pb = head.vertices.row(b), pc = head.vertices.row(c);
+        const Vec3 n = (pb - pa).cross(pc - pa).normalized();
+        const Vec3 d = (shell.direction.row(a) + shell.direction.row(b) + shell.direction.row(c))
+                           .transpose()
+                           .normalized();
+        if (n.dot(d) < kLeastFacing) continue;
+        const bool given = direction_given[a] && direction_given[b] && direction_given[c];
+        if (!given && cavities.hold((pa + pb + pc) / 3, n)) continue;
+        facing.row(rows++) = face.row(f);
+    }
+    facing.conservativeResize(rows, 3);
+    Triangles half(0, 3);
+    // Fans that are dropped may have held others
+    if (mirror.found()) {
+        half = geom::first_half(facing, head.vertices, mirror);
+        for (long before = -1; half.rows() != before;) {
+            before = half.rows();
+            const Triangles whole = geom::with_mirror_image(half, mirror);
+            half = geom::paired_half(largest_piece(without_bow_ties(whole), count), head.vertices,
+                                     mirror);
+        }
+        shell.fine = geom::with_mirror_image(half, mirror);
+    } else {
+        shell.fine = largest_piece(without_bow_ties(facing), count);
+    }
+
+    // Size field: fine at lips and lids, coarse on forehead and cheek
+    const auto wanted_mm = [&](const Vec3& p) {
+        double near = geom::distance_to_polyline(p, lips);
+        for (const EyeLids& lid : lids) near = std::min(near, lid.margin_distance(p));
+        for (const char* nose : {"sn", "ac_l", "ac_r"})
+            near = std::min(near, (p - head.landmark(nose)).norm() + head.mm(4));
+        return 2.6 + 6.0 * geom::smoothstep(head.mm(3), head.mm(48), near);
+    };
+    shell.spacing_m.assign(static_cast<std::size_t>(count), 0);
+    for (long v = 0; v < count; ++v)
+        if (used[v]) shell.spacing_m[v] = head.mm(wanted_mm(head.vertices.row(v).transpose()));
+
+    // Scale the size field until the wanted number of vertices is left; the mouth by steps
+    std::vector<double> off_mouth(static_cast<std::size_t>(count), 1.0);
+    for (long v = 0; v < count; ++v)
+        if (used[v])
+            off_mouth[v] = geom::smoothstep(
+                head.mm(kMouth_mm), head.mm(kOffMouth_mm),
+                geom::distance_to_polyline(head.vertices.row(v).transpose(), lips));
+    geom::Decimated coarse;
+    double low = 0.15, high = 4.0;
+    std::vector<double> length(static_cast<std::size_t>(count));
+    for (int attempt = 0; attempt < 12; ++attempt) {
+        const double scale = std::sqrt(low * high), of_mouth = stepped(scale);
+        for (long v = 0; v < count; ++v)
+            length[v] = (of_mouth + off_mouth[v] * (scale - of_mouth)) * shell.spacing_m[v];
+        coarse = mirror.found() ? geom::decimate_mirrored(half, head.vertices, length, mirror)
+                                : geom::decimate(shell.fine, head.vertices, length, {});
+        const int kept = static_cast<int>(coarse.kept.size());
+        if (std::abs(kept - options.vertices) < options.vertices / 100) break;
+        (kept > options.vertices ? low : high) = scale;
+    }
+    shell.spacing_m = std::move(length);
+
+    shell.vertex = coarse.kept;
+    std::vector<int> index(static_cast<std::size_t>(count), -1);
+    for (std::size_t i = 0; i < coarse.kept.size(); ++i)
+        index[coarse.kept[i]] = static_cast<int>(i);
+    shell.triangles = coarse.triangles;
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) shell.triangles(f, k) = index[coarse.triangles(f, k)];
+    shell.collapsed_to.assign(static_cast<std::size_t>(count), -1);
+    for (long v = 0; v < count; ++v)
+        if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
+    for (int v : shell.vertex) {
+        shell.fixed.push_back(border[v]);
+        if (mirror.found()) shell.mirrored.push_back(index[mirror.partner[v]]);
+    }
+    shell.over_bite_m = bite_heights(head, jaw, shell);
+    return shell;
+}
+
+Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone) {
+    const int count = static_cast<int>(shell.vertex.size());
+    const auto stays = [&](long f) {
+        return !gone[shell.triangles(f, 0)] && !gone[shell.triangles(f, 1)] &&
+               !gone[shell.triangles(f, 2)];
+    };
+    std::vector<char> held(static_cast<std::size_t>(count), 0);
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        if (stays(f))
+            for (int k = 0; k < 3; ++k) held[shell.triangles(f, k)] = 1;
+    std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(count));
+    for (long f = 0; f < shell.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k)
+            for (int step : {1, 2})
+                neighbours[shell.triangles(f, k)].push_back(shell.triangles(f, (k + step) % 3));
+
+    Shell out = shell;
+    out.vertex.clear();
+    out.fixed.clear();
+    out.over_bite_m.clear();
+    out.mirrored.clear();
+    std::vector<int> index(static_cast<std::size_t>(count), -1);
+    for (int v = 0; v < count; ++v) {
+        if (!held[v]) continue;
+        index[v] = static_cast<int>(out.vertex.size());
+        out.vertex.push_back(shell.vertex[v]);
+        out.fixed.push_back(shell.fixed[v]);
+        out.over_bite_m.push_back(shell.over_bite_m[v]);
+    }
+    if (!shell.mirrored.empty())
+        for (int v = 0; v < count; ++v)
+            if (held[v]) out.mirrored.push_back(index[shell.mirrored[v]]);
+    const auto nearest = [&](int v) {
+        double least = std::numeric_limits<double>::infinity();
+        int best = -1;
+        for (int w : neighbours[v]) {
+            const double squared =
+                (head.vertices.row(shell.vertex[w]) - head.vertices.row(shell.vertex[v]))
+                    .squaredNorm();
+            if (!held[w] || squared >= least) continue;
+            least = squared;
+            best = w;
+        }
+        return best;
+    };
+    std::vector<int> home = index;
+    for (int v = 0; v < count; ++v)
+        if (const int w = held[v] ? -1 : nearest(v); w >= 0) home[v] = index[w];
+    for (int& to : out.collapsed_to)
+        if (to >= 0) to = home[to];
+    long rows = 0;
+    for (long f = 0; f < shell.triangles.rows(); ++f) {
+        if (!stays(f)) continue;
+        for (int k = 0; k < 3; ++k) out.triangles(rows, k) = index[shell.triangles(f, k)];
+        ++rows;
+    }
+    out.triangles.conservativeResize(rows, 3);
+    return out;
+}
+
+}  // namespace risorius::face

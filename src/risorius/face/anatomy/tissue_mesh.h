@@ -1,0 +1,46 @@
+// Soft tissue between the skin shell and the bone, three layers of nodes: deep (on the bone), middle, skin; each prism
+// column cut into tetrahedra.
+//
+// Node of shell vertex v in layer l: 3 v + l.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/face/anatomy/shell.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::face {
+
+enum Layer { kDeep = 0, kMiddle = 1, kSkin = 2, kLayers = 3 };
+
+inline constexpr double kMiddleDepth = 0.42;  ///< of the thickness, from the skin
+
+inline int node_of(int shell_vertex, Layer layer) { return kLayers * shell_vertex + layer; }
+
+struct TissueMesh {
+    Points nodes;  ///< 3N x 3, rest
+    Tets tets;
+    std::vector<Layer>
+        tet_layer;  ///< the outer layer of the slab a tet lies in: kMiddle (deep slab) or kSkin
+    std::vector<double> thickness_m;  ///< N
+    std::vector<Vec3> direction;      ///< N, outward, unit
+    std::vector<double> area_m2;      ///< N, skin area that a vertex stands for
+    int dropped_tets = 0;             ///< too thin to be used
+};
+
+/// Of the tissue over bone under a place of the skin, m: the rig's samples, weighted by the inverse fourth power of their distance.
+double interpolate_thickness(const rig::Head& head,
+                             const std::vector<rig::ThicknessSample>& samples, const Vec3& p);
+
+TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
+                             const Shell& shell, const std::array<EyeLids, 2>& lids);
+
+/// The shell without corners of its rim under which all tetrahedra were too thin: skin that nothing bears has two places of rest,
+/// one on either side of its neighbours.
+Shell borne_by_tissue(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
+                      const std::array<EyeLids, 2>& lids);
+
+}  // namespace risorius::face

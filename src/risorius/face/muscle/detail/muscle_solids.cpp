@@ -1,0 +1,563 @@
+#include "risorius/face/muscle/detail/muscle_solids.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "risorius/face/anatomy/detail/jaw_muscles.h"
+
+namespace risorius::face {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+constexpr double kMuscleDensity_kg_m3 = 1060;
+constexpr double kShortTendon = 0.15;      // of the optimal fibre length; shorter tendons are rigid
+constexpr double kBinding_pa_per_m = 2e7;  // muscle to the tissue around it, by area of a node
+constexpr double kEndBinding = 15;         // how much firmer where a muscle takes hold
+constexpr double kSupport_pa_per_m = 2e7;  // deep side of a jaw muscle against its bone
+constexpr double kInside_m = 0.2e-3;       // further outside the tissue a node is not bound
+constexpr double kRefreshMove_m = 1e-3, kRefreshActivation = 0.15;  // before H is made anew
+
+Vec3 blended(const std::array<Rigid, kBodies>& bodies, double jaw_share, const Vec3& rest) {
+    return (1 - jaw_share) * (bodies[kSkullBody] * rest) +
+           jaw_share * (bodies[kMandibleBody] * rest);
+}
+
+}  // namespace
+
+MuscleSolids::MuscleSolids(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+                           const Shell& shell, const TissueMesh& mesh,
+                           std::vector<Attachment>& attachments)
+    : first_(static_cast<int>(mesh.nodes.rows())) {
+    rest_.resize(0, 3);
+    mass_.resize(0);
+    if (rig.solids.empty()) return;
+    const TissueLocator locator(shell, mesh);
+    placement_ = place_solids(head, rig, jaw, locator);
+    rest_.resize(static_cast<long>(placement_.nodes.size()), 3);
+    for (long i = 0; i < rest_.rows(); ++i)
+        rest_.row(i) = placement_.nodes[static_cast<std::size_t>(i)].rest.transpose();
+    bone_ = rest_;
+    build_parts(rig);
+    bind(locator, mesh, attachments);
+    for (std::size_t v = 0; v < shell.vertex.size(); ++v)
+        if (shell.fixed[v])
+            for (Layer layer : {kDeep, kMiddle, kSkin})
+                held_tissue_.push_back(node_of(static_cast<int>(v), layer));
+    build_groups();
+}
+
+void MuscleSolids::build_parts(const rig::RigDescription& rig) {
+    mass_ = Eigen::VectorXd::Zero(nodes());
+    for (const SolidPart& place : placement_.parts) {
+        Part part;
+        part.place = place;
+        const tissue::GridShape& grid = place.grid;
+        part.rest = rest_(place.node, Eigen::all);
+        const auto rest_at = [&](const Vec3& a) -> Vec3 {
+            return part.rest
+                .row(grid.index(static_cast<int>(std::lround(a[0] * (grid.m - 1))),
+                                static_cast<int>(std::lround(a[1] * (grid.n - 1))),
+                                static_cast<int>(std::lround(a[2] * (grid.o - 1)))))
+                .transpose();
+        };
+        try {
+            part.cells = std::make_unique<tissue::CellSolid>(
+                tissue::cell_body(tissue::uniform_cells(grid), rest_at,
+                                  {place.solid->shear_pa, place.solid->volume_pa,
+                                   rig.tissue.damping_s * place.solid->shear_pa},
+                                  kMuscleDensity_kg_m3));
+        } catch (const std::invalid_argument&) {
+            throw Error("anatomy/solids/" + place.muscle->id,
+                        "a muscle whose cells have volume on this head", "a folded cell");
+        }
+        const Eigen::VectorXd& mass = part.cells->body().mass_kg;
+        for (std::size_t i = 0; i < place.node.size(); ++i)
+            mass_[place.node[i]] += mass[static_cast<long>(i)];
+
+        std::vector<std::vector<int>> chains;
+        for (int k = 0; k < grid.n * grid.o; ++k) {
+            std::vector<int> chain;
+            for (int m = 0; m < grid.m; ++m) chain.push_back(m * grid.n * grid.o + k);
+            chains.push_back(std::move(chain));
+        }
+        const rig::Muscle& muscle = *place.muscle;
+        const double fibre_m = muscle.rest_stretch * muscle.optimal_length_m;
+        muscle::ZajacShape curves;
+        curves.passive_strain =
+            muscle.group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
+        const double count = static_cast<double>(chains.size());
+        part.chains = std::make_unique<muscle::ChainSet>(
+            std::move(chains), part.rest,
+            muscle::ChainProperties{
+                .f0_n = place.f0_n / count,
+                .rest_stretch = muscle.rest_stretch,
+                .pennation_rad = muscle.pennation_deg * kRadian,
+                .tendon_share = muscle.tendon_slack_m / (muscle.tendon_slack_m + fibre_m),
+                .rigid_tendon = muscle.tendon_slack_m < kShortTendon * muscle.optimal_length_m},
+            muscle::zajac_curves(curves));
+        part.hessian = std::make_unique<solve::HessianBuilder>(grid.size(), std::vector<char>{});
+        part.start = part.rest;
+        parts_.push_back(std::move(part));
+    }
+}
+
+void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
+                        std::vector<Attachment>& attachments) {
+    const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
+    const auto area = [&](int node) { return std::pow(volume[node], 2.0 / 3.0); };
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (node.on_bone) continue;
+        const muscle::FibrePoint in = locator.embed(node.rest);
+        Vec3 found = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+            found += in.weights[k] * mesh.nodes.row(in.nodes[k]).transpose();
+        if ((found - node.rest).norm() > kInside_m) continue;
+        Binding binding{};
+        binding.tissue_count = 4;
+        for (int k = 0; k < 4; ++k) {
+            binding.tissue[k] = in.nodes[k];
+            binding.tissue_weight[k] = in.weights[k];
+        }
+        binding.solid_count = 1;
+        binding.solid[0] = i;
+        binding.solid_weight[0] = 1;
+        binding.stiffness_n_per_m =
+            kBinding_pa_per_m * area(i) * (node.soft_end ? kEndBinding : 1.0);
+        bindings_.push_back(binding);
+    }
+
+    // Deep tissue in or just over a jaw muscle holds on to the muscle instead of the bone
+    for (Attachment& attachment : attachments) {
+        const int tissue_node = node_of(attachment.shell_vertex, kDeep);
+        const Vec3 p = mesh.nodes.row(tissue_node).transpose();
+        double least_excess = 0.35;
+        Binding best{};
+        for (const Part& part : parts_) {
+            if (part.place.muscle->group != "jaw") continue;
+            for (const tissue::CellMesh::Cell& cell : part.cells->mesh().cells()) {
+                Eigen::Matrix<double, 3, 8> corner;
+                for (int c = 0; c < 8; ++c)
+                    corner.col(c) =
+                        part.rest.row(cell.vertex[static_cast<std::size_t>(c)]).transpose();
+                if ((corner.rowwise().mean() - p).norm() > 0.03) continue;
+                // Where in the cell p is: Newton on the trilinear map, begun in the middle
+                Vec3 s = Vec3::Constant(0.5);
+                for (int iteration = 0; iteration < 8; ++iteration) {
+                    const std::array<double, 8> w = tissue::trilinear_weights(s);
+                    Vec3 at = Vec3::Zero();
+                    Mat3 slope = Mat3::Zero();
+                    for (int c = 0; c < 8; ++c) {
+                        at += w[static_cast<std::size_t>(c)] * corner.col(c);
+                        const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
+                                             c & 1 ? s[2] : 1 - s[2]};
+                        slope.col(0) += (c & 4 ? 1 : -1) * f[1] * f[2] * corner.col(c);
+                        slope.col(1) += (c & 2 ? 1 : -1) * f[0] * f[2] * corner.col(c);
+                        slope.col(2) += (c & 1 ? 1 : -1) * f[0] * f[1] * corner.col(c);
+                    }
+                    s += (slope.fullPivLu().solve(p - at)).cwiseMax(-0.5).cwiseMin(0.5);
+                    s = s.cwiseMax(-2.0).cwiseMin(3.0);
+                }
+                const Vec3 excess = (s - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
+                const double out = std::max(0.0, excess.maxCoeff());
+                if (out >= least_excess) continue;
+                const std::array<double, 8> w = tissue::trilinear_weights(s);
+                Vec3 found = Vec3::Zero();
+                for (int c = 0; c < 8; ++c) found += w[static_cast<std::size_t>(c)] * corner.col(c);
+                if ((found - p).norm() > kInside_m) continue;
+                least_excess = out;
+                best = {};
+                best.tissue_count = 1;
+                best.tissue[0] = tissue_node;
+                best.tissue_weight[0] = 1;
+                best.solid_count = 8;
+                for (int c = 0; c < 8; ++c) {
+                    best.solid[c] = part.place.node[static_cast<std::size_t>(
+                        cell.vertex[static_cast<std::size_t>(c)])];
+                    best.solid_weight[c] = w[static_cast<std::size_t>(c)];
+                }
+            }
+        }
+        if (best.solid_count == 0) continue;
+        best.stiffness_n_per_m = std::max(attachment.normal_n_per_m, attachment.tangential_n_per_m);
+        attachment.normal_n_per_m = attachment.tangential_n_per_m = 0;
+        bindings_.push_back(best);
+    }
+
+    for (Binding& binding : bindings_) {
+        binding.apart_at_rest.setZero();
+        for (int k = 0; k < binding.tissue_count; ++k)
+            binding.apart_at_rest +=
+                binding.tissue_weight[k] * mesh.nodes.row(binding.tissue[k]).transpose();
+        for (int k = 0; k < binding.solid_count; ++k)
+            binding.apart_at_rest -=
+                binding.solid_weight[k] * rest_.row(binding.solid[k]).transpose();
+    }
+
+    std::vector<tissue::Tethers::Tether> supports;
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (!node.against_bone) continue;
+        supports.push_back({first_ + i, node.rest, node.outward, kSupport_pa_per_m * area(i), 0.0});
+        support_node_.push_back(i);
+    }
+    supports_ = std::make_unique<tissue::Tethers>(supports);
+}
+
+bool MuscleSolids::is_solid(const std::string& muscle) const {
+    return std::any_of(parts_.begin(), parts_.end(),
+                       [&](const Part& part) { return part.place.muscle->id == muscle; });
+}
+
+void MuscleSolids::move_bodies(const std::array<Rigid, kBodies>& bodies) {
+    mandible_ = bodies[kMandibleBody];
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (node.on_bone) bone_.row(i) = blended(bodies, node.jaw_share, node.rest).transpose();
+    }
+    for (std::size_t i = 0; i < support_node_.size(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
+        supports_->list()[i].target = blended(bodies, node.jaw_share, node.rest);
+    }
+}
+
+void MuscleSolids::set_bodies(const std::array<Rigid, kBodies>& bodies) {
+    move_bodies(bodies);
+    for (std::size_t i = 0; i < support_node_.size(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
+        supports_->list()[i].normal =
+            ((1 - node.jaw_share) * (bodies[kSkullBody].linear() * node.outward) +
+             node.jaw_share * (bodies[kMandibleBody].linear() * node.outward))
+                .normalized();
+    }
+}
+
+void MuscleSolids::add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const {
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (!node.on_bone && node.jaw_share != 0)
+            sum.add(node.jaw_share * gradient.row(first_ + i).transpose(), mandible * node.rest);
+    }
+}
+
+void MuscleSolids::carry(Points& x, const Rigid& from, const Rigid& to) const {
+    for (int i = 0; i < nodes(); ++i) {
+        const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
+        if (node.on_bone)
+            x.row(first_ + i) =
+                ((1 - node.jaw_share) * node.rest + node.jaw_share * (to * node.rest)).transpose();
+        else
+            x.row(first_ + i) += node.jaw_share * (to * node.rest - from * node.rest).transpose();
+    }
+}
+
+void MuscleSolids::take(const Part& part, const Points& x, Points& local) const {
+    local.resize(static_cast<long>(part.place.node.size()), 3);
+    for (std::size_t i = 0; i < part.place.node.size(); ++i) {
+        const int node = part.place.node[i];
+        local.row(static_cast<long>(i)) = placement_.nodes[static_cast<std::size_t>(node)].on_bone
+                                              ? bone_.row(node)
+                                              : x.row(first_ + node);
+    }
+}
+
+void MuscleSolids::forget() {
+    for (Group& group : groups_) group.made_for_s = 0;
+}
+
+void MuscleSolids::begin_step(double h, const Points& x, const Eigen::VectorXd& activation) {
+    if (empty()) return;
+    step_s_ = h;
+    for (Part& part : parts_) take(part, x, part.start);
+    for (Group& group : groups_) {
+        bool known = group.made_for_s == h;
+        for (std::size_t p = 0; known && p < group.part.size(); ++p)
+            known =
+                std::abs(activation[parts_[static_cast<std::size_t>(group.part[p])].place.column] -
+                         group.made_with[p]) < kRefreshActivation;
+        for (std::size_t i = 0; known && i < group.node.size(); ++i)
+            known = (x.row(first_ + group.node[i]) - group.made_at.row(static_cast<long>(i)))
+                        .squaredNorm() < kRefreshMove_m * kRefreshMove_m;
+        if (!known) refresh(group, h, x, activation);
+    }
+}
+
+void MuscleSolids::build_groups() {
+    std::vector<int> group_of_node(static_cast<std::size_t>(nodes()), -1);
+    row_.assign(static_cast<std::size_t>(nodes()), 0);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        int which = -1;
+        for (int node : parts_[p].place.node)
+            which = std::max(which, group_of_node[static_cast<std::size_t>(node)]);
+        if (which < 0) {
+            which = static_cast<int>(groups_.size());
+            groups_.emplace_back();
+        }
+        Group& group = groups_[static_cast<std::size_t>(which)];
+        group.part.push_back(static_cast<int>(p));
+        group.row.emplace_back();
+        for (int node : parts_[p].place.node) {
+            if (group_of_node[static_cast<std::size_t>(node)] < 0) {
+                group_of_node[static_cast<std::size_t>(node)] = which;
+                row_[static_cast<std::size_t>(node)] = static_cast<int>(group.node.size());
+                group.node.push_back(node);
+            }
+            group.row.back().push_back(row_[static_cast<std::size_t>(node)]);
+        }
+    }
+    for (std::size_t i = 0; i < bindings_.size(); ++i)
+        groups_[static_cast<std::size_t>(
+                    group_of_node[static_cast<std::size_t>(bindings_[i].solid[0])])]
+            .binding.push_back(i);
+    for (std::size_t i = 0; i < support_node_.size(); ++i)
+        groups_[static_cast<std::size_t>(group_of_node[static_cast<std::size_t>(support_node_[i])])]
+            .support.push_back(i);
+    for (Group& group : groups_) {
+        std::vector<char> fixed;
+        for (int node : group.node) fixed.push_back(on_bone(node) ? 1 : 0);
+        group.hessian =
+            std::make_unique<solve::HessianBuilder>(static_cast<int>(group.node.size()), fixed);
+        group.made_with.resize(group.part.size());
+        group.b.resize(3 * group.node.size());
+        group.y.resize(3 * group.node.size());
+    }
+}
+
+void MuscleSolids::refresh(Group& group, double h, const Points& x,
+                           const Eigen::VectorXd& activation) {
+    group.made_for_s = h;
+    group.made_at.resize(static_cast<long>(group.node.size()), 3);
+    for (std::size_t i = 0; i < group.node.size(); ++i)
+        group.made_at.row(static_cast<long>(i)) = x.row(first_ + group.node[i]);
+    solve::HessianBuilder& hessian = *group.hessian;
+    hessian.clear();
+    for (std::size_t p = 0; p < group.part.size(); ++p) {
+        Part& part = parts_[static_cast<std::size_t>(group.part[p])];
+        const std::vector<int>& row = group.row[p];
+        const double a = group.made_with[p] = activation[part.place.column];
+        take(part, x, part.x);
+        part.hessian->clear();
+        part.cells->add_hessian({0.0, h, part.start}, part.x, solve::Curvature::kPositive,
+                                *part.hessian);
+        const solve::SymmetricBlocks& blocks = part.hessian->build_blocks();
+        for (int column = 0; column < blocks.nodes(); ++column)
+            for (int i = blocks.begin[static_cast<std::size_t>(column)];
+                 i < blocks.begin[static_cast<std::size_t>(column) + 1]; ++i)
+                hessian.add(row[static_cast<std::size_t>(blocks.row[static_cast<std::size_t>(i)])],
+                            row[static_cast<std::size_t>(column)],
+                            blocks.value[static_cast<std::size_t>(i)]);
+        part.chains->add_stiffness(part.x, a, row, hessian);
+    }
+    const auto row_of = [&](int node) { return row_[static_cast<std::size_t>(node)]; };
+    for (std::size_t i : group.binding) {
+        const Binding& binding = bindings_[i];
+        for (int a = 0; a < binding.solid_count; ++a)
+            for (int b = 0; b <= a; ++b)
+                hessian.add(row_of(binding.solid[a]), row_of(binding.solid[b]),
+                            binding.stiffness_n_per_m * binding.solid_weight[a] *
+                                binding.solid_weight[b] * Mat3::Identity());
+    }
+    for (std::size_t i : group.support) {
+        const tissue::Tethers::Tether& support = supports_->list()[i];
+        hessian.add(row_of(support_node_[i]), row_of(support_node_[i]),
+                    support.kn_n_per_m * support.normal * support.normal.transpose());
+    }
+    for (int node : group.node) hessian.add_diagonal(row_of(node), mass_[node] / (h * h) + 1e-6);
+    group.factor.factorise(hessian.build(), 3);
+}
+
+void MuscleSolids::solve_solids() const {
+    for (const Group& group : groups_) {
+        for (std::size_t i = 0; i < group.node.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                group.b[3 * i + static_cast<std::size_t>(k)] = solid_b_(group.node[i], k);
+        group.factor.solve(group.b.data(), group.y.data(), 1);
+        for (std::size_t i = 0; i < group.node.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                solid_y_(group.node[i], k) = group.y[3 * i + static_cast<std::size_t>(k)];
+    }
+}
+
+double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activation,
+                                Points& gradient, Wrenches* on_bodies) const {
+    if (empty()) return 0;
+    solid_b_.setZero(nodes(), 3);  // the gradient by the solids' nodes
+    double energy = 0;
+    for (const Part& part : parts_) {
+        take(part, x, part.x);
+        part.gradient.setZero(part.x.rows(), 3);
+        energy += part.cells->add_potential({0.0, step_s_, part.start}, part.x, part.gradient);
+        energy += part.chains->add_energy(part.x, activation[part.place.column], part.gradient);
+        for (std::size_t i = 0; i < part.place.node.size(); ++i)
+            solid_b_.row(part.place.node[i]) += part.gradient.row(static_cast<long>(i));
+    }
+    for (const Binding& binding : bindings_) {
+        Vec3 apart = -binding.apart_at_rest;
+        for (int k = 0; k < binding.tissue_count; ++k)
+            apart += binding.tissue_weight[k] * x.row(binding.tissue[k]).transpose();
+        for (int k = 0; k < binding.solid_count; ++k) {
+            const int node = binding.solid[k];
+            apart -=
+                binding.solid_weight[k] * (placement_.nodes[static_cast<std::size_t>(node)].on_bone
+                                               ? bone_.row(node)
+                                               : x.row(first_ + node))
+                                              .transpose();
+        }
+        const Vec3 pull = binding.stiffness_n_per_m * apart;
+        energy += 0.5 * apart.dot(pull);
+        for (int k = 0; k < binding.tissue_count; ++k)
+            gradient.row(binding.tissue[k]) += binding.tissue_weight[k] * pull.transpose();
+        for (int k = 0; k < binding.solid_count; ++k)
+            solid_b_.row(binding.solid[k]) -= binding.solid_weight[k] * pull.transpose();
+    }
+    energy += supports_->add_energy(x, gradient);
+    for (int i = 0; i < nodes(); ++i)
+        if (!placement_.nodes[static_cast<std::size_t>(i)].on_bone)
+            gradient.row(first_ + i) += solid_b_.row(i);
+    if (on_bodies == nullptr) return energy;
+
+    // A node between both bones pulls each with its share, where it would be if it rode on that bone alone
+    const auto give = [&](const SolidNode& node, const Vec3& force) {
+        (*on_bodies)[kSkullBody].add((1 - node.jaw_share) * force, node.rest);
+        (*on_bodies)[kMandibleBody].add(node.jaw_share * force, mandible_ * node.rest);
+    };
+    for (int i = 0; i < nodes(); ++i)
+        if (on_bone(i))
+            give(placement_.nodes[static_cast<std::size_t>(i)], -solid_b_.row(i).transpose());
+    for (std::size_t i = 0; i < support_node_.size(); ++i) {
+        const tissue::Tethers::Tether& support = supports_->list()[i];
+        const Vec3 off = x.row(support.node).transpose() - support.target;
+        give(placement_.nodes[static_cast<std::size_t>(support_node_[i])],
+             support.kn_n_per_m * off.dot(support.normal) * support.normal);
+    }
+    return energy;
+}
+
+void MuscleSolids::add_springs(const Points& x, std::vector<Spring>& springs) const {
+    for (const Binding& binding : bindings_) {
+        Spring spring{.count = binding.tissue_count,
+                      .target = binding.apart_at_rest,
+                      .stiffness_n_per_m = binding.stiffness_n_per_m};
+        std::copy_n(binding.tissue, 4, spring.nodes);
+        std::copy_n(binding.tissue_weight, 4, spring.weights);
+        for (int k = 0; k < binding.solid_count; ++k) {
+            const int node = binding.solid[k];
+            spring.target +=
+                binding.solid_weight[k] * (placement_.nodes[static_cast<std::size_t>(node)].on_bone
+                                               ? bone_.row(node)
+                                               : x.row(first_ + node))
+                                              .transpose();
+        }
+        springs.push_back(spring);
+    }
+}
+
+void MuscleSolids::add_metric(solve::MetricBuilder& builder) const {
+    // Tissue that let go of the bone is held by a muscle that is itself held; a muscle within the tissue is no stiffer than
+    // it, and counting it costs iterations.
+    for (const Binding& binding : bindings_)
+        if (binding.tissue_count == 1)
+            builder.add_diagonal(binding.tissue[0], binding.stiffness_n_per_m);
+}
+
+void MuscleSolids::precondition(const solve::SparseCholesky& tissue, const Points& b,
+                                Points& y) const {
+    if (empty()) {
+        tissue.solve(b, y);
+        return;
+    }
+    const long tissue_rows = first_;
+    solid_b_ = b.bottomRows(nodes());
+    solid_y_.resize(nodes(), 3);
+    solve_solids();
+    tissue_b_ = b.topRows(tissue_rows);
+    for (const Binding& binding : bindings_) {
+        Vec3 moved = Vec3::Zero();
+        for (int k = 0; k < binding.solid_count; ++k)
+            moved += binding.solid_weight[k] * solid_y_.row(binding.solid[k]).transpose();
+        for (int k = 0; k < binding.tissue_count; ++k)
+            tissue_b_.row(binding.tissue[k]) +=
+                binding.stiffness_n_per_m * binding.tissue_weight[k] * moved.transpose();
+    }
+    for (int node : held_tissue_) tissue_b_.row(node).setZero();
+    tissue.solve(tissue_b_, tissue_y_);
+    for (const Binding& binding : bindings_) {
+        Vec3 moved = Vec3::Zero();
+        for (int k = 0; k < binding.tissue_count; ++k)
+            moved += binding.tissue_weight[k] * tissue_y_.row(binding.tissue[k]).transpose();
+        for (int k = 0; k < binding.solid_count; ++k)
+            solid_b_.row(binding.solid[k]) +=
+                binding.stiffness_n_per_m * binding.solid_weight[k] * moved.transpose();
+    }
+    for (int i = 0; i < nodes(); ++i)
+        if (on_bone(i)) solid_b_.row(i).setZero();
+    solve_solids();
+    y.resize(b.rows(), 3);
+    y.topRows(tissue_rows) = tissue_y_;
+    y.bottomRows(nodes()) = solid_y_;
+}
+
+void MuscleSolids::scale_strength(const std::string& muscle, double factor) {
+    for (Part& part : parts_)
+        if (part.place.muscle->id == muscle)
+            part.chains->set_f0(factor * part.chains->properties().f0_n);
+    forget();
+}
+
+double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x,
+                                  const Eigen::VectorXd& activation) const {
+    double sum = 0;
+    int count = 0;
+    Points local;
+    for (const Part& part : parts_) {
+        if (part.place.muscle->id != muscle) continue;
+        take(part, x, local);
+        sum += part.chains->mean_stretch(local, activation[part.place.column]);
+        ++count;
+    }
+    return count > 0 ? sum / count : 1.0;
+}
+
+std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
+                                                const Eigen::VectorXd& activation) const {
+    std::vector<SolidFigures> out;
+    Points local;
+    for (const Part& part : parts_) {
+        take(part, x, local);
+        const tissue::GridShape& grid = part.place.grid;
+        SolidFigures figures{.muscle = part.place.muscle->id, .side = part.place.side};
+        const Eigen::VectorXd now = part.cells->cell_volumes(local),
+                              then = part.cells->cell_volumes(part.rest);
+        figures.volume_ratio = now.sum() / then.sum();
+        figures.least_cell_ratio = now.cwiseQuotient(then).minCoeff();
+        figures.mean_stretch = part.chains->mean_stretch(local, activation[part.place.column]);
+        // Through the middle of the belly; between two slabs when there is no middle one
+        const auto thickness = [&](const Points& p) {
+            double sum = 0;
+            for (int m : {(grid.m - 1) / 2, grid.m / 2})
+                for (int n : {(grid.n - 1) / 2, grid.n / 2})
+                    sum +=
+                        (p.row(grid.index(m, n, grid.o - 1)) - p.row(grid.index(m, n, 0))).norm();
+            return sum;
+        };
+        figures.thickness_ratio = thickness(local) / thickness(part.rest);
+        out.push_back(figures);
+    }
+    return out;
+}
+
+double MuscleSolids::greatest_volume_error(const Points& x) const {
+    double worst = 0;
+    Points local;
+    for (const Part& part : parts_) {
+        take(part, x, local);
+        worst =
+            std::max(worst, std::abs(part.cells->volume(local) / part.cells->rest_volume() - 1));
+    }
+    return worst;
+}
+
+}  // namespace risorius::face

@@ -1,0 +1,156 @@
+#include "risorius/face/skin/detail/face_poser.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "risorius/face/skin/detail/head_motion.h"
+
+namespace risorius::face {
+
+namespace {
+
+Mat3 gaze_rotation(double yaw_deg, double pitch_deg) {
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    return (Eigen::AngleAxisd(yaw_deg * kDegree, Vec3::UnitY()) *
+            Eigen::AngleAxisd(-pitch_deg * kDegree, Vec3::UnitX()))
+        .toRotationMatrix();
+}
+
+}  // namespace
+
+FacePoser::FacePoser(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+                     const JawJoint& joint, const std::array<EyeLids, 2>& lids, const Shell& shell,
+                     const TissueMesh& mesh)
+    : head_(head),
+      rig_(rig),
+      joint_(joint),
+      shell_(shell),
+      mesh_(mesh),
+      channels_(rig.channels()),
+      binding_(head, jaw, shell),
+      follow_(head, rig, lids, binding_),
+      skin_(head, rig, jaw, lids, shell, mesh, binding_),
+      lining_(head) {}
+
+LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation,
+                       const track::Drive& drive) const {
+    const Side s = side == 0 ? Side::kLeft : Side::kRight;
+    const auto of = [&](const char* id) {
+        const int column = channels_.column(id, s);
+        return column < 0 ? 0.0 : activation[column];
+    };
+    // A lid falls when the levator lets go, is pressed shut by orbicularis, and opens wide with levator and tarsal muscle.
+    const double levator = of("levator_palpebrae_superioris");
+    const double upper = of("orbicularis_oculi_palpebral_upper");
+    const double lower = of("orbicularis_oculi_palpebral_lower");
+    LidPose pose;
+    pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
+    pose.lower_closure = pose.upper_closure;
+    pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
+    // Orbicularis draws both lids towards the inner canthus it springs from.
+    pose.inward = pose.upper_closure * (0.5 + std::min(0.5, upper));
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    const double pitch =
+        drive.at(side == 0 ? track::Kinematic::kGazePitchLeft : track::Kinematic::kGazePitchRight);
+    const double open = 1.0 - pose.upper_closure;
+    pose.upper_gaze_rad =
+        -open * kDegree *
+        (pitch > 0 ? rig_.eyes.upper_lid_per_gaze_up : rig_.eyes.upper_lid_per_gaze_down) * pitch;
+    pose.lower_gaze_rad =
+        -open * kDegree *
+        (pitch > 0 ? rig_.eyes.lower_lid_per_gaze_up : rig_.eyes.lower_lid_per_gaze_down) * pitch;
+    pose.aside_rad =
+        open * kDegree * rig_.eyes.lids_per_gaze_aside *
+        drive.at(side == 0 ? track::Kinematic::kGazeYawLeft : track::Kinematic::kGazeYawRight);
+    pose.upper_gaze_rad -=
+        kDegree * rig_.eyes.wide_deg * (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
+    return pose;
+}
+
+std::array<Mat3, 2> FacePoser::gaze(const track::Drive& drive) const {
+    const auto of = [&](track::Kinematic channel) {
+        return std::clamp(drive.at(channel), -rig_.eyes.gaze_limit_deg, rig_.eyes.gaze_limit_deg);
+    };
+    return {
+        gaze_rotation(of(track::Kinematic::kGazeYawLeft), of(track::Kinematic::kGazePitchLeft)),
+        gaze_rotation(of(track::Kinematic::kGazeYawRight), of(track::Kinematic::kGazePitchRight))};
+}
+
+Points FacePoser::skin_displacement(const Points& x) const {
+    Points displacement(static_cast<long>(shell_.vertex.size()), 3);
+    for (long v = 0; v < displacement.rows(); ++v) {
+        const int node = node_of(static_cast<int>(v), kSkin);
+        displacement.row(v) = x.row(node) - mesh_.nodes.row(node);
+    }
+    return displacement;
+}
+
+// The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
+Points FacePoser::pull_through(const FollowDrive& drive, const Points& surface,
+                               const Points& slope) const {
+    constexpr double kDifference_m = 1e-6;
+    Points out(slope.rows(), 3);
+    for (int k = 0; k < 3; ++k) {
+        Points above = surface, below = surface;
+        above.col(k).array() += kDifference_m;
+        below.col(k).array() -= kDifference_m;
+        follow_.apply(drive, above);
+        follow_.apply(drive, below);
+        out.col(k) = (above - below).cwiseProduct(slope).rowwise().sum() / (2 * kDifference_m);
+    }
+    return out;
+}
+
+Points FacePoser::pull_back(const FaceMoment& moment, const Points& slope) const {
+    Points by_skin = slope;
+    pose(moment, Folds::kLeftOut, &by_skin);
+    const Points by_shell = binding_.pull_back(by_skin, static_cast<long>(shell_.vertex.size()));
+    Points out = Points::Zero(moment.x.rows(), 3);
+    for (long v = 0; v < by_shell.rows(); ++v)
+        out.row(node_of(static_cast<int>(v), kSkin)) = by_shell.row(v);
+    return out;
+}
+
+FacePose FacePoser::pose(const FaceMoment& moment, Folds folds, Points* pulled) const {
+    const track::Drive& drive = moment.drive;
+    FacePose out;
+    out.mandible = moment.mandible;
+    out.jaw = joint_.place(moment.mandible);
+    out.jaw_open = drive.at(track::Kinematic::kJawOpen);
+    const std::array<Mat3, 2> turned = gaze(drive);
+    out.vertices = head_.vertices;
+    binding_.apply(skin_displacement(moment.x), moment.mandible, out.vertices);
+    if (folds == Folds::kFormed) {
+        out.fold_depth = skin_.apply(moment.activation, out.vertices);
+        lining_.stay_behind(out.vertices);
+    }
+    out.head = head_motion(head_, drive);
+    const FollowDrive follow_drive{moment.mandible,
+                                   turned,
+                                   lids(moment.activation, drive),
+                                   drive.at(track::Kinematic::kTongueOut),
+                                   drive.at(track::Kinematic::kTongueUp),
+                                   out.head};
+    if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
+    follow_.apply(follow_drive, out.vertices);
+    for (std::size_t side = 0; side < 2; ++side)
+        out.eye_rotation[side] = out.head.linear() * turned[side];
+    return out;
+}
+
+FacePose FacePoser::posed(Points vertices, const track::Drive& drive, const Rigid& mandible) const {
+    FacePose out;
+    const std::array<Mat3, 2> turned = gaze(drive);
+    out.mandible = mandible;
+    out.jaw = joint_.place(mandible);
+    out.jaw_open = drive.at(track::Kinematic::kJawOpen);
+    out.head = head_motion(head_, drive);
+    for (std::size_t side = 0; side < 2; ++side)
+        out.eye_rotation[side] = out.head.linear() * turned[side];
+    out.vertices = std::move(vertices);
+    follow_.turn_eyes(turned, out.vertices);
+    follow_.turn_head(out.head, out.vertices);
+    return out;
+}
+
+}  // namespace risorius::face

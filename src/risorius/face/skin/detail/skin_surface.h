@@ -1,0 +1,50 @@
+// The skin at the mesh's own resolution: a membrane that bends, on the bed of fat and ligaments that the tissue moves.
+//
+//   p   where the tissue carries a vertex      X   rest      K   stiffness of the bed per area, Pa/m      A   area
+//
+//   E(x) = sum K A/2 |x - p|^2 + membrane and bending of tissue/skin_sheet.h about the rest shape of the mesh
+//
+// The bed is felt from afar: what the coarse tissue does within (B/K)^(1/4), some 2 mm, the skin evens out, turning with
+// it (E does not change when the face turns), so that features of the rest shape stay. x starts at p and takes a fixed
+// number of steps with one prefactored matrix; at p = X it stays there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/sparse_cholesky.h"
+#include "risorius/tissue/skin_sheet.h"
+
+namespace risorius::face {
+
+struct SkinSheetOnBed {
+    Triangles triangles;               ///< over the rows of `rest`
+    Points rest;                       ///< V x 3, m
+    std::vector<double> bed_pa_per_m;  ///< V, > 0
+    std::vector<char> held;            ///< V, stays where the tissue carries it
+    double membrane_n_per_m = 10;
+    double bending_n_m = 2e-5;
+};
+
+class SkinSurface {
+  public:
+    /// The border of the triangles is held too. Triangles without area are left out.
+    explicit SkinSurface(const SkinSheetOnBed& sheet);
+
+    /// V x 3: from where the tissue carries them to where the skin comes to lie. One thread at a time.
+    void relax(Points& vertices) const;
+
+    int vertices() const { return static_cast<int>(vertex_.size()); }
+    long matrix_nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }
+
+  private:
+    std::vector<int> vertex_;     ///< of the triangles
+    std::vector<char> held_;      ///< per vertex_
+    std::vector<double> weight_;  ///< K A per vertex_, N/m
+    std::optional<tissue::SkinSheet> sheet_;
+    std::optional<solve::SparseCholesky> factor_;
+    mutable Points p_, x_, gradient_;
+};
+
+}  // namespace risorius::face

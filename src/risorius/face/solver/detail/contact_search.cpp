@@ -1,0 +1,275 @@
+#include "risorius/face/solver/detail/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "risorius/geom/polyline.h"
+
+namespace risorius::face {
+
+namespace {
+
+constexpr int kCandidates = 40;
+constexpr int kLipNeighbours = 3;
+constexpr double kFarEnough_m = 3e-3;
+constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
+constexpr double kStick_pa = 150;  // saliva between lips, of each lip: a bridge some 0.5 mm wide
+
+std::vector<int> nearest(const Vec3& p, const auto& points) {
+    std::vector<std::pair<double, int>> order;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        order.push_back({(points[i].point - p).squaredNorm(), static_cast<int>(i)});
+    const std::size_t count = std::min<std::size_t>(kCandidates, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<long>(count), order.end());
+    std::vector<int> out;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(order[i].second);
+    return out;
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell,
+                             const TissueMesh& mesh, const std::array<EyeLids, 2>& lids,
+                             double stiffness_pa_per_m)
+    : rest_(mesh.nodes) {
+    const std::vector<Vec3> lips = lip_line(head);
+    const int count = static_cast<int>(shell.vertex.size());
+    std::vector<std::pair<int, double>> touching;
+    lip_reach_m_ = head.mm(9);
+    lip_aside_m_ = head.mm(3.5);
+    stick_m_ = head.mm(0.5);
+    eyes_ = head.eyes;
+    for (int v = 0; v < count; ++v) {
+        const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
+        const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
+        if (geom::distance_to_polyline(skin, lips) < head.mm(60)) {
+            // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
+            const double share = jaw.weight(skin, shell.over_bite_m[v]);
+            const bool above_bite = shell.over_bite_m[v] > 0;
+            if (above_bite && share < 0.6) skull_.push_back({deep, mesh.direction[v]});
+            if (!above_bite && share > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
+                mandible_.push_back({deep, mesh.direction[v]});
+        }
+    }
+    for (int v = 0; v < count; ++v) {
+        if (shell.fixed[v]) continue;
+        const double stiffness = stiffness_pa_per_m * mesh.area_m2[v];
+        const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
+        const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
+        const double from_mouth = geom::distance_to_polyline(skin, lips);
+        if (from_mouth < head.mm(50)) {
+            DeepNode node{node_of(v, kDeep), stiffness,
+                          std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v])),
+                          nearest(deep, skull_), nearest(deep, mandible_)};
+            deep_.push_back(node);
+            touching.push_back({node.node, stiffness});
+        }
+        if (from_mouth < head.mm(10)) {
+            const bool upper = shell.over_bite_m[v] >= 0;
+            const double rim = 1.0 - geom::smoothstep(head.mm(1), head.mm(6), from_mouth);
+            const Vec3 to_other = upper ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitY());
+            const Vec3 normal = (rim * to_other + (1 - rim) * mesh.direction[v]).normalized();
+            (upper ? upper_ : lower_)
+                .push_back({node_of(v, kSkin), node_of(v, kDeep), stiffness,
+                            kStick_pa * mesh.area_m2[v], normal, (skin - deep).normalized()});
+            deep_.push_back({node_of(v, kSkin), stiffness,
+                             std::max(head.mm(3), 1.3 * std::sqrt(mesh.area_m2[v])),
+                             nearest(skin, skull_), nearest(skin, mandible_)});
+            touching.push_back({node_of(v, kSkin), kLipStiffness * stiffness});
+        }
+        for (int side = 0; side < 2; ++side) {
+            if ((skin - lids[side].centre()).norm() > lids[side].zone_m()) continue;
+            const double gap = eyes_[side].distance(deep, eyes_[side].forward);
+            lid_.push_back({node_of(v, kDeep), side, stiffness, std::min(0.0, gap)});
+            touching.push_back({node_of(v, kDeep), stiffness});
+        }
+    }
+    std::sort(touching.begin(), touching.end());
+    for (const auto& [node, stiffness] : touching) {
+        if (!nodes_.empty() && nodes_.back() == node) {
+            node_stiffness_.back() = std::max(node_stiffness_.back(), stiffness);
+            continue;
+        }
+        nodes_.push_back(node);
+        node_stiffness_.push_back(stiffness);
+    }
+}
+
+std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible,
+                                                           const std::array<Mat3, 2>& gaze,
+                                                           const std::vector<char>& of) const {
+    std::vector<tissue::Contacts::Contact> out;
+    const auto wanted = [&](int node) {
+        return of.empty() || of[static_cast<std::size_t>(node)] != 0;
+    };
+    const Rigid to_mandible = mandible.inverse();
+
+    // Bone and teeth: the plane blended from the bone points around, fading out beyond the bone's edge, where its plane
+    // means nothing (a chin that has dropped is not below the upper teeth)
+    const auto against_bone = [&](const DeepNode& node, const std::vector<int>& candidates,
+                                  const std::vector<BonePoint>& bone, const Rigid* carried,
+                                  int slot) {
+        if (candidates.empty()) return;
+        Vec3 p = x.row(node.node).transpose();
+        if (carried) p = to_mandible * p;
+        const Vec3 rest = rest_.row(node.node).transpose();
+        std::array<double, kCandidates> squared;
+        double nearest_squared = 1e300;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            squared[i] = (bone[static_cast<std::size_t>(candidates[i])].point - p).squaredNorm();
+            nearest_squared = std::min(nearest_squared, squared[i]);
+        }
+        // Nothing here may hang on which point is the nearest: planes that jump keep a held pose from ever coming to rest
+        const double radius = std::sqrt(nearest_squared) + 1.5 * node.reach;
+        const double radius_squared = radius * radius;
+        Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+        double weights = 0;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (squared[i] >= radius_squared) continue;
+            const double share = 1.0 - squared[i] / radius_squared;
+            const double w = share * share * share;
+            const BonePoint& near = bone[static_cast<std::size_t>(candidates[i])];
+            point += w * near.point;
+            normal += w * near.normal;
+            weights += w;
+        }
+        point /= weights;
+        normal.normalize();
+        const double gap = (p - point).dot(normal);
+        const double rest_gap = std::min(0.0, (rest - point).dot(normal));
+        if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
+        // Within the bone the blended point lies below the node, beyond its edge it stays behind
+        const double aside = (p - point - (p - point).dot(normal) * normal).norm();
+        const double inside = 1.0 - geom::smoothstep(1.2 * node.reach, 1.7 * node.reach, aside);
+        if (inside <= 0) return;
+        tissue::Contacts::Contact contact;
+        contact.node = node.node;
+        contact.point = carried ? Vec3(*carried * point) : point;
+        contact.normal = carried ? Vec3(carried->linear() * normal) : normal;
+        contact.rest_gap_m = rest_gap;
+        contact.body = carried ? kMandibleBody : kSkullBody;
+        contact.stiffness_n_per_m = inside * node.stiffness;
+        contact.share = inside;
+        contact.slot = slot;
+        out.push_back(contact);
+    };
+    for (std::size_t n = 0; n < deep_.size(); ++n) {
+        if (!wanted(deep_[n].node)) continue;
+        const int slot = 2 * static_cast<int>(n);
+        against_bone(deep_[n], deep_[n].skull, skull_, nullptr, slot);
+        against_bone(deep_[n], deep_[n].mandible, mandible_, &mandible, slot + 1);
+    }
+
+    // Lips: each node against the planes of the nearest of the other lip
+    const auto normals = [&](const std::vector<LipNode>& lip) {
+        std::vector<Vec3> turned;
+        for (const LipNode& node : lip) {
+            const Vec3 column = (x.row(node.node) - x.row(node.deep)).transpose();
+            turned.push_back(Eigen::Quaterniond::FromTwoVectors(node.column, column) * node.normal);
+        }
+        return turned;
+    };
+    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
+                                 const std::vector<Vec3>& facing, int first_slot) {
+        if (other.size() <= kLipNeighbours) return;
+        for (std::size_t n = 0; n < lip.size(); ++n) {
+            const LipNode& node = lip[n];
+            if (!wanted(node.node)) continue;
+            const Vec3 p = x.row(node.node).transpose();
+            // The nearest few, weighted so that the weight of one that is about to be replaced is zero
+            std::array<std::pair<double, int>, kLipNeighbours + 1> nearest_few;
+            nearest_few.fill({1e300, -1});
+            for (std::size_t i = 0; i < other.size(); ++i) {
+                const double squared = (Vec3(x.row(other[i].node).transpose()) - p).squaredNorm();
+                if (squared >= nearest_few.back().first) continue;
+                nearest_few.back() = {squared, static_cast<int>(i)};
+                for (std::size_t k = nearest_few.size() - 1;
+                     k > 0 && nearest_few[k] < nearest_few[k - 1]; --k)
+                    std::swap(nearest_few[k], nearest_few[k - 1]);
+            }
+            double inside = 1.0 - geom::smoothstep(0.7 * lip_reach_m_, lip_reach_m_,
+                                                   std::sqrt(nearest_few[0].first));
+            if (inside <= 0) continue;
+            tissue::Contacts::Contact contact;
+            contact.node = node.node;
+            contact.normal.setZero();
+            Vec3 off = Vec3::Zero(), rest_off = Vec3::Zero(), rest_normal = Vec3::Zero();
+            double weights = 0, stiffness = 0;
+            for (std::size_t k = 0; k < kLipNeighbours; ++k) {
+                const LipNode& o = other[nearest_few[k].second];
+                const double share = 1.0 - nearest_few[k].first / nearest_few[kLipNeighbours].first;
+                const double w = std::max(share * share, 1e-12);
+                contact.others[k] = o.node;
+                contact.weights[k] = w;
+                weights += w;
+                off += w * (p - x.row(o.node).transpose());
+                rest_off += w * (rest_.row(node.node) - rest_.row(o.node)).transpose();
+                contact.normal += w * facing[nearest_few[k].second];
+                rest_normal += w * o.normal;
+                stiffness += w * o.stiffness;
+            }
+            for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
+            contact.normal.normalize();
+            rest_normal.normalize();
+            const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
+                return 1.0 - geom::smoothstep(from_m, from_m + lip_aside_m_,
+                                              (d - d.dot(normal) * normal).norm());
+            };
+            off /= weights;
+            rest_off /= weights;
+            inside *= beside(off, contact.normal, lip_aside_m_);
+            if (inside <= 0) continue;
+            contact.count = kLipNeighbours;
+            // Whole for all that are inside at rest, or rest would not be free of force
+            contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) *
+                                 std::min(0.0, rest_off.dot(rest_normal));
+            if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) continue;
+            // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
+            contact.stiffness_n_per_m =
+                inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
+            contact.share = inside;
+            contact.stick_n = inside * node.stick;
+            contact.stick_m = stick_m_;
+            contact.body = kLipBody;
+            contact.slot = first_slot + static_cast<int>(n);
+            out.push_back(contact);
+        }
+    };
+    const int first_upper = 2 * static_cast<int>(deep_.size());
+    const int first_lower = first_upper + static_cast<int>(upper_.size());
+    const int first_lid = first_lower + static_cast<int>(lower_.size());
+    const std::vector<Vec3> upper_facing = normals(upper_), lower_facing = normals(lower_);
+    against_lip(upper_, lower_, lower_facing, first_upper);
+    against_lip(lower_, upper_, upper_facing, first_lower);
+
+    // Lids: a plane across the way out of the eye, where its surface lies below the node
+    for (std::size_t n = 0; n < lid_.size(); ++n) {
+        const LidNode& node = lid_[n];
+        if (!wanted(node.node)) continue;
+        const rig::EyeGeometry& eye = eyes_[node.side];
+        const Vec3 p = x.row(node.node).transpose();
+        const double gap = eye.distance(p, gaze[node.side] * eye.forward);
+        if (gap > kFarEnough_m) continue;
+        tissue::Contacts::Contact contact;
+        contact.node = node.node;
+        contact.normal = (p - eye.centre).normalized();
+        contact.point = p - gap * contact.normal;
+        contact.rest_gap_m = node.rest_gap;
+        contact.stiffness_n_per_m = node.stiffness;
+        contact.body = kGlobeBody;
+        contact.slot = first_lid + static_cast<int>(n);
+        out.push_back(contact);
+    }
+    return out;
+}
+
+double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,
+                              int first, int last) {
+    double deepest = 0;
+    for (const auto& pair : pairs)
+        if (pair.body >= first && pair.body <= last)
+            deepest = std::max(deepest, tissue::Contacts::depth(pair, x));
+    return deepest;
+}
+
+}  // namespace risorius::face

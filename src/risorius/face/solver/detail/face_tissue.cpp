@@ -1,0 +1,361 @@
+#include "risorius/face/solver/detail/face_tissue.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "risorius/face/muscle/detail/muscle_placement.h"
+#include "risorius/geom/polyline.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::face {
+
+namespace {
+
+constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
+
+// Share of its contact stiffness that the metric gives every node that may ever touch. Few touch at a time, and those along
+// one direction only: half of it in steps of motion leaves twice the error in the same iterations, a thirtieth overshoots.
+constexpr double kContactShare = 0.1, kSettlingContactShare = 0.5;
+
+// Under the mandible fat is loose, and the little that is there has to keep its volume while an opening jaw takes a third of its
+// base away: ratios to the face's tissue (estimates; with them ICT's measured jawOpen is met best).
+constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
+
+constexpr double kMouth_mm = 20;  // around the line between the lips, of the average adult
+
+}  // namespace
+
+FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+                       const std::array<EyeLids, 2>& lids, const Shell& shell,
+                       const TissueMesh& mesh)
+    : head_(head),
+      rig_(rig),
+      jaw_(jaw),
+      lids_(lids),
+      shell_(shell),
+      mesh_(mesh),
+      lips_(lip_line(head)),
+      cheek_(head),
+      attachments_(place_attachments(head, rig, jaw, shell, mesh)),
+      search_(head, jaw, shell, mesh, lids, rig.tissue.contact_pa_per_m) {
+    solids_.emplace(head, rig, jaw, shell, mesh, attachments_);
+    rest_.resize(nodes() + solids_->nodes(), 3);
+    rest_ << mesh_.nodes, solids_->rest();
+    fixed_.assign(static_cast<std::size_t>(rest_.rows()), 0);
+    for (int i = 0; i < solids_->nodes(); ++i)
+        fixed_[static_cast<std::size_t>(nodes() + i)] = solids_->on_bone(i) ? 1 : 0;
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v)
+        if (shell_.fixed[v])
+            for (Layer layer : {kDeep, kMiddle, kSkin})
+                fixed_[node_of(static_cast<int>(v), layer)] = 1;
+
+    build_tissue();
+    build_skin();
+    build_tethers();
+    hill_.passive_strain = rig_.tissue.fibre_passive_strain;
+    muscles_ = place_muscles(head_, rig_, shell_, mesh_);
+    fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
+    lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
+    mass_.resize(rest_.rows());
+    mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
+    find_cheeks(jaw);
+}
+
+// Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
+double FaceTissue::lid_share(const Vec3& p) const {
+    double share = 0;
+    for (const EyeLids& lid : lids_)
+        share = std::max(share, 1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head_.mm(5.5),
+                                                       (p - lid.centre()).norm()));
+    return share;
+}
+
+// Share of lip softness at a skin point: 1 at the line between the lips_, 0 a lip's height away.
+double FaceTissue::lip_share(const Vec3& p) const {
+    return 1.0 - geom::smoothstep(head_.mm(6), head_.mm(14), geom::distance_to_polyline(p, lips_));
+}
+
+// Of the cheek's tissue to the rest, at a point.
+double FaceTissue::cheek_ratio(const Vec3& p) const {
+    return std::pow(rig_.tissue.crease_shear_ratio, cheek_.crease(p)) *
+           std::pow(rig_.tissue.malar_shear_ratio, cheek_.fat(p));
+}
+
+void FaceTissue::build_tissue() {
+    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner, a cheek that folds, a loose floor
+    Eigen::VectorXd mu(mesh_.tets.rows()), bulk(mesh_.tets.rows());
+    const std::array<Vec3, 2> modiolus{Vec3(head_.landmark("nl3_l")),
+                                       Vec3(head_.landmark("nl3_r"))};
+    for (long t = 0; t < mesh_.tets.rows(); ++t) {
+        Vec3 centre = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) centre += 0.25 * mesh_.nodes.row(mesh_.tets(t, k)).transpose();
+        double ratio = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
+                       std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+        const double floor = jaw_.in_floor(centre);
+        ratio *= cheek_ratio(centre) * std::pow(kFloorShearRatio, floor);
+        for (const Vec3& knot : modiolus)
+            if ((centre - knot).norm() < head_.mm(9)) ratio *= rig_.tissue.modiolus_shear_ratio;
+        mu[t] = ratio * (mesh_.tet_layer[t] == kMiddle ? rig_.tissue.deep_shear_pa
+                                                       : rig_.tissue.superficial_shear_pa);
+        bulk[t] = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
+                  std::pow(kFloorBulkRatio, floor) * rig_.tissue.bulk_pa;
+    }
+    tets_.emplace(mesh_.tets, mesh_.nodes, mu, bulk);
+}
+
+void FaceTissue::build_skin() {
+    sheet_ = shell_.triangles;
+    membrane_.resize(sheet_.rows());
+    bending_.resize(sheet_.rows());
+    for (long f = 0; f < sheet_.rows(); ++f) {
+        Vec3 centre = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
+            sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
+        }
+        const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_share(centre)) *
+                             std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre)) *
+                             cheek_ratio(centre);
+        membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
+        bending_[f] = ratio * rig_.skin.bending_n_m;
+    }
+    skin_.emplace(sheet_, mesh_.nodes, membrane_, bending_);
+}
+
+void FaceTissue::build_tethers() {
+    // Attachments to bone, and lids_ to their tarsal plates
+    std::vector<tissue::Tethers::Tether> held;
+    for (const Attachment& a : attachments_) {
+        const int node = node_of(a.shell_vertex, kDeep);
+        held.push_back({node, mesh_.nodes.row(node).transpose(), mesh_.direction[a.shell_vertex],
+                        a.normal_n_per_m, a.tangential_n_per_m});
+    }
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
+        if (shell_.fixed[v]) continue;
+        const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
+        for (int side = 0; side < 2; ++side) {
+            if ((p - lids_[side].centre()).norm() > lids_[side].zone_m() + head_.mm(3)) continue;
+            const LidMember member = lids_[side].member(p);
+            const double firmness = EyeLids::firmness(member, 0.4, 1.15, 0.2, 0.65);
+            if (firmness < 1e-3) continue;
+            for (Layer layer : {kDeep, kMiddle, kSkin}) {
+                const int node = node_of(static_cast<int>(v), layer);
+                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
+                held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
+                lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
+            }
+        }
+    }
+    tethers_.emplace(held);
+}
+
+void FaceTissue::find_cheeks(const Jaw& jaw) {
+    // Air fills the vestibule: behind cheeks and lips, from the fold under the nose down to that above the mandible's border, and
+    // back to the masseter. Lips that are shut are pushed forwards as one, which does not open them.
+    const double fold_y = head_.landmark("sn").y();
+    for (const Attachment& a : attachments_) {
+        const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
+        const double near = 1.0 - geom::smoothstep(head_.mm(38), head_.mm(52),
+                                                   geom::distance_to_polyline(p, lips_));
+        const double below = geom::smoothstep(head_.mm(-2), head_.mm(8), fold_y - p.y());
+        const double above = geom::smoothstep(head_.mm(6), head_.mm(20), jaw.height_over_border(p));
+        const double rim = 0.4 + 0.6 * geom::smoothstep(head_.mm(2), head_.mm(10),
+                                                        geom::distance_to_polyline(p, lips_));
+        const double share = near * below * above * rim;
+        const int node = node_of(a.shell_vertex, kDeep);
+        const bool in_tissue =
+            mass_[node] > 0;  // what air pushed away there would hold nothing back
+        if (share > 0 && in_tissue && lid_share(p) == 0)
+            cheeks_.push_back(
+                {node, share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+    }
+}
+
+const solve::SparseCholesky& FaceTissue::metric(double h) {
+    for (const Metric& known : metrics_)
+        if (known.h == h) return known.factor;
+    solve::MetricBuilder builder(nodes());
+    tets_->add_metric(builder);
+    tets_->add_laplacian(builder, rig_.tissue.damping_s / h);
+    skin_->add_metric(builder);
+    tethers_->add_metric(builder);
+    fibres_->add_metric(builder, h < kSettling_s ? h : 0);
+    solids_->add_metric(builder);
+    lip_drive_->add_metric(builder);
+    const double contact_share = h < kSettling_s ? kContactShare : kSettlingContactShare;
+    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
+        builder.add_diagonal(search_.nodes()[i], contact_share * search_.node_stiffness()[i]);
+    for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
+    metrics_.push_back(
+        {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}),
+                                  solve::Precision::kSingle)});
+    return metrics_.back().factor;
+}
+
+void FaceTissue::prepare(double h) {
+    metric(h);
+    if (refines_mouth(h)) mouth_.emplace(make_mouth(h));
+}
+
+void FaceTissue::prescribe(const Prescribed& prescribed) {
+    const Rigid& moved = prescribed.mandible;
+    mandible_ = moved;
+    gaze_ = prescribed.gaze;
+    std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    const double chin_back = jaw_.chin_back(moved);
+    for (std::size_t i = 0; i < attachments_.size(); ++i) {
+        const Attachment& a = attachments_[i];
+        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
+        held[i].target = a.target(rest, moved, chin_back);
+        held[i].normal = ((1 - a.jaw_weight) * mesh_.direction[a.shell_vertex] +
+                          a.jaw_weight * (moved.linear() * mesh_.direction[a.shell_vertex]))
+                             .normalized();
+    }
+    for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
+        const LidTether& t = lid_tethers_[i];
+        held[attachments_.size() + i].target =
+            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
+    }
+    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
+    fibres_->set_body_positions(bodies);
+    solids_->set_bodies(bodies);
+    lip_drive_->set_mandible(moved);
+    const double pressure = prescribed.mouth_pressure_pa;
+    std::vector<tissue::DeadLoads::Load> loads;
+    if (pressure != 0)
+        for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
+    if (!prescribed.weight_m_s2.isZero(0.0))
+        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
+            if (!fixed_[static_cast<std::size_t>(i)])
+                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
+    air_.set(loads);
+}
+
+void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
+    solids_->carry(x, from, to);
+    if (from.isApprox(to, 0.0)) return;
+    for (const Attachment& at : attachments_)
+        for (Layer layer : {kDeep, kMiddle, kSkin}) {
+            const int node = node_of(at.shell_vertex, layer);
+            const Vec3 rest = mesh_.nodes.row(node).transpose();
+            x.row(node) += at.jaw_weight * (to * rest - from * rest).transpose();
+        }
+}
+
+void FaceTissue::find_contacts(const Points& x) {
+    contacts_.set(search_.find(x, mandible_, gaze_));
+    note_contacts();
+}
+
+void FaceTissue::note_contacts() {
+    contact_on_mandible_.clear();
+    const Rigid to_rest = mandible_.inverse();
+    for (const tissue::Contacts::Contact& contact : contacts_.list())
+        contact_on_mandible_.push_back(to_rest * contact.point);
+}
+
+double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
+                             solve::Precision precision) const {
+    double energy = skin_->add_energy(x, gradient, precision);
+    energy += tethers_->add_energy(x, gradient);
+    energy += fibres_->add_energy(x, activation, gradient);
+    solids_pull_ = {};
+    if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
+    energy += contacts_.add_energy(x, gradient);
+    energy += air_.add_energy(x, gradient);
+    lip_drive_->drive(activation);
+    energy += lip_drive_->add_energy(x, gradient);
+    return energy;
+}
+
+double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
+                               const Points& at, Points& gradient) {
+    const double inertia = 1.0 / (h * h);
+    double moving = 0;
+    gradient.resize(at.rows(), 3);
+    for (long i = 0; i < at.rows(); ++i) {
+        const Vec3 off = (at.row(i) - aim.row(i)).transpose();
+        moving += mass_[i] * off.squaredNorm();
+        gradient.row(i) = inertia * mass_[i] * off.transpose();
+    }
+    double value = 0.5 * inertia * moving;
+    value += tets_->add_step_energy(at, gradient, precision_);
+    value += potential(at, activation, gradient, precision_);
+    for (long i = 0; i < at.rows(); ++i)
+        if (fixed_[i]) gradient.row(i).setZero();
+    return value;
+}
+
+void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd& activation) {
+    tets_->begin_step(start, rig_.tissue.damping_s / h, precision_);
+    solids_->begin_step(h, start, activation);
+}
+
+StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
+                                      const Eigen::VectorXd& activation,
+                                      const solve::QuasiNewtonOptions& options, Points& x,
+                                      std::span<const Points> likely) {
+    const auto energy = [&](const Points& at, Points& gradient) {
+        return step_energy(h, aim, activation, at, gradient);
+    };
+    begin_step(h, start, activation);
+    const solve::SparseCholesky& factor = metric(h);
+    const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
+    const solve::StepReport report = newton_.minimise(energy, solve, x, options, likely);
+    refine(h, start, aim, activation, options, x);
+    return end_step(report, x);
+}
+
+TissuePart FaceTissue::make_mouth(double h) const {
+    std::vector<char> moves(static_cast<std::size_t>(nodes()), 0);
+    for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
+        const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
+        if (shell_.fixed[v] || geom::distance_to_polyline(p, lips_) > head_.mm(kMouth_mm)) continue;
+        for (Layer layer : {kDeep, kMiddle, kSkin})
+            moves[static_cast<std::size_t>(node_of(static_cast<int>(v), layer))] = 1;
+    }
+    std::vector<std::pair<int, double>> touching;
+    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
+        touching.push_back({search_.nodes()[i], kContactShare * search_.node_stiffness()[i]});
+    return TissuePart({mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_,
+                       *solids_, *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s},
+                      moves, h, touching);
+}
+
+void FaceTissue::refine(double h, const Points& start, const Points& aim,
+                        const Eigen::VectorXd& activation, const solve::QuasiNewtonOptions& options,
+                        Points& x) {
+    if (!refines_mouth(h)) return;
+    if (!mouth_ || mouth_->step_s() != h) mouth_.emplace(make_mouth(h));
+    solve::QuasiNewtonOptions own = options;
+    own.iterations = mouth_iterations_;
+    own.least_iterations = 0;
+    mouth_->advance({h, start, aim, activation, precision_}, own, x);
+}
+
+void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
+    figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
+    figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
+    figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
+}
+
+Penetration FaceTissue::penetration(const Points& x) const {
+    const std::vector<tissue::Contacts::Contact> pairs = search_.find(x, mandible_, gaze_);
+    return {ContactSearch::deepest(pairs, x, kLipBody, kLipBody),
+            ContactSearch::deepest(pairs, x, kSkullBody, kMandibleBody),
+            ContactSearch::deepest(pairs, x, kGlobeBody, kGlobeBody)};
+}
+
+StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
+    StepFigures figures;
+    figures.iterations = report.iterations;
+    figures.evaluations = report.evaluations;
+    figures.last_step_rms_m = report.last_step_rms_m;
+    figures.converged = report.converged;
+    put_depths(x, figures);
+    contacts_.remember(x);
+    figures.muscle_volume_error = solids_->greatest_volume_error(x);
+    return figures;
+}
+
+}  // namespace risorius::face

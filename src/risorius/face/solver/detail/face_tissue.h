@@ -1,0 +1,251 @@
+// What deforms in a face as one system of equations: tissue, skin, attachments, fibres, contact and air over the nodes.
+//
+// A step of length h minimises over the node positions x
+//   E = |x - a|^2_M / (2 h^2) + beta/(2 h) sum V mu |F - F_n|^2 + tissue + skin + attachments + fibres + contact + air,
+//   a = x_n + h v_n
+// (implicit Euler) by L-BFGS with one prefactored matrix per h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/face/anatomy/detail/attachments.h"
+#include "risorius/face/anatomy/detail/cheek.h"
+#include "risorius/face/anatomy/detail/jaw.h"
+#include "risorius/face/anatomy/detail/jaw_dynamics.h"
+#include "risorius/face/anatomy/detail/wrench.h"
+#include "risorius/face/anatomy/lids.h"
+#include "risorius/face/anatomy/shell.h"
+#include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/muscle/detail/lip_drive.h"
+#include "risorius/face/muscle/detail/muscle_placement.h"
+#include "risorius/face/muscle/detail/muscle_solids.h"
+#include "risorius/face/solver/detail/contact_search.h"
+#include "risorius/face/solver/detail/separation.h"
+#include "risorius/face/solver/detail/tissue_part.h"
+#include "risorius/muscle/fibre_set.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
+#include "risorius/solve/quasi_newton.h"
+#include "risorius/solve/sparse_cholesky.h"
+#include "risorius/tissue/contacts.h"
+#include "risorius/tissue/dead_loads.h"
+#include "risorius/tissue/skin_sheet.h"
+#include "risorius/tissue/tet_solid.h"
+#include "risorius/tissue/tethers.h"
+
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
+namespace risorius::face {
+
+/// Steps this long seek rest, not motion.
+inline constexpr double kSettling_s = 0.1;
+
+struct StepFigures {
+    int iterations = 0;
+    int evaluations = 0;
+    double last_step_rms_m = 0;
+    double contact_depth_m = 0;      ///< deepest penetration left
+    double lip_depth_m = 0;          ///< the same, of lip by lip
+    double bone_depth_m = 0;         ///< the same, of bone and teeth
+    double muscle_volume_error = 0;  ///< greatest of the volume muscles, ratio
+    bool converged = false;
+};
+
+/// How deep surfaces lie in each other beyond what they do at rest, m: lip in lip, tissue in bone and teeth, lids in the eyeball
+/// (its cornea included).
+struct Penetration {
+    double lips_m = 0, bone_m = 0, eyeball_m = 0;
+};
+
+/// What moves by itself and takes the tissue along.
+struct Prescribed {
+    Rigid mandible = Rigid::Identity();
+    std::array<LidPose, 2> lid;
+    double mouth_pressure_pa = 0;
+    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
+    Vec3 weight_m_s2 =
+        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
+};
+
+/// A jaw that its muscles move within a step of the tissue.
+struct JawInStep {
+    const JawDynamics& dynamics;
+    JawDynamics::Step step;
+    JawVector q;  ///< where it begins and ends
+};
+
+class FaceTissue {
+  public:
+    /// Keeps references: all arguments must outlive it.
+    FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
+               const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
+
+    /// Factors the matrices for steps of length h now rather than in the first of them.
+    void prepare(double h);
+
+    /// What steps of motion are worked out in; equilibria are in double.
+    void step_in(solve::Precision precision) { precision_ = precision; }
+
+    /// After the iterations of a step of motion so many more for the mouth alone, whose soft lips are the last to converge.
+    void refine_mouth(int iterations) { mouth_iterations_ = iterations; }
+
+    void prescribe(const Prescribed& prescribed);
+
+    /// Moves nodes with their bone, as far as they follow the mandible.
+    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
+
+    /// Finds the contact pairs at x; they hold until the next call. What steps learn about how hard they press is kept.
+    void find_contacts(const Points& x);
+    void forget_contacts() { contacts_.forget(); }
+    /// Of all that is near at x, whatever was found before.
+    Penetration penetration(const Points& x) const;
+    /// The same nodes out of each other and of the bones, see separation.h.
+    Points apart(const Points& x, const Rigid& mandible, const std::array<Mat3, 2>& gaze) const {
+        return separated(x, search_, mandible, gaze, fixed_);
+    }
+
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// tried first.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x,
+                              std::span<const Points> likely = {});
+
+    /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
+    void begin_rest(const Points& x) { solids_->begin_rest(x); }
+    /// Returns what deforms, without inertia and damping, and its gradient: zero on fixed rows. After begin_rest().
+    double static_energy(const Points& x, const Eigen::VectorXd& activation,
+                         Points& gradient) const;
+    /// Adds the second derivative of that; pairs in contact as found, and all that may ever touch named in the same order.
+    void add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
+                            solve::Curvature curvature, solve::HessianBuilder& hessian) const;
+    const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
+    const tissue::Contacts& contacts() const { return contacts_; }
+    /// The same as find_contacts() for equilibria: contacts harden with depth and remember nothing.
+    void find_rest_contacts(const Points& x);
+    /// The same on the way there: as in steps that have learned nothing.
+    void find_soft_contacts(const Points& x);
+    /// After coming to rest at x: depths and volumes, and steps from here press as hard.
+    StepFigures end_rest(const Points& x);
+    /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
+    void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
+    const Rigid& mandible() const { return mandible_; }
+    /// dE/dx at rest in time, with the contacts found last; zero where nodes are fixed.
+    Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
+
+    int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
+    /// Of everything at rest: tissue, then the volume muscles. States have these rows.
+    const Points& rest() const { return rest_; }
+    const MuscleSolids& solids() const { return *solids_; }
+    MuscleSolids& solids() { return *solids_; }
+    void scale_lips(const rig::LipsDescription& lips) {
+        lip_drive_->scale(lips);
+        forget_mouth();
+    }
+    /// After a change of forces: the part that moves by itself has its own copy of them.
+    void forget_mouth() { mouth_.reset(); }
+    /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
+    /// prescribed where the jaw begins.
+    StepFigures implicit_step(double h, const Points& start, const Points& aim,
+                              const Eigen::VectorXd& activation,
+                              const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
+
+    /// Measures how stiff the tissue at rest holds a jaw in steps of length h. Before the first of them; leaves the tissue
+    /// prescribed at rest.
+    void prepare(double h, const JawDynamics& jaw);
+    const JawMatrix& ride_stiffness(double h) const;  ///< N/m, after that
+
+    const tissue::TetSolid& tets() const { return *tets_; }
+    const muscle::FibreSet& fibres() const { return *fibres_; }
+    muscle::FibreSet& fibres() { return *fibres_; }
+    const MusclePlacement& muscles() const { return muscles_; }  ///< at rest
+    const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
+
+  private:
+    struct LidTether {
+        int side;
+        LidMember member;
+        Vec3 rest;
+    };
+    struct Metric {
+        double h;
+        solve::SparseCholesky factor;
+    };
+    double lid_share(const Vec3& p) const;
+    double lip_share(const Vec3& p) const;
+    double cheek_ratio(const Vec3& p) const;
+    void build_tissue();
+    void build_skin();
+    void build_tethers();
+    void find_cheeks(const Jaw& jaw);
+    const solve::SparseCholesky& metric(double h);
+    /// Before step_energy(), which is E and its gradient by the nodes.
+    void begin_step(double h, const Points& start, const Eigen::VectorXd& activation);
+    double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
+                       const Points& at, Points& gradient);
+    void note_contacts();
+    void put_depths(const Points& x, StepFigures& figures) const;
+    /// Of a step of motion, after its iterations.
+    void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
+                const solve::QuasiNewtonOptions& options, Points& x);
+    bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
+    TissuePart make_mouth(double h) const;
+    StepFigures end_step(const solve::StepReport& report, const Points& x);
+    /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
+    void move_mandible(const Rigid& moved);
+    /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
+    Wrench mandible_gradient(const Points& x, const Points& gradient) const;
+    /// Of all but the tetrahedra.
+    double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
+                     solve::Precision precision) const;
+
+    const rig::Head& head_;
+    const rig::RigDescription& rig_;
+    const Jaw& jaw_;
+    const std::array<EyeLids, 2>& lids_;
+    const Shell& shell_;
+    const TissueMesh& mesh_;
+    std::vector<Vec3> lips_;
+    CheekRegions cheek_;
+    std::vector<Attachment> attachments_;
+    std::optional<MuscleSolids> solids_;
+    mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation
+    Points rest_;
+    std::vector<char> fixed_;  // rows
+    std::optional<tissue::TetSolid> tets_;
+    Triangles sheet_;                     // of skin nodes
+    Eigen::VectorXd membrane_, bending_;  // of its triangles
+    std::optional<tissue::SkinSheet> skin_;
+    std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    muscle::HillShape hill_;
+    MusclePlacement muscles_;
+    bool solids_relaxed_ = false;  // riding is measured on what gives way at once
+    std::optional<muscle::FibreSet> fibres_;
+    mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
+    ContactSearch search_;
+    tissue::Contacts contacts_;
+    tissue::DeadLoads air_;  // and what weight changes when the head tilts
+    Rigid mandible_ = Rigid::Identity();
+    std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
+    std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
+    std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
+    std::vector<LidTether> lid_tethers_;
+    std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
+    Eigen::VectorXd mass_;
+    solve::Precision precision_ = solve::Precision::kDouble;  // of steps of motion
+    std::vector<Metric> metrics_;                             // one per step length used
+    solve::QuasiNewton newton_;
+    int mouth_iterations_ = 0;
+    std::optional<TissuePart> mouth_;  // of the step length used last
+    Points carried_, carried_gradient_;
+};
+
+}  // namespace risorius::face

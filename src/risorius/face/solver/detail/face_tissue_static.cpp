@@ -1,0 +1,73 @@
+// A face at rest in what it is driven by: energy, gradient and second derivative without inertia and damping.
+#include "risorius/face/solver/detail/face_tissue.h"
+#include "risorius/solve/force_term.h"
+
+namespace risorius::face {
+
+namespace {
+
+// Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
+constexpr double kHardens_m = 0.0025e-3;
+
+}  // namespace
+
+double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activation,
+                                 Points& gradient) const {
+    gradient.setZero(x.rows(), 3);
+    const double energy = tets_->add_energy(x, gradient) +
+                          potential(x, activation, gradient, solve::Precision::kDouble);
+    for (long i = 0; i < x.rows(); ++i)
+        if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
+    return energy;
+}
+
+Points FaceTissue::static_gradient(const Points& x, const Eigen::VectorXd& activation) const {
+    Points gradient;
+    static_energy(x, activation, gradient);
+    return gradient;
+}
+
+void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
+                                    solve::Curvature curvature,
+                                    solve::HessianBuilder& hessian) const {
+    tets_->add_hessian(x, curvature, hessian);
+    skin_->add_hessian(x, curvature, hessian);
+    tethers_->add_hessian(hessian);
+    fibres_->add_hessian(x, activation, curvature, hessian);
+    solids_->add_hessian(x, activation, curvature, hessian);
+    lip_drive_->drive(activation);
+    lip_drive_->add_hessian(x, hessian);
+    contacts_.add_hessian(x,
+                          hessian);  // last: their pairs change, the order of the others does not
+}
+
+void FaceTissue::find_rest_contacts(const Points& x) {
+    contacts_.set_firm(search_.find(x, mandible_, gaze_), kHardens_m);
+    note_contacts();
+}
+
+void FaceTissue::find_soft_contacts(const Points& x) {
+    contacts_.forget();
+    find_contacts(x);
+}
+
+StepFigures FaceTissue::end_rest(const Points& x) {
+    StepFigures figures;
+    put_depths(x, figures);
+    figures.muscle_volume_error = solids_->greatest_volume_error(x);
+    contacts_.remember_firm(x);
+    return figures;
+}
+
+void FaceTissue::ride_contacts(const std::vector<tissue::Contacts::Contact>& found,
+                               const Rigid& from) {
+    contacts_.list() = found;
+    const Rigid moved = mandible_ * from.inverse();
+    for (tissue::Contacts::Contact& contact : contacts_.list())
+        if (contact.body == kMandibleBody) {
+            contact.point = moved * contact.point;
+            contact.normal = moved.linear() * contact.normal;
+        }
+}
+
+}  // namespace risorius::face

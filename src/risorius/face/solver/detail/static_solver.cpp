@@ -1,0 +1,262 @@
+#include "risorius/face/solver/detail/static_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "risorius/core/dense_algebra.h"
+#include "risorius/solve/force_term.h"
+#include "risorius/solve/point_sums.h"
+#include "risorius/solve/supernodal_cholesky.h"
+
+namespace risorius::face {
+
+namespace {
+
+// Keeps nodes that nothing holds where they are, N/m; soft tissue holds its nodes with some N/m.
+constexpr double kLoose_n_per_m = 1e-6;
+// Farther from equilibrium the exact curvature is hardly ever positive.
+constexpr double kFar_m = 0.5e-3;
+constexpr double kGain = 0.2;  // a round that leaves more than this share of |B g| has B made anew
+constexpr double kStale =
+    5;  // so has one that begins with this much more than the last left: other contacts
+// Planes stand for what is near: how far a node may go in one iteration is halved after rounds that do not come nearer,
+// doubled after those that do.
+constexpr double kFirstStep_m = 1e-3, kShortestStep_m = 0.1e-3;
+constexpr double kNearer = 0.7, kForgetting = 1.1;
+constexpr int kFarRound = 6;          // iterations while it is far
+constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
+constexpr int kRoughRound = 20, kRoughRounds = 6;
+constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
+// Few poses take longer. In those a node is about to snap from one place to another, and planes sought at either send it to
+// the other, whatever is mixed. Held by a spring to where it was last, it goes the way that viscous tissue goes. Planes that
+// turn against it make it stiffer than they are as they stand; that is what the spring comes to where the node goes on.
+constexpr int kPatience = 300;  // iterations before that
+constexpr double kHold_n_per_m = 5;
+constexpr double kStiffer = 2;  // of springs whose node goes as far as before
+
+/// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
+/// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
+class FixedPoint {
+  public:
+    void forget() { rounds_.clear(); }
+
+    Points next(const Points& z, const Points& x) {
+        const double length = (x - z).norm();
+        if (!rounds_.empty() && !(length < kWorse * rounds_.back().length)) forget();
+        rounds_.push_back({x - z, x, length});
+        if (rounds_.size() > kMixed + 1) rounds_.erase(rounds_.begin());
+        const auto count = static_cast<int>(rounds_.size()) - 1;
+        if (count == 0) return x;
+        Eigen::MatrixXd products(count, count);
+        Eigen::VectorXd right(count);
+        const Round& last = rounds_.back();
+        std::vector<Points> change;
+        for (int i = 0; i < count; ++i)
+            change.push_back(last.move - rounds_[static_cast<std::size_t>(i)].move);
+        for (int i = 0; i < count; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            right[i] = solve::dot(change[at], last.move);
+            for (int j = 0; j <= i; ++j)
+                products(i, j) = products(j, i) =
+                    solve::dot(change[at], change[static_cast<std::size_t>(j)]);
+        }
+        constexpr double kRidge = 1e-12;
+        products.diagonal() += kRidge * products.diagonal();
+        const Eigen::VectorXd gamma = solved_symmetric(products, right);
+        Points out = x;
+        for (int i = 0; i < count; ++i)
+            if (std::isfinite(gamma[i]))
+                out -= gamma[i] * (last.to - rounds_[static_cast<std::size_t>(i)].to);
+        return out;
+    }
+
+  private:
+    static constexpr double kWorse = 2;
+    struct Round {
+        Points move, to;
+        double length;
+    };
+    std::vector<Round> rounds_;
+};
+
+}  // namespace
+
+struct StaticSolver::Linear {
+    solve::HessianBuilder hessian;
+    solve::SupernodalCholesky factor;
+    explicit Linear(const FaceTissue& tissue)
+        : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {}
+};
+
+StaticSolver::StaticSolver(FaceTissue& tissue)
+    : tissue_(tissue), linear_(std::make_unique<Linear>(tissue)) {}
+StaticSolver::~StaticSolver() = default;
+
+double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) {
+    double energy = tissue_.static_energy(x, activation, gradient);
+    for (const Spring& spring : springs_) {
+        const Eigen::RowVector3d away = x.row(spring.node) - sought_.row(spring.node);
+        energy += 0.5 * spring.n_per_m * away.squaredNorm();
+        gradient.row(spring.node) += spring.n_per_m * away;
+    }
+    return energy;
+}
+
+void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
+                             solve::Curvature first) {
+    tissue_.begin_rest(x);
+    // Pairs of lips come and go; the pattern keeps them all, so that it is ordered but a few times
+    for (const tissue::Contacts::Contact& contact : tissue_.contacts().list())
+        for (int i = 0; i < contact.count; ++i)
+            for (int j = -1; j < i; ++j) {
+                const int a = j < 0 ? contact.node : contact.others[j], b = contact.others[i];
+                const std::pair<int, int> pair{std::min(a, b), std::max(a, b)};
+                const auto at = std::lower_bound(touched_.begin(), touched_.end(), pair);
+                if (at == touched_.end() || *at != pair) touched_.insert(at, pair);
+            }
+    for (solve::Curvature curvature = first;; curvature = solve::Curvature::kPositive) {
+        linear_->hessian.clear();
+        tissue_.add_static_hessian(x, activation, curvature, linear_->hessian);
+        for (int i = 0; i < static_cast<int>(x.rows()); ++i)
+            linear_->hessian.add_diagonal(i, kLoose_n_per_m);
+        for (const Spring& spring : springs_)
+            linear_->hessian.add_diagonal(spring.node, spring.n_per_m);
+        for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
+        ++factors_;
+        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
+        if (positive || curvature == solve::Curvature::kPositive) break;
+    }
+    known_ = true;
+}
+
+void StaticSolver::solve(const Points& b, Points& y) const {
+    y = b;
+    for (long i = 0; i < y.rows(); ++i)
+        if (tissue_.fixed()[static_cast<std::size_t>(i)]) y.row(i).setZero();
+    linear_->factor.solve(y.data(), y.data());
+}
+
+// Far from equilibrium iterations with the constant scalar metric of long steps get as far as those with a factor, for a
+// hundredth of its price.
+void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptions& options,
+                            Points& x, StepFigures& figures) {
+    if (known_) {
+        tissue_.begin_rest(x);
+        tissue_.find_rest_contacts(x);
+        energy(x, activation, gradient_);
+        solve(gradient_, move_);
+        if (solve::longest_row(move_) < kFar_m) return;
+    }
+    for (int round = 0; round < kRoughRounds && figures.iterations < options.iterations; ++round) {
+        tissue_.find_soft_contacts(x);
+        const Points start = x;
+        const StepFigures part = tissue_.implicit_step(
+            kRoughStep_s, start, start, activation,
+            {.iterations = std::min(kRoughRound, options.iterations - figures.iterations),
+             .memory = options.memory,
+             .step_cap_m = options.step_cap_m,
+             .tolerance_rms_m = 1e-6},
+            x);
+        figures.iterations += std::max(1, part.iterations);
+        figures.evaluations += part.evaluations;
+        move_ = x - start;
+        if (solve::longest_row(move_) < kFar_m) break;
+    }
+    known_ = false;
+}
+
+bool StaticSolver::hold_what_moved(const Points& x, double more_than_m) {
+    bool changed = false;
+    for (int i = 0; i < static_cast<int>(x.rows()); ++i) {
+        const double away = (x.row(i) - sought_.row(i)).norm();
+        auto at =
+            std::lower_bound(springs_.begin(), springs_.end(), i,
+                             [](const Spring& spring, int node) { return spring.node < node; });
+        const bool held = at != springs_.end() && at->node == i;
+        if (away > more_than_m) {
+            if (!held)
+                at = springs_.insert(at, {i, kHold_n_per_m, away});
+            else if (away > kNearer * at->away_m)
+                at->n_per_m *= kStiffer;
+            changed = changed || !held || away > kNearer * at->away_m;
+        }
+        if (held) at->away_m = away;
+    }
+    return changed;
+}
+
+StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
+                                 Points& x) {
+    StepFigures figures;
+    approach(activation, options, x, figures);
+    tissue_.begin_rest(x);
+    const auto energy_at = [&](const Points& at, Points& gradient) {
+        return energy(at, activation, gradient);
+    };
+    const auto metric = [&](const Points& b, Points& y) { solve(b, y); };
+    // Planes of contact depend on where they are searched. Sought where the tissue came to rest on the last ones, two sets of
+    // them may take turns for ever: the fixed point sought = x(sought) is found by Anderson's mixing instead.
+    sought_ = x;
+    FixedPoint fixed_point;
+    solve::Curvature curvature = solve::Curvature::kPositive;
+    bool solved = true;  // the last round, with the planes it had
+    double last_left = std::numeric_limits<double>::infinity(), nearest = last_left;
+    double longest_step = kFirstStep_m;
+    const auto left_at = [&] {
+        energy(x, activation, gradient_);
+        ++figures.evaluations;
+        solve(gradient_, move_);
+        return solve::longest_row(move_);
+    };
+    while (true) {
+        tissue_.find_rest_contacts(sought_);
+        if (!known_ || !solved) factorise(x, activation, curvature);
+        double left = left_at();
+        if (left > options.tolerance_m && left > kStale * last_left) {
+            factorise(x, activation, curvature);
+            left = left_at();
+        }
+        figures.last_step_rms_m =
+            std::sqrt(solve::dot(move_, move_) / static_cast<double>(x.rows()));
+        move_ = x - sought_;
+        figures.converged =
+            left <= options.tolerance_m && solve::longest_row(move_) <= options.planes_m;
+        if (figures.converged || figures.iterations >= options.iterations ||
+            (options.stopped && options.stopped()))
+            break;
+        const bool nearer = left < kNearer * nearest;
+        nearest = nearer ? left : kForgetting * nearest;
+        longest_step = nearer ? std::min(2 * longest_step, options.step_cap_m)
+                              : std::max(0.5 * longest_step, kShortestStep_m);
+        const solve::StepReport report =
+            search_.minimise(energy_at, metric, x,
+                             {.iterations = std::min(left > kFar_m ? kFarRound : options.round,
+                                                     options.iterations - figures.iterations),
+                              .memory = options.memory,
+                              .step_cap_m = longest_step,
+                              .tolerance_rms_m = 1e-3 * options.tolerance_m});
+        figures.iterations += std::max(1, report.iterations);
+        figures.evaluations += report.evaluations;
+        const double still = last_left = left_at();
+        solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
+        curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
+        if (!solved) fixed_point.forget();
+        if (figures.iterations < kPatience) {
+            sought_ = fixed_point.next(sought_, x);
+            continue;
+        }
+        if (hold_what_moved(x, options.planes_m)) solved = false;
+        sought_ = x;
+    }
+    if (!springs_.empty()) known_ = false;
+    springs_.clear();
+    const StepFigures last = tissue_.end_rest(x);
+    figures.contact_depth_m = last.contact_depth_m;
+    figures.lip_depth_m = last.lip_depth_m;
+    figures.bone_depth_m = last.bone_depth_m;
+    figures.muscle_volume_error = last.muscle_volume_error;
+    return figures;
+}
+
+}  // namespace risorius::face

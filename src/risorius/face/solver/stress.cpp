@@ -1,0 +1,124 @@
+#include "risorius/face/solver/stress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "risorius/core/place_chance.h"
+
+namespace risorius::face {
+
+namespace {
+
+constexpr double kHold_s = 0.2;   // muscles change
+constexpr double kSwing_s = 0.5;  // jaw and head find a new goal
+constexpr double kPi = 3.14159265358979323846;
+
+struct Goal {
+    track::Kinematic channel;
+    double least, most;
+};
+// Shaking, nodding, chewing and looking about, each as fast as people do it
+constexpr Goal kGoals[] = {
+    {track::Kinematic::kJawOpen, -0.4, 0.8},       {track::Kinematic::kJawForward, -0.5, 0.8},
+    {track::Kinematic::kJawSide, -0.7, 0.7},       {track::Kinematic::kHeadYaw, -30, 30},
+    {track::Kinematic::kHeadPitch, -20, 20},       {track::Kinematic::kHeadRoll, -15, 15},
+    {track::Kinematic::kHeadUp, -30, 30},          {track::Kinematic::kHeadForward, -30, 30},
+    {track::Kinematic::kGazeYawLeft, -30, 30},     {track::Kinematic::kGazeYawRight, -30, 30},
+    {track::Kinematic::kGazePitchLeft, -20, 20},   {track::Kinematic::kGazePitchRight, -20, 20},
+    {track::Kinematic::kMouthPressure, -500, 1500}};
+
+// One number of a place in the run, the same whatever was asked before
+double chance(int seed, unsigned stream, long row, long column) {
+    return PlaceChance()
+        .at(static_cast<std::uint64_t>(seed))
+        .at(stream)
+        .at(static_cast<std::uint64_t>(row))
+        .at(static_cast<std::uint64_t>(column))
+        .inside();
+}
+
+// The least of the values that so large a share of them does not exceed; 0 of none.
+double share_below(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+    return values[std::max<std::size_t>(at, 1) - 1];
+}
+
+}  // namespace
+
+DriveAt stress_drive(const track::ChannelTable& channels, const StressOptions& options,
+                     double end_s) {
+    return [columns = channels.column_count(), min = channels.column_min(), options,
+            end_s](double t_s) {
+        track::Drive drive;
+        drive.excitation = Eigen::VectorXd::Zero(columns);
+        if (t_s >= end_s) return drive;
+        const long hold = static_cast<long>(t_s / kHold_s);
+        for (long c = 0; c < columns; ++c)
+            if (chance(options.seed, 1, hold, c) < options.active_share)
+                drive.excitation[c] = min[c] + (1 - min[c]) * chance(options.seed, 2, hold, c);
+        const long swing = static_cast<long>(t_s / kSwing_s);
+        const double place = t_s / kSwing_s - static_cast<double>(swing);
+        const double share = 0.5 * (1 - std::cos(kPi * place));
+        long column = 0;
+        for (const Goal& goal : kGoals) {
+            // From rest, and back to it at the end
+            const auto value = [&](long at) {
+                if (at == 0 || static_cast<double>(at) * kSwing_s > end_s - kSwing_s) return 0.0;
+                const double x =
+                    goal.least + (goal.most - goal.least) * chance(options.seed, 3, at, column);
+                const bool within = goal.channel == track::Kinematic::kJawOpen ||
+                                    goal.channel == track::Kinematic::kJawForward;
+                return within ? std::max(0.0, x) : x;
+            };
+            drive.kinematic[static_cast<std::size_t>(goal.channel)] =
+                (1 - share) * value(swing) + share * value(swing + 1);
+            ++column;
+        }
+        return drive;
+    };
+}
+
+StressReport stress(Face& face, const track::ChannelTable& channels, const StressOptions& options) {
+    StressReport report;
+    const DriveAt drive = stress_drive(channels, options, options.steps * face.step_s());
+    face.start([&](double) {
+        track::Drive rest;
+        rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
+        return rest;
+    });
+    const Points rest = face.skin_nodes();
+    int in_a_row = 0;
+    std::vector<double> lips_m, bone_m, eyeball_m;
+    for (report.steps = 0; report.steps < options.steps; ++report.steps) {
+        face.step(drive);
+        const Points now = face.skin_nodes();
+        if (!now.allFinite()) {
+            ++report.broken_steps;
+            break;  // nothing that comes after could mean anything
+        }
+        const int inverted = face.inverted_tets();
+        in_a_row = inverted > 0 ? in_a_row + 1 : 0;
+        report.most_inverted_tets = std::max(report.most_inverted_tets, inverted);
+        report.longest_inverted_steps = std::max(report.longest_inverted_steps, in_a_row);
+        report.mean_inverted_tets += static_cast<double>(inverted) / options.steps;
+        report.furthest_m = std::max(report.furthest_m, (now - rest).rowwise().norm().maxCoeff());
+        const Penetration penetration = face.penetration();
+        lips_m.push_back(penetration.lips_m);
+        bone_m.push_back(penetration.bone_m);
+        eyeball_m.push_back(penetration.eyeball_m);
+    }
+    report.usual_penetration = {share_below(lips_m, 0.99), share_below(bone_m, 0.99),
+                                share_below(eyeball_m, 0.99)};
+    report.deepest_penetration = {share_below(lips_m, 1), share_below(bone_m, 1),
+                                  share_below(eyeball_m, 1)};
+    for (int step = 0; step < options.settle_steps; ++step) face.step(drive);
+    report.inverted_at_rest = face.inverted_tets();
+    report.left_at_rest_m = (face.skin_nodes() - rest).rowwise().norm().maxCoeff();
+    return report;
+}
+
+}  // namespace risorius::face

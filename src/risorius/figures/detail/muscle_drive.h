@@ -1,0 +1,37 @@
+// What a muscle is told to do over time: activation as it stands, or excitation that activation follows, and its length.
+//
+//   "drive": {"activation": [[0, 0], [0.001, 1]]}                      held from each time on
+//            {"excitation": [[0, 0], [0.01, 1]], "t_act_s": 0.010, "t_deact_s": 0.040}
+//            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     of excitation 1
+//   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), straight between times
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/muscle/musculotendon.h"
+
+namespace risorius::figures {
+
+struct Pulses {
+    double first_s = 0, rate_hz = 1, width_s = 0.005;
+    int count = 1;
+
+    double start_s(int pulse) const { return first_s + pulse / rate_hz; }
+};
+
+struct Drive {
+    muscle::ActivationAt activation;
+    std::optional<Pulses> pulses;
+};
+
+/// `until_s` is how far activation has to be known.
+Drive read_drive(const JsonCursor& json, double until_s);
+
+/// Straight between its times, held before and after.
+std::function<double(double t_s)> read_course(const JsonCursor& json, Range range);
+
+}  // namespace risorius::figures

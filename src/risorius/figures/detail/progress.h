@@ -1,0 +1,29 @@
+// Counts finished work of several threads and tells whoever watches, one call at a time.
+#pragma once
+
+#include <mutex>
+#include <string>
+
+#include "risorius/figures/detail/run_options.h"
+
+namespace risorius::figures {
+
+class Progress {
+  public:
+    Progress(const RunOptions& options, double whole) : options_(options), whole_(whole) {}
+
+    /// Adds to what is done. Throws Interrupted when asked to stop.
+    void done(double work, const std::string& what) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        done_ += work;
+        options_.tell(done_ / whole_, what);
+    }
+
+  private:
+    const RunOptions& options_;
+    const double whole_;
+    double done_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace risorius::figures

@@ -1,0 +1,68 @@
+// How a figure is run: threads, progress, the wish to stop, and runs that several figures share.
+#pragma once
+
+#include <any>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "risorius/core/parallel.h"
+#include "risorius/core/watch.h"
+
+namespace risorius::figures {
+
+/// Results of runs that more than one figure shows (9a and 9b), by what was run. Several threads may ask: the first runs,
+/// the others wait and lend their thread meanwhile.
+class SharedRuns {
+  public:
+    explicit SharedRuns(SpareThreads* spare = nullptr) : spare_(spare) {}
+
+    /// The result of an equal run before, or else of `run`.
+    template <typename Result>
+    std::shared_ptr<const Result> get(const std::string& key, const std::function<Result()>& run) {
+        Kept& kept = kept_as(key);
+        std::unique_lock<std::mutex> lock(kept.mutex, std::try_to_lock);
+        if (!lock) {
+            if (spare_) spare_->give();
+            lock.lock();
+            if (spare_) spare_->take_back();
+        }
+        if (!kept.result.has_value()) kept.result = std::make_shared<const Result>(run());
+        return std::any_cast<std::shared_ptr<const Result>>(kept.result);
+    }
+
+  private:
+    struct Kept {
+        std::mutex mutex;
+        std::any result;
+    };
+    Kept& kept_as(const std::string& key) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return runs_[key];
+    }
+
+    SpareThreads* spare_;
+    std::mutex mutex_;
+    std::map<std::string, Kept> runs_;
+};
+
+struct RunOptions {
+    ThreadLimit threads = 0;  ///< results do not depend on it
+    /// Share of the run done, 0..1, and what is being run; called from any thread, one at a time.
+    std::function<void(double share, const std::string& what)> progress = {};
+    std::function<bool()> stopped = {};  ///< asked often, from any thread
+    SharedRuns* shared = nullptr;
+
+    /// Throws Interrupted when asked to stop.
+    void stop_if_asked() const {
+        if (stopped && stopped()) throw Interrupted();
+    }
+    void tell(double share, const std::string& what) const {
+        stop_if_asked();
+        if (progress) progress(share, what);
+    }
+};
+
+}  // namespace risorius::figures

@@ -1,0 +1,356 @@
+#include "risorius/figures/figure_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "risorius/core/version.h"
+#include "risorius/report/html_writer.h"
+#include "risorius/report/markdown_html.h"
+
+namespace risorius::figures {
+namespace {
+
+using figures::Check;
+using figures::FigureResult;
+
+constexpr const char* kBeyondTitle = "Beyond the thesis";
+
+int passed(const FigureResult& figure) {
+    return static_cast<int>(std::count_if(figure.checks.begin(), figure.checks.end(),
+                                          [](const Check& check) { return check.passes(); }));
+}
+
+std::string anchor(const FigureResult& figure) { return "figure-" + figure.id; }
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+    return unit.empty() ? text : text + " " + unit;
+}
+
+/// Mark and word, so that it does not hang on the colour.
+void write_mark(report::HtmlWriter& html, const Check& check) {
+    html.element("span", check.passes() ? "✓ inside" : "✗ outside",
+                 {{"class", check.passes() ? "good" : "bad"}});
+    if (check.published.empty()) return;
+    html.single("br").element("span", check.differs ? "≠ differs" : "= agrees",
+                              {{"class", check.differs ? "bad" : "good"}});
+}
+
+/// Where a range comes from, in a table.
+std::string source_text(const Check& check) {
+    if (check.range_from == "published") return "what was published";
+    if (check.range_from == "law") return "a law";
+    if (check.range_from == "demand") return "a demand";
+    if (check.range_from == "own") return "our own value";
+    return "–";
+}
+
+/// Of the checks of all figures.
+struct Counts {
+    int all = 0, inside = 0, published = 0, differing = 0;
+    int from_publication = 0, from_law = 0, demanded = 0, own = 0;
+};
+
+void count(const FigureResult& figure, Counts& counts) {
+    for (const Check& check : figure.checks) {
+        ++counts.all;
+        counts.inside += check.passes();
+        counts.published += !check.published.empty();
+        counts.differing += check.differs;
+        counts.from_publication += check.range_from == "published";
+        counts.from_law += check.range_from == "law";
+        counts.demanded += check.range_from == "demand";
+        counts.own += check.range_from == "own";
+    }
+}
+
+/// So many that both ends of the range, and what is measured, keep what sets them apart.
+int digits_of(const Check& check) {
+    constexpr int kFewest = 4, kMost = 10;
+    constexpr double kRounding = 0.05;  ///< of the width
+    const double width = check.high - check.low;
+    if (!(width > 0) || std::isinf(width)) return kFewest;
+    for (int digits = kFewest; digits < kMost; ++digits) {
+        const auto moves = [&](double end) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%.*g", digits, end);
+            return std::abs(std::stod(text) - end) > kRounding * width;
+        };
+        if (!moves(check.low) && !moves(check.high)) return digits;
+    }
+    return kMost;
+}
+
+/// Numbered figures are called so, others go by their name.
+std::string heading(const FigureResult& figure) {
+    const bool numbered =
+        !figure.id.empty() && figure.id.front() >= '0' && figure.id.front() <= '9';
+    return (numbered ? "Figure " : "") + figure.id + ": " + figure.title;
+}
+
+std::string count_text(const FigureResult& figure) {
+    return std::to_string(passed(figure)) + " of " + std::to_string(figure.checks.size());
+}
+
+void write_summary(report::HtmlWriter& html, const std::vector<ShownFigure>& figures) {
+    html.open("section");
+    html.element("h2", "At a glance");
+    html.open("div", {{"class", "scroll"}}).open("table").open("tr");
+    for (const char* head : {"Figure", "What it shows", "Numbers inside their accepted range"})
+        html.element("th", head);
+    html.element("th", "Differ from what was published", {{"class", "number"}});
+    html.element("th", "Takes about", {{"class", "number"}});
+    html.close();
+    bool beyond = false;
+    for (const ShownFigure& figure : figures) {
+        if (figure.origin == figures::Origin::kBeyond && !beyond) {
+            html.open("tr").element("th", kBeyondTitle, {{"colspan", "5"}}).close();
+            beyond = true;
+        }
+        html.open("tr");
+        html.open("td")
+            .element("a", figure.result.id,
+                     {{"href", std::string("#").append(anchor(figure.result))}})
+            .close();
+        html.element("td", figure.result.title);
+        if (figure.result.checks.empty())
+            html.element("td", "none given", {{"class", "soft"}});
+        else
+            html.element("td", count_text(figure.result) + (figure.result.passes() ? " ✓" : " ✗"),
+                         {{"class", figure.result.passes() ? "good" : "bad"}});
+        Counts counts;
+        count(figure.result, counts);
+        html.element("td",
+                     counts.published == 0 ? "–"
+                                           : std::to_string(counts.differing) + " of " +
+                                                 std::to_string(counts.published),
+                     {{"class", "number"}});
+        html.element("td", figure.run_time_s > 0 ? short_number(figure.run_time_s) + " s" : "",
+                     {{"class", "number"}});
+        html.close();
+    }
+    html.close().close();
+    html.element("p", "Times are about those on two cores; figures that show one run share it.",
+                 {{"class", "soft"}});
+    html.close();
+}
+
+void write_checks(report::HtmlWriter& html, const FigureResult& figure) {
+    if (figure.checks.empty()) return;
+    const bool noted = std::any_of(figure.checks.begin(), figure.checks.end(),
+                                   [](const Check& check) { return !check.note.empty(); });
+    html.element("h3", "Published and measured");
+    html.open("div", {{"class", "scroll"}}).open("table").open("tr");
+    html.element("th", "Number").element("th", "Published");
+    html.element("th", "Measured", {{"class", "number"}})
+        .element("th", "Accepted")
+        .element("th", "Range is from")
+        .element("th", "");
+    if (noted) html.element("th", "Note");
+    html.close();
+    for (const Check& check : figure.checks) {
+        html.open("tr");
+        html.element("td", check.name);
+        html.element("td", check.published.empty() ? "–" : check.published);
+        html.element("td", with_unit(short_number(check.measured, digits_of(check)), check.unit),
+                     {{"class", "number"}});
+        html.element("td", range_text(check));
+        html.element("td", source_text(check));
+        html.open("td", {{"class", "mark"}});
+        write_mark(html, check);
+        html.close();
+        if (noted) html.element("td", check.note);
+        html.close();
+    }
+    html.close().close();
+}
+
+void write_image(report::HtmlWriter& html, const std::string& file,
+                 const std::string& description) {
+    html.open("a", {{"href", file}})
+        .single("img", {{"src", file}, {"alt", description}, {"loading", "lazy"}})
+        .close();
+}
+
+void write_legend(report::HtmlWriter& html, const FigurePicture& picture) {
+    const bool shaded = !picture.shade_ends[0].empty();
+    if (!picture.held && picture.outline_name.empty() && !shaded) return;
+    html.open("span", {{"class", "legend"}});
+    if (picture.held)
+        html.open("span").element("i", "", {{"class", "held"}}).text("held nodes").close();
+    if (!picture.outline_name.empty())
+        html.open("span")
+            .element("i", "", {{"class", "outline"}})
+            .text(picture.outline_name)
+            .close();
+    if (shaded)
+        html.open("span")
+            .text(picture.shade_ends[0])
+            .element("i", "", {{"class", "shade"}})
+            .text(picture.shade_ends[1])
+            .close();
+    html.close();
+}
+
+void write_pictures(report::HtmlWriter& html, const ShownFigure& figure) {
+    if (figure.published.empty() && figure.files.charts.empty() && figure.files.pictures.empty())
+        return;
+    html.open("div", {{"class", "pictures"}});
+    if (!figure.published.empty()) {
+        html.open("figure");
+        write_image(html, figure.folder + figure.published, "the figure as published");
+        html.element("figcaption", "As published").close();
+    }
+    for (const FigurePicture& picture : figure.files.pictures) {
+        std::string caption;
+        for (const std::string& text : picture.captions)
+            caption += (caption.empty() || text.empty() ? "" : " | ") + text;
+        html.open("figure", picture.captions.size() > 2
+                                ? report::HtmlWriter::Attributes{{"class", "wide"}}
+                                : report::HtmlWriter::Attributes{});
+        write_image(html, figure.folder + picture.file,
+                    caption.empty() ? figure.result.title : caption);
+        html.open("figcaption").text(caption);
+        write_legend(html, picture);
+        html.close().close();
+    }
+    for (std::size_t i = 0; i < figure.files.charts.size(); ++i) {
+        const std::string file = figure.folder + figure.files.charts[i];
+        html.open("figure");
+        write_image(html, file + ".svg", figure.result.charts[i].title);
+        html.open("figcaption");
+        html.text("Draw it again: ");
+        for (const char* ending : {".svg", ".png", ".gp", ".data.csv"})
+            html.element("a", ending + 1, {{"href", file + ending}}).text(" ");
+        html.close().close();
+    }
+    html.close();
+}
+
+void write_tables(report::HtmlWriter& html, const ShownFigure& figure) {
+    html.open("p", {{"class", "soft"}});
+    html.text("All numbers: ");
+    for (const std::string& table : figure.files.tables)
+        html.element("a", table, {{"href", figure.folder + table}}).text(" ");
+    html.element("a", "results.json", {{"href", figure.folder + "results.json"}});
+    html.text(" Run from: ");
+    html.element("a", "experiment.json", {{"href", figure.folder + "experiment.json"}}).close();
+}
+
+/// Numbers and words of the record in lines; what is deeper is folded away.
+void write_record(report::HtmlWriter& html, const FigureResult& figure) {
+    if (figure.record.empty()) return;
+    html.open("details");
+    html.element("summary", "What was run: parameters, steps, costs");
+    html.open("pre").element("code", figure.record.dump(2)).close();
+    html.close();
+}
+
+/// The section has its own.
+std::string without_title(const std::string& markdown) {
+    if (!markdown.starts_with("# ")) return markdown;
+    const std::size_t end = markdown.find('\n');
+    return end == std::string::npos ? "" : markdown.substr(end + 1);
+}
+
+void write_introduction(report::HtmlWriter& html, const std::vector<ShownFigure>& figures) {
+    Counts n;
+    for (const ShownFigure& figure : figures) count(figure.result, n);
+    const auto text = [](int number) { return std::to_string(number); };
+    const bool of_program = std::any_of(figures.begin(), figures.end(), [](const auto& figure) {
+        return figure.origin != figures::Origin::kOwn;
+    });
+    if (of_program)
+        html.element(
+            "p",
+            "\"The thesis\" is M. Dobsik, Computer Animation of Soft Tissues, summary of a "
+            "Ph.D. thesis, Brno University of Technology, 2005. Its figures 10 and 11, the "
+            "muscle, its tension over length and its quick release, are not here yet. A is "
+            "the thesis' finite differences, B are trilinear cells.");
+    html.element(
+        "p", text(n.inside) + " of " + text(n.all) +
+                 " numbers lie inside their accepted range, which is not to say that as many "
+                 "agree with what was published: the range comes from what was published for " +
+                 text(n.from_publication) + ", from a law or closed form for " + text(n.from_law) +
+                 ", is a demand on the computation for " + text(n.demanded) +
+                 " and lies around our own value, so that a change is "
+                 "noticed, for " +
+                 text(n.own) + ".");
+    if (n.published > 0)
+        html.element("p", "Something was published about " + text(n.published) +
+                              " of them: " + text(n.published - n.differing) +
+                              " agree with it, mostly as words, and " + text(n.differing) +
+                              " differ, inside their range or not.");
+    html.element(
+        "p",
+        "Every chart comes with its data and the script that draws it, every figure with the "
+        "experiment file it was run from.");
+}
+
+void write_figure_section(report::HtmlWriter& html, const ShownFigure& figure) {
+    const FigureResult& result = figure.result;
+    html.open("section", {{"id", anchor(result)}});
+    html.element("h2", heading(result));
+    write_pictures(html, figure);
+    write_checks(html, result);
+    report::write_markdown(html, without_title(figure.readme), 3);
+    write_tables(html, figure);
+    write_record(html, result);
+    html.close();
+}
+
+}  // namespace
+
+std::string short_number(double value, int digits) {
+    if (std::isnan(value)) return "not a number";
+    if (std::isinf(value)) return value > 0 ? "∞" : "-∞";
+    char text[32];
+    const double size = std::abs(value);
+    // Whole numbers stay whole up to a million
+    if (size < 1e6 && value == std::round(value))
+        std::snprintf(text, sizeof text, "%.0f", value);
+    else
+        std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+std::string range_text(const Check& check) {
+    if (std::isinf(check.low) && std::isinf(check.high)) return "any";
+    const int digits = digits_of(check);
+    const std::string low = short_number(check.low, digits),
+                      high = short_number(check.high, digits);
+    if (std::isinf(check.low)) return with_unit("at most " + high, check.unit);
+    if (std::isinf(check.high)) return with_unit("at least " + low, check.unit);
+    if (check.low == check.high) return with_unit("exactly " + low, check.unit);
+    return with_unit(low + " to " + high, check.unit);
+}
+
+std::string figure_page(const std::vector<ShownFigure>& figures) {
+    const bool single = figures.size() == 1;
+    const std::string title =
+        single ? "Figure " + figures.front().result.id + ", published and measured"
+               : "The figures, published and measured";
+    report::HtmlWriter html;
+    html.element("h1", title);
+    write_introduction(html, figures);
+    if (!single) write_summary(html, figures);
+    bool beyond = single;
+    for (const ShownFigure& figure : figures) {
+        if (figure.origin == figures::Origin::kBeyond && !beyond) {
+            html.element("h1", kBeyondTitle);
+            beyond = true;
+        }
+        write_figure_section(html, figure);
+    }
+    html.open("p", {{"class", "soft"}});
+    if (!single) {
+        html.text("All checks as one file: ");
+        html.element("a", "results.json", {{"href", "results.json"}}).text(". ");
+    }
+    html.text("Made by Risorius " + std::string(kVersion) +
+              ". The same experiment file and build give the same bytes; how long it took is in ");
+    html.element("a", "timing.json", {{"href", "timing.json"}}).text(".").close();
+    return report::html_page(title, html);
+}
+
+}  // namespace risorius::figures

@@ -1,0 +1,317 @@
+#include "risorius/figures/run_figure.h"
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "risorius/core/data_folder.h"
+#include "risorius/core/error.h"
+#include "risorius/core/version.h"
+#include "risorius/figures/detail/experiment_kind.h"
+#include "risorius/figures/detail/figure_files.h"
+#include "risorius/figures/figure_page.h"
+#include "risorius/figures/registry.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/report/stopwatch.h"
+
+namespace risorius::figures {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kExperimentFile = "experiment.json";
+constexpr double kUnknownTime_s =
+    20;  ///< what a figure counts in the progress when nothing is known
+
+fs::path folder_of_figures(const fs::path& from) {
+    return from.empty() ? data_folder() / "samples" / "figures" : from;
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// An experiment to be run, and where its files go.
+struct Job {
+    fs::path file;
+    std::string folder;  ///< below the results, "" or "9b/"
+    double run_time_s = 0;
+};
+
+/// Whether each figure has a folder of its own, and there is a page of all.
+bool is_several(const FigureOptions& options) {
+    return options.figure == "all" ||
+           (!options.figure.ends_with(".json") && options.figure.find(',') != std::string::npos);
+}
+
+[[noreturn]] void fail_unknown(const std::string& id, const std::vector<FigureEntry>& entries) {
+    std::string expected = "all, a file that ends in .json, or one of";
+    std::vector<std::string_view> known{"all"};
+    for (const FigureEntry& entry : entries) {
+        expected += " " + entry.id;
+        known.push_back(entry.id);
+    }
+    const std::string near = nearest_name(id, known);
+    if (!near.empty()) expected += " (did you mean \"" + near + "\"?)";
+    throw Error("figure", expected, "\"" + id + "\"");
+}
+
+std::vector<Job> jobs_of(const FigureOptions& options) {
+    const fs::path from = folder_of_figures(options.from);
+    // A path is told from an id by its ending, so that a mistyped id is not taken for a missing file.
+    if (options.figure.ends_with(".json"))
+        return {{.file = options.figure, .folder = "", .run_time_s = 0}};
+    const std::vector<FigureEntry> entries = list_figures(options.from);
+    const bool together = is_several(options);
+    std::vector<Job> jobs;
+    const auto add = [&](const FigureEntry& entry) {
+        jobs.push_back({.file = from / entry.id / kExperimentFile,
+                        .folder = together ? entry.id + "/" : "",
+                        .run_time_s = entry.run_time_s});
+    };
+    if (options.figure == "all") {
+        for (const FigureEntry& entry : entries) add(entry);
+        return jobs;
+    }
+    std::set<std::string> seen;
+    std::istringstream ids(options.figure);
+    for (std::string id; std::getline(ids, id, ',');) {
+        if (!seen.insert(id).second) throw Error("figure", "each id once", "\"" + id + "\" again");
+        const auto entry = std::find_if(entries.begin(), entries.end(),
+                                        [&](const FigureEntry& one) { return one.id == id; });
+        if (entry == entries.end()) fail_unknown(id, entries);
+        add(*entry);
+    }
+    return jobs;
+}
+
+/// A picture of the figure as published, which a reader may have put beside the experiment.
+std::string published_picture(const fs::path& folder) {
+    for (const char* name : {"published.png", "published.jpg", "published.svg"})
+        if (fs::exists(folder / name)) return name;
+    return "";
+}
+
+void write_json(const fs::path& file, const Json& json) {
+    report::write_text(file, json.dump(2) + "\n");
+}
+
+/// Writes everything of one figure but the page and the times.
+ShownFigure write_results(const Job& job, figures::FigureResult result, const fs::path& top,
+                          const plot::ChartWriter& charts) {
+    const fs::path folder = job.folder.empty() ? top : top / job.folder;
+    fs::create_directories(folder);
+    ShownFigure shown;
+    shown.folder = job.folder;
+    shown.run_time_s = job.run_time_s;
+    shown.files = write_figure(result, folder, charts);
+    shown.readme = text_of(job.file.parent_path() / "README.md");
+    shown.published = published_picture(job.file.parent_path());
+    report::write_text(folder / kExperimentFile, text_of(job.file));
+    if (!shown.published.empty())
+        fs::copy_file(job.file.parent_path() / shown.published, folder / shown.published);
+    shown.origin = figures::origin_of(result.id);
+    shown.result = std::move(result);
+    return shown;
+}
+
+/// Every file of a folder as results.json lists them, those still to be written included.
+Json listing(const fs::path& folder, const std::set<std::string>& to_come) {
+    std::set<std::string> files = to_come;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (!entry.is_directory())
+            files.insert(entry.path().lexically_relative(folder).generic_string());
+    return Json(std::vector<std::string>(files.begin(), files.end()));
+}
+
+Json results_of_all(const std::vector<ShownFigure>& figures) {
+    Json json = Json::object();
+    json["format"] = "risorius-figures";
+    json["version"] = 1;
+    json["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    json["passes"] = std::all_of(figures.begin(), figures.end(),
+                                 [](const ShownFigure& figure) { return figure.result.passes(); });
+    json["figures"] = Json::array();
+    for (const ShownFigure& figure : figures) {
+        Json entry = figure_json(figure.result);
+        for (const char* key : {"format", "version", "toolkit", "tables", "record"})
+            entry.erase(key);
+        entry["results"] = figure.folder + "results.json";
+        json["figures"].push_back(entry);
+    }
+    return json;
+}
+
+/// Several at a time, the longest first; when there are fewer left than threads, those go to the work within them.
+class Run {
+  public:
+    Run(const FigureOptions& options, const Watch& watch, const std::vector<Job>& jobs)
+        : options_(options),
+          watch_(watch),
+          jobs_(jobs),
+          shares_(jobs.size(), 0),
+          spare_(ThreadLimit(options.threads).count() - 1),
+          shared_(&spare_) {}
+
+    struct Done {
+        ShownFigure shown;
+        double run_s = 0, write_s = 0;
+    };
+
+    /// In the order of the jobs, written below `top`.
+    std::vector<Done> all(const fs::path& top) {
+        std::vector<std::size_t> order(jobs_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return expected_s(jobs_[a]) > expected_s(jobs_[b]);
+        });
+        std::vector<Done> done(jobs_.size());
+        parallel_for(static_cast<int>(jobs_.size()), {options_.threads, &spare_}, [&](int i) {
+            const std::size_t job = order[static_cast<std::size_t>(i)];
+            try {
+                done[job] = one(job, top);
+            } catch (const Interrupted&) {
+                // Either by who watches, or because another has failed, whose error is the one to tell.
+                if (!failed_) throw Interrupted();
+            } catch (...) {
+                failed_ = true;
+                throw;
+            }
+        });
+        return done;
+    }
+
+  private:
+    static double expected_s(const Job& job) {
+        return job.run_time_s > 0 ? job.run_time_s : kUnknownTime_s;
+    }
+
+    Done one(std::size_t job, const fs::path& top) {
+        const JsonCursor file = JsonCursor::read_file(jobs_[job].file);
+        const std::string name = jobs_[job].folder.substr(0, jobs_[job].folder.find('/'));
+        figures::RunOptions run_options{.threads = {options_.threads, &spare_}};
+        run_options.shared = &shared_;
+        run_options.stopped = [this] { return failed_ || (watch_.stopped && watch_.stopped()); };
+        run_options.progress = [&](double share, const std::string& what) {
+            tell(job, share, name.empty() ? what : name + ": " + what);
+        };
+        run_options.tell(0, name);
+        const report::Stopwatch running;
+        Done done;
+        figures::FigureResult result =
+            options_.run ? options_.run(file, run_options) : figures::run_figure(file, run_options);
+        done.run_s = running.seconds();
+        // Pictures and charts one figure at a time: the renderer uses all threads by itself.
+        const std::lock_guard<std::mutex> lock(writing_);
+        const report::Stopwatch writing;
+        done.shown = write_results(jobs_[job], std::move(result), top, options_.charts);
+        done.write_s = writing.seconds();
+        tell(job, 1, name);
+        return done;
+    }
+
+    void tell(std::size_t job, double share, const std::string& what) {
+        const std::lock_guard<std::mutex> lock(telling_);
+        shares_[job] = std::max(shares_[job], share);
+        double done_s = 0, total_s = 0;
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            done_s += shares_[i] * expected_s(jobs_[i]);
+            total_s += expected_s(jobs_[i]);
+        }
+        if (watch_.progress) watch_.progress(done_s / total_s, what);
+    }
+
+    const FigureOptions& options_;
+    const Watch& watch_;
+    const std::vector<Job>& jobs_;
+    std::vector<double> shares_;  ///< of each job, done
+    SpareThreads spare_;
+    figures::SharedRuns shared_;
+    std::atomic<bool> failed_{false};
+    std::mutex telling_, writing_;
+};
+
+}  // namespace
+
+std::vector<FigureEntry> list_figures(const fs::path& from) {
+    const fs::path folder = folder_of_figures(from);
+    const auto present = [&](const std::string& id) {
+        return fs::exists(folder / id / kExperimentFile);
+    };
+    std::vector<FigureEntry> list;
+    std::set<std::string> others;
+    if (fs::is_directory(folder))
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (const std::string id = entry.path().filename().string(); present(id))
+                others.insert(id);
+    for (const figures::Figure& figure : figures::figures())
+        if (others.erase(std::string(figure.id)) > 0)
+            list.push_back({.id = std::string(figure.id),
+                            .title = std::string(figure.title),
+                            .run_time_s = figure.run_time_s});
+    for (const std::string& id : others) {
+        const JsonCursor file = JsonCursor::read_file(folder / id / kExperimentFile);
+        const auto title = file.find("title");
+        list.push_back({.id = id, .title = title ? title->string() : id, .run_time_s = 0});
+    }
+    if (list.empty()) throw Error(folder.string(), "folders with an experiment.json", "none");
+    return list;
+}
+
+FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
+    // What is asked for, refused before anything is run
+    const std::vector<Job> jobs = jobs_of(options);
+    for (const Job& job : jobs) {
+        const JsonCursor file = JsonCursor::read_file(job.file);
+        if (!options.run) figures::check_experiment(file);
+    }
+    report::StagedFolder staged(options.out);
+
+    // Each figure
+    const report::Stopwatch total;
+    Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
+    std::vector<ShownFigure> figures;
+    for (Run::Done& done : Run(options, watch, jobs).all(staged.partial())) {
+        timing["figures"].push_back(
+            {{"id", done.shown.result.id}, {"run_s", done.run_s}, {"write_s", done.write_s}});
+        figures.push_back(std::move(done.shown));
+    }
+
+    // What holds them together
+    FigureReport report;
+    const bool together = is_several(options);
+    for (const ShownFigure& figure : figures) {
+        for (const figures::Check& check : figure.result.checks)
+            if (!check.passes()) report.failed.push_back({figure.result.id, check});
+        const fs::path folder = staged.partial() / figure.folder;
+        Json json = figure_json(figure.result);
+        std::set<std::string> to_come{"results.json"};
+        if (!together) to_come.insert({"index.html", "timing.json"});
+        json[report::kFilesKey] = listing(folder, to_come);
+        write_json(folder / "results.json", json);
+        report.results = json;
+    }
+    report::write_text(staged.partial() / "index.html", figure_page(figures));
+    if (together) {
+        report.results = results_of_all(figures);
+        report.results[report::kFilesKey] =
+            listing(staged.partial(), {"results.json", "timing.json"});
+        write_json(staged.partial() / "results.json", report.results);
+    }
+    timing["total_s"] = total.seconds();
+    write_json(staged.partial() / "timing.json", timing);
+    watch.tell(1, "written");
+    staged.commit();
+    return report;
+}
+
+}  // namespace risorius::figures

@@ -1,0 +1,71 @@
+#include "risorius/fitting/detail/calibrate_strength.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace risorius::fitting {
+
+namespace {
+
+constexpr double kWeakest = 0.1, kStrongest = 6.0;
+constexpr double kTolerance = 0.01;  // of the stretch; a fibre's own scatter is larger
+constexpr int kTrials = 6;
+constexpr int kTrialIterations = 200;  // of the solver, per trial
+
+}  // namespace
+
+std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
+                                               const Watch& watch) {
+    std::vector<MuscleStrength> out;
+    for (const rig::MuscleBand& band : rig.atlas.bands)
+        if (out.empty() || out.back().muscle != band.muscle)
+            out.push_back({.muscle = band.muscle,
+                           .strength = rig.solid(band.muscle) != nullptr
+                                           ? rig.solid(band.muscle)->strength
+                                           : band.strength,
+                           .target_stretch = band.shortens_to});
+
+    const track::ChannelTable channels = rig.channels();
+    track::Drive rest;
+    rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    for (std::size_t m = 0; m < out.size(); ++m) {
+        MuscleStrength& muscle = out[m];
+        Eigen::VectorXd activation = rest.excitation;
+        for (Side side : {Side::kLeft, Side::kRight})
+            activation[channels.column(muscle.muscle, side)] = 1.0;
+        face.start([&](double) { return rest; });
+
+        // Secant in the logarithm of the strength, in which the stretch is nearly straight
+        double before_log = 0, before_miss = 0;
+        double log_strength = std::log(muscle.strength);
+        for (int trial = 0; trial < kTrials; ++trial) {
+            watch.tell((static_cast<double>(m) + static_cast<double>(trial) / kTrials) /
+                           static_cast<double>(out.size()),
+                       muscle.muscle);
+            const double strength = std::exp(log_strength);
+            face.scale_muscle(muscle.muscle, strength / muscle.strength);
+            muscle.strength = strength;
+            muscle.converged =
+                face.settle(activation, rest, {.iterations = kTrialIterations}).converged;
+            muscle.stretch = face.mean_stretch(muscle.muscle);
+            const double miss = muscle.stretch - muscle.target_stretch;
+            if (std::abs(miss) < kTolerance) break;
+            double step = miss > 0 ? 0.4 : -0.4;
+            if (trial > 0 && std::abs(miss - before_miss) > 1e-6)
+                step = -miss * (log_strength - before_log) / (miss - before_miss);
+            before_log = log_strength;
+            before_miss = miss;
+            // A stronger muscle shortens more, whatever the last two trials make it look like.
+            step = std::clamp(miss > 0 ? std::abs(step) : -std::abs(step), -1.0, 1.0);
+            const double next =
+                std::clamp(log_strength + step, std::log(kWeakest), std::log(kStrongest));
+            muscle.at_limit = next == log_strength;
+            if (muscle.at_limit) break;
+            log_strength = next;
+        }
+    }
+    face.start([&](double) { return rest; });
+    return out;
+}
+
+}  // namespace risorius::fitting

@@ -1,0 +1,32 @@
+// Finds for one head how strong every muscle has to be for activation 1 to shorten it as published.
+//
+//   s   strength: force / force from the cross-section, ratio, [0.1, 6]
+//   l   mean fibre length / rest length at activation 1
+//
+// Targets for l are those of the muscle bands, "shortens_to".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "risorius/core/watch.h"
+#include "risorius/face/face.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::fitting {
+
+struct MuscleStrength {
+    std::string muscle;
+    double strength = 1;
+    double stretch = 1;  ///< l reached
+    double target_stretch = 1;
+    bool at_limit = false;  ///< the target wants more or less than the limits allow
+    bool converged = true;  ///< the face came to rest in the last trial
+};
+
+/// Each muscle of the rig's bands alone, be it a bundle or a solid, one after the other, by the secant method; `face` is left with the strengths
+/// found. Throws Interrupted.
+std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
+                                               const Watch& watch);
+
+}  // namespace risorius::fitting

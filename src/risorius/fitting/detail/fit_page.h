@@ -1,0 +1,16 @@
+// The report of a fit as a folder: a page with pictures to look at and results.json for programs.
+#pragma once
+
+#include <filesystem>
+
+#include "risorius/fitting/fit_rig.h"
+
+namespace risorius::fitting {
+
+inline constexpr const char* kFitPicture = "fit.png";
+
+/// Beside the picture, which is there already. Throws RunError when it cannot be written.
+void write_fit_report(const FitReport& report, const rig::RigDescription& rig,
+                      const std::filesystem::path& folder);
+
+}  // namespace risorius::fitting

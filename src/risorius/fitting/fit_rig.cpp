@@ -1,0 +1,313 @@
+#include "risorius/fitting/fit_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/data_folder.h"
+#include "risorius/fitting/detail/fit_landmarks.h"
+#include "risorius/fitting/detail/fit_page.h"
+#include "risorius/fitting/detail/fit_strengths.h"
+#include "risorius/fitting/detail/piece_guess.h"
+#include "risorius/fitting/landmark_file.h"
+#include "risorius/fitting/part_guess.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/media/image_file.h"
+#include "risorius/report/beside.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/rig/cut_lips.h"
+#include "risorius/rig/head.h"
+#include "risorius/scene/rig_files.h"
+
+namespace risorius::fitting {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSmallestHead = 0.6, kLargestHead = 1.6;  // of an average adult
+constexpr double kLargestResidual_mm = 25;                 // people differ from the atlas by 4 to 8
+
+rig::RigDescription standard_rig(const fs::path& folder) {
+    const auto table = [&](const char* name) { return JsonCursor::read_file(folder / name); };
+    rig::RigDescription rig;
+    rig.atlas.landmarks = rig::read_atlas_landmarks(table("landmarks.json"));
+    rig.atlas.thickness = rig::read_thickness(table("tissue_thickness.json"));
+    rig.atlas.attachments = rig::read_attachments(table("attachments.json"));
+    rig.atlas.bands = rig::read_muscle_bands(table("muscle_bands.json"));
+    rig.muscles = rig::read_muscle_table(table("muscles.json"));
+    rig.facs = track::read_facs(table("facs.json"), rig.channels());
+    rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
+    return rig;
+}
+
+void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
+    char size[32];
+    std::snprintf(size, sizeof size, "%.2g", frame.size);
+    const std::string found = format_number(std::stod(size)) + " times the average adult";
+    if (!(frame.size > kSmallestHead && frame.size < kLargestHead)) {
+        if (options.metres_per_unit)
+            throw Error("--metres-per-unit", "a unit that makes a head of this mesh",
+                        format_number(*options.metres_per_unit) + ", which makes one " + found);
+        throw Error(
+            options.landmarks.string() + ":/landmarks",
+            "a head in m, dm, cm, mm, inches or feet (--metres-per-unit names another unit)",
+            "one " + found);
+    }
+    const double residual_mm = 1e3 * frame.residual_m / frame.size;
+    if (residual_mm > kLargestResidual_mm)
+        throw Error(options.landmarks.string() + ":/landmarks",
+                    "landmarks that lie as on a head, within " +
+                        format_number(kLargestResidual_mm) + " mm of the atlas (RMS)",
+                    format_number(std::round(residual_mm)) + " mm (are they those of this mesh?)");
+}
+
+// Pieces of a mesh without groups become groups, unless the user names parts himself; what they were taken for.
+std::vector<std::string> group_pieces_of(geom::PolygonMesh& mesh, const rig::HeadFrame& frame,
+                                         const LandmarkPositions& landmarks,
+                                         const FitOptions& options) {
+    if (!options.parts.empty()) return {};
+    LandmarkPositions in_head;
+    for (const auto& [id, p] : landmarks) in_head[id] = frame.to_head(p);
+    return group_pieces(
+        mesh, [&](const Vec3& p) { return frame.to_head(p); }, in_head, frame.size);
+}
+
+// Lips that are grown together are refused, or cut when that was asked for; then `mesh` and `rig` are of the cut head.
+bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescription& rig,
+               geom::PolygonMesh& mesh, std::vector<std::string>& notes) {
+    const bool closed = rig::lips_are_closed(head);
+    if (!closed) {
+        if (options.cut_lips) notes.push_back("the lips are apart already: nothing was cut");
+        return false;
+    }
+    if (!options.cut_lips)
+        throw Error(options.mesh.string(), "lips that can part (--cut-lips cuts them)",
+                    "skin that runs on from the upper lip to the lower");
+    std::vector<int> skin;
+    for (const std::string& group : rig.parts.at("skin")) skin.push_back(mesh.group_index(group));
+    rig::CutLips cut = rig::cut_lips(mesh, head, skin, options.mesh.string());
+
+    // Landmarks go with their own lip
+    for (auto& [id, landmark] : rig.landmarks)
+        if (landmark.vertex >= 0)
+            landmark.vertex = head.welded[static_cast<std::size_t>(landmark.vertex)];
+    const std::size_t middle = static_cast<std::size_t>(cut.middle);
+    rig.landmarks["stos"] = {.vertex = cut.upper[middle]};
+    rig.landmarks["stoi"] = {.vertex = cut.lower[middle]};
+    for (const char* id : {"lli_l", "lli_r"}) {
+        const auto given = rig.landmarks.find(id);
+        if (given == rig.landmarks.end()) continue;
+        const auto above = std::find(cut.upper.begin(), cut.upper.end(), given->second.vertex);
+        if (above != cut.upper.end())
+            given->second.vertex = cut.lower[static_cast<std::size_t>(above - cut.upper.begin())];
+    }
+    rig.parts["mouth"].push_back(rig::kLiningGroup);
+    mesh = std::move(cut.mesh);
+    notes.push_back("the lips are cut apart over " + std::to_string(cut.upper.size()) +
+                    " points, with a lining behind" +
+                    (cut.laid_back == 0 ? ""
+                                        : "; " + std::to_string(cut.laid_back) +
+                                              " points seen deep between them are laid back"));
+    return true;
+}
+
+// Where the mesh goes that was cut, or whose pieces were named.
+fs::path changed_mesh_file(const fs::path& rig) {
+    fs::path file = rig;
+    return file.replace_filename(rig.stem().string() + "_head.obj");
+}
+
+// Each muscle by itself, then all together.
+void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& standard,
+                   const Watch& watch, rig::RigDescription& rig, FitReport& report) {
+    const auto part_of = [&](double begin, double end) {
+        Watch part = watch;
+        part.progress = [&watch, begin, end](double done, const std::string& what) {
+            watch.tell(begin + (end - begin) * done, what);
+        };
+        return part;
+    };
+    const Watch alone = part_of(0, options.together ? 0.4 : 1.0), together = part_of(0.4, 1.0);
+    report.strengths = calibrate_strength(face, rig, alone);
+    if (options.together) {
+        const StrengthFit fit =
+            fit_strengths(face, rig, scene::read_landmark_ways(standard / "landmark_ways.json"), {},
+                          options.out.string(), together);
+        report.difference_before = fit.difference_before;
+        report.difference = fit.difference;
+        rig.lips = fit.lips;
+        for (MuscleStrength& found : report.strengths)
+            found.strength *= fit.factor.at(found.muscle);
+    }
+    for (const MuscleStrength& found : report.strengths) {
+        const double strength = std::round(1e4 * found.strength) / 1e4;
+        for (rig::SolidMuscle& solid : rig.solids)
+            if (solid.muscle == found.muscle) solid.strength = strength;
+        if (rig.solid(found.muscle) != nullptr) continue;
+        for (rig::MuscleBand& band : rig.atlas.bands)
+            if (band.muscle == found.muscle) band.strength = strength;
+    }
+}
+
+}  // namespace
+
+FitReport fit_rig(const FitOptions& options, const Watch& watch) {
+    report::check_overwritten(options.out, {"risorius-rig"}, "no file, or an earlier rig");
+    if (options.metres_per_unit &&
+        !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit)))
+        throw Error("--metres-per-unit", "a number in (0, inf)",
+                    format_number(*options.metres_per_unit));
+
+    // Read the mesh, the landmarks and the standard anatomy
+    const fs::path standard =
+        options.standard.empty() ? data_folder() / "rigs" / "standard" : options.standard;
+    rig::RigDescription rig = standard_rig(standard);
+    if (options.solids)
+        rig.solids = rig::read_solid_muscles(JsonCursor::read_file(standard / "muscle_solids.json"),
+                                             rig.muscles);
+    rig.name = options.name.empty() ? options.mesh.stem().string() : options.name;
+    rig.mesh_file = options.mesh;
+    geom::PolygonMesh mesh = io::read_mesh(options.mesh);
+    rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
+    const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
+    check_sides(landmarks, rig.atlas, options.landmarks);
+
+    // How large it is, and what its groups are
+    FitReport report;
+    report.out = options.out;
+    report.guessed_unit = !options.metres_per_unit;
+    rig.metres_per_unit =
+        options.metres_per_unit.value_or(unit_from_landmarks(landmarks, rig.atlas));
+    const rig::HeadFrame frame = rig::find_head_frame(landmarks, rig.atlas, rig.metres_per_unit);
+    check_frame(frame, options);
+    report.notes = group_pieces_of(mesh, frame, landmarks, options);
+    const bool regrouped = !report.notes.empty();
+    for (const auto& [role, groups] : options.parts) {
+        const auto& roles = rig::part_roles();
+        if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
+            std::string names;
+            for (std::string_view known : roles) names += " " + std::string(known);
+            throw Error("--part", "one of the roles" + names, "\"" + role + "\"");
+        }
+        for (const std::string& group : groups)
+            if (mesh.group_index(group) < 0)
+                throw Error("--part", "a group of the mesh: " + quoted_list(mesh.group_names),
+                            "\"" + group + "\"");
+    }
+    PartGuess guess =
+        guess_parts(mesh, options.parts, [&](const Vec3& p) { return frame.to_head(p).x(); });
+    rig.parts = guess.parts;
+    report.notes.insert(report.notes.end(), guess.notes.begin(), guess.notes.end());
+    if (!rig.parts.count("skin"))
+        throw Error(options.mesh.string(),
+                    "a group whose name says that it is skin (--part skin=GROUP names one)",
+                    quoted_list(mesh.group_names));
+    for (const geom::MeshFinding& finding : scene::check_skin(rig, mesh).findings)
+        if (finding.severity == geom::Severity::kWarning) report.notes.push_back(finding.message());
+
+    // Prove that a face can be built of it
+    watch.tell(0, "building the face");
+    {
+        const rig::Head placed = rig::place_head(rig, mesh, options.out.string());
+        for (std::string& note : check_places(placed, landmarks, rig.atlas, options.landmarks))
+            report.notes.push_back(std::move(note));
+        report.lips_cut = open_lips(options, placed, rig, mesh, report.notes);
+    }
+    if (std::error_code unknown;
+        (report.lips_cut || regrouped) &&
+        fs::equivalent(options.mesh, changed_mesh_file(options.out), unknown))
+        throw Error(
+            options.out.string(),
+            "a name for the rig under which the changed mesh does not take the place of yours",
+            changed_mesh_file(options.out).string());
+    std::optional<report::StagedFolder> folder;
+    if (!options.report.empty()) folder.emplace(options.report);
+    face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
+    const rig::Head& head = face.head();
+
+    // Make every muscle as strong as it has to be on this head
+    if (options.calibrate) scale_muscles(face, options, standard, watch, rig, report);
+
+    // Write it and say what came out
+    if (options.out.has_parent_path()) {
+        std::error_code failure;
+        fs::create_directories(options.out.parent_path(), failure);
+        if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
+    }
+    if (report.lips_cut || regrouped) {
+        rig.mesh_file = changed_mesh_file(options.out);
+        io::write_obj(mesh, rig.mesh_file);
+    }
+    rig::write_rig(rig, options.out,
+                   {.standard_folder = standard, .inline_tables = options.inline_tables});
+    report.metres_per_unit = rig.metres_per_unit;
+    report.size = head.size;
+    report.residual_mm = 1e3 * head.frame.residual_m;
+    report.parts = rig.parts;
+    report.given_landmarks = static_cast<int>(landmarks.size());
+    report.warped_landmarks = head.warped_landmarks;
+    report.worth_giving = worth_giving(head, rig.atlas);
+    report.nodes = face.node_count();
+    report.tets = face.tet_count();
+    report.dropped_tets = face.dropped_tets();
+    report.inverted_tets = face.inverted_tets();
+    report.fibres = face.fibre_count();
+    report.eyes = head.eyes[0].present && head.eyes[1].present;
+    report.teeth = head.has_teeth;
+    if (!report.eyes)
+        report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
+    if (!report.teeth)
+        report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
+    const BoneEstimate bone = bone_estimate(head, rig, face.shell());
+    report.bone = bone_figures(bone);
+    if (report.bone.through_skin > 0)
+        report.notes.push_back(std::to_string(report.bone.through_skin) +
+                               " points of bone lie outside of the skin: look at the report");
+    if (folder) {
+        media::write_png(fit_picture(head, bone, rig, mesh), folder->partial() / kFitPicture);
+        write_fit_report(report, rig, folder->partial());
+        folder->commit();
+    }
+    watch.tell(1, "done");
+    return report;
+}
+
+Json FitReport::json() const {
+    Json json;
+    json["rig"] = out.generic_string();
+    json["metres_per_unit"] = metres_per_unit;
+    json["guessed_unit"] = guessed_unit;
+    json["size"] = size;
+    json["residual_mm"] = residual_mm;
+    json["parts"] = parts;
+    json["given_landmarks"] = given_landmarks;
+    json["warped_landmarks"] = warped_landmarks;
+    json["worth_giving"] = worth_giving;
+    json["nodes"] = nodes;
+    json["tets"] = tets;
+    json["dropped_tets"] = dropped_tets;
+    json["inverted_tets"] = inverted_tets;
+    json["fibres"] = fibres;
+    json["bone"] = {{"thinnest_mm", bone.thinnest_mm},
+                    {"thickest_mm", bone.thickest_mm},
+                    {"mean_mm", bone.mean_mm},
+                    {"through_skin", bone.through_skin}};
+    json["lips_cut"] = lips_cut;
+    json["eyes"] = eyes;
+    json["teeth"] = teeth;
+    json["expressions"] = {{"difference_before", difference_before}, {"difference", difference}};
+    json["strengths"] = Json::array();
+    for (const MuscleStrength& m : strengths)
+        json["strengths"].push_back({{"muscle", m.muscle},
+                                     {"strength", m.strength},
+                                     {"stretch", m.stretch},
+                                     {"target_stretch", m.target_stretch},
+                                     {"at_limit", m.at_limit},
+                                     {"converged", m.converged}});
+    json["notes"] = notes;
+    return json;
+}
+
+}  // namespace risorius::fitting

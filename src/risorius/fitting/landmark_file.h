@@ -1,0 +1,18 @@
+// A landmark file whose names are those of the atlas.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "risorius/rig/atlas.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::fitting {
+
+/// Throws Error on a name the atlas does not know.
+std::map<std::string, rig::Landmark> read_atlas_named_landmarks(
+    const std::filesystem::path& file, const std::vector<rig::AtlasLandmark>& atlas);
+
+}  // namespace risorius::fitting

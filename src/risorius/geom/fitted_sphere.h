@@ -1,0 +1,18 @@
+// The sphere that lies closest to points: least squares of |p - c|^2 - r^2.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/types.h"
+
+namespace risorius::geom {
+
+struct Sphere {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0;
+};
+
+/// Of at least four points that are not in one plane.
+Sphere fitted_sphere(const std::vector<Vec3>& points);
+
+}  // namespace risorius::geom

@@ -1,0 +1,23 @@
+// The globe, and where the lids must stay clear of it. Sizes: schematic eye (axial length 24.0, cornea 7.8 mm), recalled norms; the centre
+// of rotation lies 12.5 mm behind the apex of the cornea, between pupil landmarks 63 mm apart.
+#pragma once
+
+#include "risorius/geom/polygon_mesh.h"
+
+namespace risorius::headmodel {
+
+/// Sclera sphere and corneal cap; both spheres meet at the limbus. Lengths in mm.
+struct Globe {
+    Vec3 centre{31.5, 18.2, 73.2};  ///< centre of rotation, left
+    double sclera_radius = 11.5;
+    double cornea_radius = 7.8;
+    double cornea_centre = 4.7;  ///< in front of the centre: apex 12.5, axial length 24.0
+
+    /// Distance from the centre to the surface at the angle whose cosine to the optical axis is given.
+    double radius_at(double cosine) const;
+};
+
+/// Rings about the optical axis, pole in front; group name as given. `side` +1 left, -1 right.
+geom::PolygonMesh globe_mesh(const Globe& globe, double side, const std::string& group);
+
+}  // namespace risorius::headmodel

@@ -1,0 +1,88 @@
+// The subject's left half of the skin while it is being made: vertices, quads, and relaxation over the head surface.
+// The midline is shared by both halves; mirroring at the end makes the whole exactly symmetric.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "risorius/geom/polygon_mesh.h"
+
+namespace risorius::headmodel {
+
+enum class Hold {
+    kOnHead,  ///< slides on the head surface while relaxing
+    kSmooth,  ///< follows its neighbours in space (cap, nostril, ear: lofted parts)
+    kPinned,  ///< stays
+};
+
+/// Of the skin, and the lining of the mouth.
+enum class Region {
+    kScalp,
+    kForehead,
+    kTemple,
+    kBrow,
+    kOrbit,
+    kLid,
+    kNose,
+    kWing,
+    kNostril,
+    kCheek,
+    kMouthSkin,
+    kLips,
+    kChin,
+    kJaw,
+    kEar,
+    kNape,
+    kNeck,
+    kShoulder,
+    kLining
+};
+/// "scalp", "forehead" ..., in the order of the regions
+const std::vector<std::string>& region_names();
+
+struct HalfMesh {
+    std::vector<Vec3> point;
+    std::vector<Hold> hold;
+    std::vector<bool> midline;
+    std::vector<std::array<int, 4>> face;
+    std::vector<int> group;          ///< of each face: 0 skin, 1 mouth
+    std::vector<Region> region;      ///< of each face
+    Region adding = Region::kCheek;  ///< region of faces to come
+
+    int add(const Vec3& p, Hold how, bool on_midline = false);
+    void quad(int a, int b, int c, int d, int in_group = 0);
+
+    /// Faces between two loops of equal length, seen from outside counter-clockwise; `closed` joins last to first.
+    void bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed,
+                int in_group = 0);
+
+    /// Fills the rectangle bounded by `loop` (left side down `rows`, bottom right `columns`, right side up, top back).
+    void fill(const std::vector<int>& loop, int rows, int columns, Hold how, int in_group = 0);
+
+    /// Neighbours along edges; the midline sees both halves.
+    std::vector<std::vector<int>> neighbours() const;
+
+    /// Unit vectors outwards at the vertices; on the midline without x.
+    std::vector<Vec3> normals() const;
+
+    /// Takes ripples out without shrinking (Taubin 1995): `share` 0..1 says how much each vertex takes part.
+    void smooth(int iterations, const std::vector<double>& share);
+
+    /// Moves vertices towards the mean of their neighbours; those on the head are put back on it by `project`.
+    void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,
+               Hold which);
+};
+
+/// Points of a curve through `places`, one for each vertex 0..count-1 (closed) or 0..count (open).
+std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count,
+                               bool closed);
+
+/// Both halves: the left one first in its own order, then the mirrored vertices, faces likewise; groups "skin", "mouth".
+geom::PolygonMesh mirrored(const HalfMesh& half);
+
+/// Vertex of the mirrored mesh that mirrors `vertex`, by index.
+std::vector<int> mirror_map(const HalfMesh& half);
+
+}  // namespace risorius::headmodel

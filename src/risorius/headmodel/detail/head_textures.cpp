@@ -1,0 +1,118 @@
+#include "risorius/headmodel/detail/head_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/headmodel/detail/part_layout.h"
+#include "risorius/media/image_file.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/report/staged_file.h"
+
+namespace risorius::headmodel {
+namespace {
+
+/// A picture, what lies on it, and how that shines: the exponent of Phong's highlight and its strength.
+struct PartPicture {
+    const char* file;
+    render::Material material;
+    std::vector<const char*> groups;
+    int exponent;
+    double gloss;
+};
+const std::vector<PartPicture>& part_pictures() {
+    using render::Material;
+    static const std::vector<PartPicture> pictures{
+        {"skin.png", Material::kSkin, {"skin", "mouth"}, 12, 0.08},
+        {"eyes.png", Material::kEye, {"eye_l", "eye_r"}, 400, 0.6},
+        {"teeth.png", Material::kTeeth, {"teeth_upper", "teeth_lower"}, 80, 0.25},
+        {"gums.png", Material::kGums, {"gums_upper", "gums_lower"}, 60, 0.2},
+        {"tongue.png", Material::kTongue, {"tongue"}, 60, 0.2}};
+    return pictures;
+}
+
+constexpr const char* kLashFile = "lashes.png";
+
+/// What of a ribbon of lashes is hair, white on black: hairs of some lengths that bend a little and thin out towards the tip.
+Image lash_opacity(int side_px) {
+    constexpr double kHalfWidth = 0.0035;  // of the lid's length, at the root
+    Image image(side_px, side_px);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    std::mt19937 random(1);
+    const auto next = [&] { return static_cast<double>(random()) / 4294967296.0; };
+    for (const bool upper : {true, false}) {
+        const int hairs = upper ? 95 : 60;
+        for (int hair = 0; hair < hairs; ++hair) {
+            const double root = (hair + next()) / hairs, bend = 0.03 * (next() - 0.5),
+                         length = 0.55 + 0.45 * next();
+            for (int y = 0; y < side_px; ++y) {
+                // The row's share of the way out, as lash_place() has it
+                const double from = headmodel::lash_place(upper, 0, 0).y(),
+                             to = headmodel::lash_place(upper, 0, 1).y();
+                const double t = (1 - (y + 0.5) / side_px - from) / (to - from);
+                if (t < 0 || t > length) continue;
+                const double along = root + bend * t * t,
+                             half = kHalfWidth * side_px * (1 - 0.8 * t / length),
+                             middle = headmodel::lash_place(upper, along, t).x() * side_px;
+                for (int x = std::max(0, static_cast<int>(middle - half - 1));
+                     x < std::min(side_px, static_cast<int>(middle + half + 2)); ++x) {
+                    const double covered =
+                        std::clamp(half + 0.5 - std::abs(x + 0.5 - middle), 0.0, 1.0);
+                    const auto byte = static_cast<std::uint8_t>(std::lround(255 * covered));
+                    std::uint8_t* pixel = image.pixel(x, y);
+                    for (int k = 0; k < 3; ++k) pixel[k] = std::max(pixel[k], byte);
+                }
+            }
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+std::vector<std::string> write_head_textures(const render::Scene& scene, int side_px,
+                                             const std::vector<double>& crown_height,
+                                             const std::filesystem::path& folder) {
+    constexpr int kLeast_px = 256, kMost_px = 4096;
+    if (side_px < kLeast_px || side_px > kMost_px)
+        throw Error("texture_px", std::to_string(kLeast_px) + ".." + std::to_string(kMost_px),
+                    std::to_string(side_px));
+    // The square of the skin holds a head of 0.6 m from ear to ear over the crown, and the view is as fine; the others hold less.
+    const render::OffscreenView view(scene, {.width_px = side_px / 2, .height_px = side_px / 2});
+    std::vector<std::string> files;
+    for (const PartPicture& part : part_pictures()) {
+        media::write_png(part.material == render::Material::kSkin
+                             ? view.skin_texture(scene, side_px)
+                             : view.part_texture(scene, part.material, side_px / 2, crown_height),
+                         folder / part.file);
+        files.emplace_back(part.file);
+    }
+    media::write_png(lash_opacity(side_px / 2), folder / kLashFile);
+    files.emplace_back(kLashFile);
+    report::write_text(folder / kTextureLibrary, texture_library(scene.look.hair_tone));
+    files.emplace_back(kTextureLibrary);
+    return files;
+}
+
+std::string texture_library(const Vec3& hair_tone) {
+    const auto material = [](const std::string& group, const Vec3& colour, int exponent,
+                             double gloss) {
+        const auto three = [](const Vec3& v) {
+            return format_number(v.x()) + " " + format_number(v.y()) + " " + format_number(v.z());
+        };
+        return "newmtl " + group + "\nKd " + three(colour) + "\nKs " +
+               three(Vec3::Constant(gloss)) + "\nNs " + std::to_string(exponent) + "\n";
+    };
+    std::string text = "# Materials of head.obj, by its groups.\n";
+    for (const PartPicture& part : part_pictures())
+        for (const char* group : part.groups)
+            text += material(group, Vec3::Ones(), part.exponent, part.gloss) + "map_Kd " +
+                    part.file + "\n";
+    for (const char* group : {"lashes_l", "lashes_r"})
+        text += material(group, hair_tone, 10, 0) + "map_d " + kLashFile + "\n";
+    return text;
+}
+
+}  // namespace risorius::headmodel

@@ -1,0 +1,169 @@
+#include "risorius/headmodel/detail/identity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+
+namespace risorius::headmodel {
+namespace {
+
+void check_range(const std::string& place, double value, Range range) {
+    if (!(value >= range.min && value <= range.max))
+        throw Error(place, "[" + format_number(range.min) + ", " + format_number(range.max) + "]",
+                    format_number(value));
+}
+
+/// Even numbers from a generator whose sequence the standard fixes; its distributions are not fixed.
+class Draw {
+  public:
+    explicit Draw(unsigned seed) : generator_(seed) {}
+    double even() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }
+    /// Twelve even ones are normal enough, and need no library function.
+    double normal() {
+        double sum = -6;
+        for (int k = 0; k < 12; ++k) sum += even();
+        return sum;
+    }
+    const std::string& one_of(const std::vector<std::string>& names) {
+        return names[static_cast<std::size_t>(even() * static_cast<double>(names.size()))];
+    }
+
+  private:
+    std::mt19937_64 generator_;
+};
+
+double to_hundredths(double value) { return std::round(value * 100) / 100 + 0.0; }
+
+}  // namespace
+
+std::vector<std::string> shape_parameters(const DesignTables& tables) {
+    std::vector<std::string> names;
+    for (const Handle& handle : tables.handles)
+        if (handle.parameter != "sex" && handle.parameter != "age" &&
+            std::find(names.begin(), names.end(), handle.parameter) == names.end())
+            names.push_back(handle.parameter);
+    return names;
+}
+
+std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part) {
+    std::vector<std::string> names;
+    for (const auto& [name, tone] : tables.tones.at(part)) names.push_back(name);
+    return names;
+}
+
+void check_identity(const Identity& identity, const DesignTables& tables,
+                    const std::string& place) {
+    check_range(place + "sex", identity.sex, kSexRange);
+    check_range(place + "age", identity.age, kAgeRange);
+    check_range(place + "freckles", identity.freckles, {0, 1});
+    check_range(place + "scalp_hair", identity.scalp_hair, {0, 1});
+    check_range(place + "hairline", identity.hairline, kHairRange);
+    check_range(place + "temples", identity.temples, kHairRange);
+    check_range(place + "beard", identity.beard, {0, 1});
+    const auto names = shape_parameters(tables);
+    for (const auto& [parameter, value] : identity.shape) {
+        index_of_name(place + "shape", parameter, names);
+        check_range(place + "shape/" + parameter, value, kShapeRange);
+    }
+    index_of_name(place + "skin", identity.skin, tone_names(tables, "skin"));
+    index_of_name(place + "iris", identity.iris, tone_names(tables, "iris"));
+    index_of_name(place + "hair", identity.hair, tone_names(tables, "hair"));
+}
+
+Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.allow_keys({"format", "version", "name", "sex", "age", "shape", "skin", "iris", "hair",
+                     "freckles", "scalp_hair", "hairline", "temples", "beard"});
+    json.at("format").one_of({"risorius-identity"});
+    json.at("version").integer(1, 1);
+    Identity identity;
+    identity.name = json.has("name") ? json.at("name").string() : file.stem().string();
+    const auto number = [&](const char* key, double& value) {
+        if (json.has(key)) value = json.at(key).number();
+    };
+    number("sex", identity.sex);
+    number("age", identity.age);
+    number("freckles", identity.freckles);
+    number("scalp_hair", identity.scalp_hair);
+    number("hairline", identity.hairline);
+    number("temples", identity.temples);
+    number("beard", identity.beard);
+    if (const auto shape = json.find("shape"))
+        for (const std::string& key : shape->keys()) identity.shape[key] = shape->at(key).number();
+    const auto word = [&](const char* key, std::string& value) {
+        if (json.has(key)) value = json.at(key).string();
+    };
+    word("skin", identity.skin);
+    word("iris", identity.iris);
+    word("hair", identity.hair);
+    check_identity(identity, tables, file.string() + ":/");
+    return identity;
+}
+
+Json identity_json(const Identity& identity) {
+    Json json;
+    json["format"] = "risorius-identity";
+    json["version"] = 1;
+    json["name"] = identity.name;
+    json["sex"] = identity.sex;
+    json["age"] = identity.age;
+    json["shape"] = Json::object();
+    for (const auto& [parameter, value] : identity.shape) json["shape"][parameter] = value;
+    json["skin"] = identity.skin;
+    json["iris"] = identity.iris;
+    json["hair"] = identity.hair;
+    json["freckles"] = identity.freckles;
+    json["scalp_hair"] = identity.scalp_hair;
+    json["hairline"] = identity.hairline;
+    json["temples"] = identity.temples;
+    json["beard"] = identity.beard;
+    return json;
+}
+
+std::filesystem::path identity_file(const std::string& name) {
+    return models_folder() / "identities" / (name + ".json");
+}
+
+std::vector<std::string> named_identities() {
+    std::vector<std::string> names;
+    const auto folder = models_folder() / "identities";
+    if (std::filesystem::is_directory(folder))
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Identity random_identity(unsigned seed, const DesignTables& tables) {
+    constexpr double kSpread = 1.0, kYoungest = 20, kOldest = 75;
+    Draw draw(seed);
+    Identity identity;
+    identity.name = "seed" + std::to_string(seed);
+    identity.sex = draw.even() < 0.5 ? -1 : 1;
+    identity.age = std::round(kYoungest + (kOldest - kYoungest) * draw.even());
+    for (const std::string& parameter : shape_parameters(tables))
+        identity.shape[parameter] =
+            to_hundredths(std::clamp(kSpread * draw.normal(), kShapeRange.min, kShapeRange.max));
+    identity.skin = draw.one_of(tone_names(tables, "skin"));
+    const bool light = identity.skin == "pale" || identity.skin == "fair";
+    identity.iris =
+        light ? draw.one_of(tone_names(tables, "iris")) : draw.one_of({"hazel", "brown", "dark"});
+    identity.hair =
+        light ? draw.one_of({"black", "blond", "brown", "red"}) : draw.one_of({"black", "brown"});
+    identity.freckles = to_hundredths(light ? 0.5 * draw.even() * draw.even() : 0.05);
+    identity.beard = identity.sex > 0 ? to_hundredths(0.6 * draw.even()) : 0;
+    // Men lose hair with the years, some much and most little.
+    identity.hairline = to_hundredths(3 * draw.normal());
+    const double lost =
+        identity.sex > 0 ? (identity.age - 20) / 55 * draw.even() : 0.1 * draw.even();
+    identity.hairline = to_hundredths(std::clamp(identity.hairline + 15 * lost, -8.0, 25.0));
+    identity.temples = to_hundredths(25 * lost);
+    return identity;
+}
+
+}  // namespace risorius::headmodel

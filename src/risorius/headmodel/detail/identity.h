@@ -1,0 +1,54 @@
+// Who a head is: sex, age, shapes in standard deviations and colours; from a file, from a seed, or as asked for.
+//
+// A file names only what differs from the average adult:
+//   {"format": "risorius-identity", "version": 1, "name": "ada", "sex": -1, "age": 34, "shape": {"lips": 1.2}, "skin": "tan"}
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/headmodel/detail/tables.h"
+
+namespace risorius::headmodel {
+
+inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, kHairRange{-10, 40};
+
+struct Identity {
+    std::string name = "adult";
+    double sex = 0;                       ///< -1 the average woman, 1 the average man
+    double age = 40;                      ///< years
+    std::map<std::string, double> shape;  ///< parameter: standard deviations; absent: 0
+    std::string skin = "fair", iris = "blue", hair = "brown";  ///< names of the tones table
+    double freckles = 0.15;                                    ///< 0..1, as the others below
+    double scalp_hair = 0.6;
+    double hairline = 0;  ///< mm: how much higher than on the average forehead hair begins
+    double temples = 0;   ///< mm: how much farther it recedes at the temples
+    double beard = 0;
+};
+
+/// Parameters of the table beside sex and age, in its order.
+std::vector<std::string> shape_parameters(const DesignTables& tables);
+
+/// Names that a tone may have; `part` is skin, iris or hair.
+std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);
+
+/// Throws Error on unknown parameters or tones and on values beyond the ranges above; `place` stands before
+/// the name of what is wrong: "--", "ada.json:/".
+void check_identity(const Identity& identity, const DesignTables& tables, const std::string& place);
+
+/// Throws Error as above, naming the place in the file.
+Identity read_identity(const std::filesystem::path& file, const DesignTables& tables);
+Json identity_json(const Identity& identity);
+
+/// Files of models/identities, by name, sorted.
+std::vector<std::string> named_identities();
+std::filesystem::path identity_file(const std::string& name);  ///< whether it is there or not
+
+/// Drawn by the seed: the same for the same seed anywhere. Shapes are spread as in adults (standard deviation 1, as the
+/// parameters are counted), none beyond 2.
+Identity random_identity(unsigned seed, const DesignTables& tables);
+
+}  // namespace risorius::headmodel

@@ -1,0 +1,369 @@
+#include "risorius/headmodel/detail/skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace risorius::headmodel {
+namespace {
+
+constexpr int kColumns = 48;
+constexpr int kEarColumn0 = 29, kEarColumn1 = 35;
+constexpr int kCapSide = 12;  ///< cells along the front and the back edge of the crown cap
+
+/// A row that follows a feature round the head: its height s at azimuths 0, 60, 100 and 180 degrees.
+struct KeyRow {
+    int row;
+    double s[4];
+};
+constexpr KeyRow kKeyRows[] = {
+    {0, {150, 150, 150, 150}},     // crown
+    {9, {86, 86, 86, 86}},         // hairline
+    {18, {45, 45, 45, 45}},        // brow
+    {26, {18, 18, 17, 15}},        // pupil
+    {34, {-7.5, -8, -11, -9.5}},   // where the wing of the nose begins
+    {44, {-33, -34, -39, -34}},    // base of the nose
+    {50, {-53, -51, -50, -44}},    // lips
+    {56, {-72, -65, -57, -48}},    // mentolabial furrow
+    {65, {-105, -86, -68, -56}},   // border of the jaw
+    {72, {-134, -118, -96, -70}},  // cervical point
+    {74, {-144, -130, -107, -77}}  // end of the measured neck
+};
+constexpr int kJawRow = 65, kNeckRow = 74, kNeckBaseRows = 5, kSkirtRows = 11;
+/// The strip from the tip of the nose to the lip, where the skin runs almost along the rays of the head surface: its rows are even on
+/// the skin, not by height.
+constexpr int kStripRow = 34, kStripColumns = 1;
+constexpr double kStripHeight[] = {-7.5,  -10.7, -13.9, -17.3, -20.8, -23.9,
+                                   -26.0, -27.4, -28.7, -30.2, -33};
+constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
+
+double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
+
+double row_height(int row, double azimuth_deg) {
+    std::size_t k = 0;
+    while (k + 2 < std::size(kKeyRows) && kKeyRows[k + 1].row <= row) ++k;
+    const double t =
+        static_cast<double>(row - kKeyRows[k].row) / (kKeyRows[k + 1].row - kKeyRows[k].row);
+    int a = 0;
+    while (a < 2 && kKeyAzimuth[a + 1] < azimuth_deg) ++a;
+    const double u = std::clamp(
+        (azimuth_deg - kKeyAzimuth[a]) / (kKeyAzimuth[a + 1] - kKeyAzimuth[a]), 0.0, 1.0);
+    const auto at = [&](const KeyRow& key) { return smooth_between(key.s[a], key.s[a + 1], u); };
+    return at(kKeyRows[k]) * (1 - t) + at(kKeyRows[k + 1]) * t;
+}
+
+double column_azimuth(int column, int row) {
+    // Breakpoints (column, degrees) by level: pupil, base of the nose, lips, everywhere else even.
+    const auto through = [&](std::initializer_list<std::pair<int, double>> points) {
+        auto a = points.begin();
+        while (a + 2 < points.end() && (a + 1)->first <= column) ++a;
+        const auto b = a + 1;
+        return a->second + (b->second - a->second) * (column - a->first) / (b->first - a->first);
+    };
+    constexpr double kSide = 38.5, kEar0 = 81, kEar1 = 116;
+    if (column >= 16) {
+        const double low =
+            through({{16, kSide}, {kEarColumn0, kEar0}, {kEarColumn1, kEar1}, {kColumns, 180}});
+        const double even = 180.0 * column / kColumns;
+        const double t = std::clamp((14.0 - row) / 14.0, 0.0, 1.0);
+        return low + (even - low) * t;
+    }
+    const double even = kSide * column / 16, pupil = through({{0, 0}, {4, 7.2}, {16, kSide}}),
+                 nose = through({{0, 0}, {1, 0.9}, {7, 14.6}, {16, kSide}}),
+                 lips = through({{0, 0}, {10, 22.5}, {16, kSide}}),
+                 crown = 180.0 * column / kColumns;
+    const auto mix = [](double a, double b, double from, double to, int at) {
+        return smooth_between(a, b, std::clamp((at - from) / (to - from), 0.0, 1.0));
+    };
+    if (row <= 18) return mix(crown, even, 0, 14, row);
+    if (row <= 26) return mix(even, pupil, 18, 26, row);
+    if (row <= 42) return mix(pupil, nose, 28, 36, row);
+    if (row <= 52) return mix(nose, lips, 44, 48, row);
+    return mix(lips, even, 56, 64, row);
+}
+
+struct Block {
+    int row0, row1, column0, column1;
+};
+constexpr Block kEyeBlock{21, 31, 4, 16}, kNoseBlock{34, 44, 1, 7}, kMouthBlock{45, 55, 0, 10},
+    kEarBlock{22, 44, kEarColumn0, kEarColumn1};
+
+/// What the cell of the grid belongs to that has this corner.
+Region region_of_cell(int row, int column) {
+    if (row >= kJawRow) return column < 34 ? Region::kNeck : Region::kNape;
+    if (row < 9) return Region::kScalp;
+    if (column >= kEarColumn1) return row < 44 ? Region::kScalp : Region::kNape;
+    if (column >= 24)
+        return row < 18   ? Region::kScalp
+               : row < 26 ? Region::kTemple
+               : row < 52 ? Region::kCheek
+                          : Region::kJaw;
+    if (row < 16) return column < 17 ? Region::kForehead : Region::kTemple;
+    if (row < 20 && column < 17) return Region::kBrow;
+    if (column >= 17 && row < 26) return Region::kTemple;
+    if (row < 33 && column >= 4 && column < 17) return Region::kOrbit;
+    if (row < 44 && column < 7) return Region::kNose;
+    if (row >= 56) return column < 11 ? Region::kChin : Region::kJaw;
+    if (row >= 44 && column < 11) return Region::kMouthSkin;
+    return Region::kCheek;
+}
+
+void add_crown(Skin& skin, const HeadSurface& head) {
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<int>& ring = skin.grid[0];
+    constexpr int kRows = kColumns - 2 * kCapSide;
+    std::vector<std::vector<int>> id(kRows + 1, std::vector<int>(kCapSide + 1));
+    for (int c = 0; c <= kCapSide; ++c) {
+        id[0][c] = ring[c];
+        id[kRows][c] = ring[kColumns - c];
+    }
+    for (int r = 0; r <= kRows; ++r) id[r][kCapSide] = ring[kCapSide + r];
+    for (int r = 1; r < kRows; ++r)
+        for (int c = 0; c < kCapSide; ++c) {
+            const double u = static_cast<double>(c) / kCapSide, v = static_cast<double>(r) / kRows;
+            const auto p = [&](int row, int column) {
+                return mesh.point[static_cast<std::size_t>(id[row][column])];
+            };
+            const Vec3 straight = (1 - v) * p(0, c) + v * p(kRows, c);
+            Vec3 q = straight;
+            q.x() = u * p(r, kCapSide).x();
+            q.z() = (1 - u) * straight.z() + u * p(r, kCapSide).z();
+            id[r][c] = mesh.add(head.project(q), Hold::kOnHead, c == 0);
+        }
+    for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kCapSide; ++c)
+            mesh.quad(id[r][c], id[r][c + 1], id[r + 1][c + 1], id[r + 1][c]);
+}
+
+/// Down the neck to its base, then outwards over the trapezius to the edge of the bust; own design.
+void add_skirt(Skin& skin) {
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<int> last = skin.grid[kNeckRow];
+    const std::vector<int> before = skin.grid[kNeckRow - 2];
+    std::vector<std::vector<int>> rows{last};
+    for (int k = 1; k <= kSkirtRows; ++k) rows.emplace_back(kColumns + 1);
+    const auto hermite = [](const Vec3& p, const Vec3& dp, const Vec3& q, const Vec3& dq,
+                            double t) {
+        const double t2 = t * t, t3 = t2 * t;
+        return Vec3((2 * t3 - 3 * t2 + 1) * p + (t3 - 2 * t2 + t) * dp + (3 * t2 - 2 * t3) * q +
+                    (t3 - t2) * dq);
+    };
+    for (int c = 0; c <= kColumns; ++c) {
+        const Vec3 start = mesh.point[static_cast<std::size_t>(last[c])];
+        const double a = std::atan2(start.x(), start.z() + 26.0), cos_a = std::cos(a),
+                     sin_a = std::sin(a);
+        const Vec3 base(58 * std::pow(sin_a, 0.85), -117 - 17 * cos_a + 3 * cos_a * cos_a,
+                        -30 + (cos_a > 0 ? 51 : 62) * cos_a);
+        const Vec3 end(132 * std::pow(sin_a, 0.8), -166 - 14 * cos_a + 4 * cos_a * cos_a,
+                       -38 + (cos_a > 0 ? 84 : 86) * cos_a);
+        const Vec3 down = (start - mesh.point[static_cast<std::size_t>(before[c])]).normalized();
+        const double reach0 = (base - start).norm(), reach1 = (end - base).norm();
+        // Steeper in front of and behind the neck, where the body goes on downwards.
+        const Vec3 turn =
+            ((base - start).normalized() + 0.9 * (end - base).normalized()).normalized();
+        const Vec3 out = ((end - base).normalized() + Vec3(0, -0.35 - 0.5 * sin_a, 0)).normalized();
+        for (int k = 1; k <= kSkirtRows; ++k) {
+            const Vec3 p = k <= kNeckBaseRows ? hermite(start, down * reach0, base, turn * reach0,
+                                                        static_cast<double>(k) / kNeckBaseRows)
+                                              : hermite(base, turn * reach1, end, out * reach1,
+                                                        static_cast<double>(k - kNeckBaseRows) /
+                                                            (kSkirtRows - kNeckBaseRows));
+            rows[k][c] = mesh.add(p, Hold::kPinned, c == 0 || c == kColumns);
+        }
+    }
+    for (int k = 0; k < kSkirtRows; ++k)
+        for (int c = 0; c < kColumns; ++c) {
+            mesh.adding = k < kNeckBaseRows ? Region::kNeck : Region::kShoulder;
+            mesh.quad(rows[k][c], rows[k + 1][c], rows[k + 1][c + 1], rows[k][c + 1]);
+        }
+    skin.grid.insert(skin.grid.end(), rows.begin() + 1, rows.end());
+}
+
+/// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
+double philtrum(const Vec3& p) {
+    if (p.z() < 80 || p.y() > -33 || p.y() < -46) return 0;
+    const double along =
+        std::clamp((-33.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
+    const double ridge = 3.6 + 2.2 * std::clamp((-32.0 - p.y()) / 12.0, 0.0, 1.0),
+                 x = std::abs(p.x());
+    const auto bell = [](double t) { return std::exp(-t * t); };
+    return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
+}
+
+/// A line along which the skin is raised, or carved where its height is below 0.
+struct ReliefLine {
+    struct Point {
+        Vec3 at;
+        double height, width;  ///< mm; width where 1/e of the height is left
+    };
+    std::vector<Point> points;
+
+    /// The greatest at a place, mm, of what its stretches add there.
+    double height(const Vec3& p) const {
+        double greatest = 0;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const Point &a = points[k], &b = points[k + 1];
+            const Vec3 along = b.at - a.at, from = p - a.at;
+            const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+            const double width = a.width + t * (b.width - a.width),
+                         full = a.height + t * (b.height - a.height);
+            const double here =
+                full * std::exp(-(from - t * along).squaredNorm() / (width * width));
+            if (std::abs(here) > std::abs(greatest)) greatest = here;
+        }
+        return greatest;
+    }
+};
+
+/// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; the ridge of
+/// lobule and columella, which hangs below the wings and stands out between the nostrils; and the bridge, which is round across.
+void shape_nose(Skin& skin) {
+    const ReliefLine groove{{{Vec3(17.4, -28.3, 89), -0.5, 1.6},
+                             {Vec3(18.2, -25, 88.7), -1.1, 1.6},
+                             {Vec3(18.3, -21, 89.2), -1.3, 1.7},
+                             {Vec3(17.4, -16.8, 91.6), -1.3, 1.8},
+                             {Vec3(15.6, -14, 95.2), -0.9, 2},
+                             {Vec3(13, -13.2, 100.5), -0.4, 2.4},
+                             {Vec3(11, -15, 107), 0, 3}}},
+        columella{{{Vec3(0, -25.5, 112.6), 0, 3.6},
+                   {Vec3(0, -27.5, 109.4), 0.3, 3.2},
+                   {Vec3(0, -29.3, 104.2), 0.2, 2.4},
+                   {Vec3(0, -31, 100.6), 0, 2.1}}},
+        bridge{{{Vec3(0, 12, 101), 0, 2},
+                {Vec3(0, 6, 104.4), 0.3, 2},
+                {Vec3(0, -6, 111.6), 0.25, 2},
+                {Vec3(0, -12, 115.4), 0, 2}}},
+        flank{{{Vec3(3.2, 12, 100.3), 0, 1.6},
+               {Vec3(3.2, 6, 103.4), -0.35, 1.6},
+               {Vec3(3.4, -6, 110.6), -0.35, 1.6},
+               {Vec3(3.6, -12, 114.5), 0, 1.6}}};
+    const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
+    HalfMesh& mesh = skin.mesh;
+    const std::vector<Vec3> before = mesh.point;
+    const std::vector<Vec3> normal = mesh.normals();
+    std::vector<double> tip(before.size(), 0.0);
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const Vec3& p = before[v];
+        if (fixed.count(static_cast<int>(v)) || (p - Vec3(9, -12, 102)).norm() > 34) continue;
+        mesh.point[v] +=
+            (groove.height(p) + columella.height(p) + bridge.height(p) + flank.height(p)) *
+            normal[v];
+        if (mesh.midline[v]) mesh.point[v].x() = 0;
+        // One dome from wing to wing: the loops that begin beside the columella would show as a dent on either side of it.
+        const Vec3 from = (p - Vec3(0, -20, 114)).cwiseQuotient(Vec3(12, 11, 10));
+        tip[v] = std::clamp(2.2 * (1 - from.norm()), 0.0, 1.0);
+    }
+    mesh.smooth(25, tip);
+}
+
+/// Takes the seams between the head surface and the lofted wing out, and the pole out of the crown.
+void smooth_joints(Skin& skin) {
+    HalfMesh& mesh = skin.mesh;
+    std::vector<double> nose(mesh.point.size(), 0.0), crown(mesh.point.size(), 0.0),
+        neck(mesh.point.size(), 0.0);
+    const auto fall = [](double d, double from, double to) {
+        return std::clamp((to - d) / (to - from), 0.0, 1.0);
+    };
+    for (std::size_t v = 0; v < mesh.point.size(); ++v) {
+        const Vec3& p = mesh.point[v];
+        nose[v] = p.y() > -34 ? fall((p - Vec3(11, -20, 102)).norm(), 12, 18) : 0;
+        crown[v] = fall(Vec2(p.x(), p.z() - 5).norm(), 30, 55) * (p.y() > 90 ? 1 : 0);
+    }
+    for (int r = kJawRow + 2; r < static_cast<int>(skin.grid.size()) - 1; ++r)
+        for (const int v : skin.grid[static_cast<std::size_t>(r)])
+            neck[static_cast<std::size_t>(v)] = std::clamp((r - kJawRow - 1) / 5.0, 0.0, 1.0);
+    for (const int v : skin.fixed) nose[static_cast<std::size_t>(v)] = 0;
+    mesh.smooth(6, nose);
+    mesh.smooth(60, crown);
+    mesh.smooth(60, neck);
+}
+
+}  // namespace
+
+std::vector<int> block_loop(const std::vector<std::vector<int>>& grid, int row0, int row1,
+                            int column0, int column1) {
+    std::vector<int> loop;
+    for (int r = row0; r < row1; ++r) loop.push_back(grid[r][column0]);
+    for (int c = column0; c < column1; ++c) loop.push_back(grid[row1][c]);
+    for (int r = row1; r > row0; --r) loop.push_back(grid[r][column1]);
+    for (int c = column1; c > column0; --c) loop.push_back(grid[row0][c]);
+    return loop;
+}
+
+Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap) {
+    const Vec3 from = point - globe.centre;
+    const double d = from.norm();
+    if (d > 18 || from.z() < -2) return point;
+    const double least = globe.radius_at(from.z() / d) + gap;
+    const double soft = 0.5, over = d - least;
+    return globe.centre + from / d * (least + 0.5 * (over + std::sqrt(over * over + soft * soft)));
+}
+
+Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe& globe) {
+    Skin skin;
+    HalfMesh& mesh = skin.mesh;
+    const auto inside = [](const Block& b, int r, int c) {
+        return r > b.row0 && r < b.row1 && (c > b.column0 || b.column0 == 0) && c < b.column1;
+    };
+    const auto in_block = [&](int r, int c) {
+        return inside(kEyeBlock, r, c) || inside(kNoseBlock, r, c) || inside(kMouthBlock, r, c) ||
+               inside(kEarBlock, r, c);
+    };
+    skin.grid.assign(kNeckRow + 1, std::vector<int>(kColumns + 1, -1));
+    for (int r = 0; r <= kNeckRow; ++r)
+        for (int c = 0; c <= kColumns; ++c) {
+            if (in_block(r, c)) continue;
+            const double azimuth = column_azimuth(c, r);
+            const bool strip = c <= kStripColumns && r >= kStripRow &&
+                               r - kStripRow < static_cast<int>(std::size(kStripHeight));
+            const Vec3 p = head.at(azimuth * M_PI / 180,
+                                   strip ? kStripHeight[r - kStripRow] : row_height(r, azimuth));
+            skin.grid[r][c] =
+                mesh.add(p, r == kNeckRow ? Hold::kPinned : Hold::kOnHead, c == 0 || c == kColumns);
+        }
+    const auto cell_in = [](const Block& b, int r, int c) {
+        return r >= b.row0 && r < b.row1 && c >= b.column0 && c < b.column1;
+    };
+    for (int r = 0; r < kNeckRow; ++r)
+        for (int c = 0; c < kColumns; ++c)
+            if (!cell_in(kEyeBlock, r, c) && !cell_in(kNoseBlock, r, c) &&
+                !cell_in(kMouthBlock, r, c) && !cell_in(kEarBlock, r, c)) {
+                mesh.adding = region_of_cell(r, c);
+                mesh.quad(skin.grid[r][c], skin.grid[r + 1][c], skin.grid[r + 1][c + 1],
+                          skin.grid[r][c + 1]);
+            }
+
+    const auto loop = [&](const Block& b) {
+        return block_loop(skin.grid, b.row0, b.row1, b.column0, b.column1);
+    };
+    mesh.adding = Region::kScalp;
+    add_crown(skin, head);
+    mesh.adding = Region::kOrbit;
+    add_lids(skin, loop(kEyeBlock), tables, head, globe);
+    mesh.adding = Region::kMouthSkin;
+    std::vector<int> mouth;  // the midline side of the block is open: bottom, right side, top
+    for (int c = 0; c < kMouthBlock.column1; ++c) mouth.push_back(skin.grid[kMouthBlock.row1][c]);
+    for (int r = kMouthBlock.row1; r > kMouthBlock.row0; --r)
+        mouth.push_back(skin.grid[r][kMouthBlock.column1]);
+    for (int c = kMouthBlock.column1; c >= 0; --c) mouth.push_back(skin.grid[kMouthBlock.row0][c]);
+    add_mouth(skin, mouth, tables, head);
+    mesh.adding = Region::kWing;
+    add_nasal_wing(skin, loop(kNoseBlock), tables);
+    mesh.adding = Region::kCheek;
+    add_ear(skin, loop(kEarBlock), tables, head);
+
+    const auto on_head = [&](const Vec3& p) {
+        Vec3 q = clear_of_globe(head.project(p), globe, 1.3);
+        q.z() += philtrum(q);
+        return q;
+    };
+    mesh.relax(60, 0.5, on_head, Hold::kOnHead);
+    mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
+    add_skirt(skin);
+    smooth_joints(skin);
+    shape_nose(skin);
+    fit_landmarks(skin, tables);
+    return skin;
+}
+
+}  // namespace risorius::headmodel

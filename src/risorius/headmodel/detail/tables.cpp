@@ -1,0 +1,157 @@
+#include "risorius/headmodel/detail/tables.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "risorius/core/data_folder.h"
+#include "risorius/core/error.h"
+
+namespace risorius::headmodel {
+namespace {
+
+std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in) throw Error(file.string(), "a readable table", "none");
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(in, line);) {
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.empty() || line[0] == '#') continue;
+        std::vector<std::string> cells;
+        std::string cell;
+        std::istringstream stream(line);
+        while (std::getline(stream, cell, ',')) cells.push_back(cell);
+        if (line.back() == ',') cells.emplace_back();
+        if (!rows.empty() && cells.size() != rows[0].size())
+            throw Error(file.string() + ": row " + std::to_string(rows.size() + 1),
+                        std::to_string(rows[0].size()) + " cells", std::to_string(cells.size()));
+        rows.push_back(std::move(cells));
+    }
+    if (rows.size() < 2) throw Error(file.string(), "a header and at least one row", "less");
+    return rows;
+}
+
+double number(const std::filesystem::path& file, const std::string& cell) {
+    if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+    std::size_t used = 0;
+    double value = 0;
+    try {
+        value = std::stod(cell, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used != cell.size()) throw Error(file.string(), "a number", "\"" + cell + "\"");
+    return value;
+}
+
+GridTable read_grid(const std::filesystem::path& file) {
+    const auto cells = read_csv(file);
+    GridTable table;
+    for (std::size_t c = 1; c < cells[0].size(); ++c)
+        table.columns.push_back(number(file, cells[0][c]));
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        table.rows.push_back(number(file, cells[r][0]));
+        table.value.emplace_back();
+        for (std::size_t c = 1; c < cells[r].size(); ++c)
+            table.value.back().push_back(number(file, cells[r][c]));
+    }
+    return table;
+}
+
+std::map<std::string, std::vector<LoopPoint>> read_loops(const std::filesystem::path& file) {
+    std::map<std::string, std::vector<LoopPoint>> loops;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        if (row.size() != 5) throw Error(file.string(), "loop,place and three lengths", row[0]);
+        loops[row[0]].push_back(
+            {number(file, row[1]),
+             Vec3(number(file, row[2]), number(file, row[3]), number(file, row[4]))});
+    }
+    return loops;
+}
+
+std::map<std::string, std::vector<ReliefPoint>> read_relief(const std::filesystem::path& file) {
+    std::map<std::string, std::vector<ReliefPoint>> features;
+    const auto cells = read_csv(file);
+    if (cells[0].size() != 6) throw Error(file.string(), "six columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        const double width = number(file, row[4]);
+        if (!(width > 0))
+            throw Error(file.string() + ": row " + std::to_string(r + 1), "a width above 0",
+                        row[4]);
+        features[row[0]].push_back({Vec2(number(file, row[1]), number(file, row[2])),
+                                    number(file, row[3]), width, number(file, row[5])});
+    }
+    return features;
+}
+
+std::vector<Measure> read_measures(const std::filesystem::path& file) {
+    std::vector<Measure> measures;
+    const auto cells = read_csv(file);
+    if (cells[0].size() < 6) throw Error(file.string(), "at least six columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        measures.push_back({row[0], row[1], row[2], number(file, row[3]), number(file, row[4]),
+                            number(file, row[5])});
+    }
+    return measures;
+}
+
+std::vector<Handle> read_handles(const std::filesystem::path& file) {
+    const std::map<std::string, Handle::Kind> kinds{{"move", Handle::Kind::kMove},
+                                                    {"scale", Handle::Kind::kScale},
+                                                    {"lid", Handle::Kind::kLid}};
+    std::vector<Handle> handles;
+    const auto cells = read_csv(file);
+    if (cells[0].size() != 9) throw Error(file.string(), "nine columns", cells[0][0]);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        const auto kind = kinds.find(row[1]);
+        if (kind == kinds.end())
+            throw Error(file.string() + ": row " + std::to_string(r + 1), "move, scale or lid",
+                        quoted(row[1]));
+        const double reach = number(file, row[5]);
+        handles.push_back({row[0], kind->second,
+                           Vec3(number(file, row[2]), number(file, row[3]), number(file, row[4])),
+                           std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach,
+                           Vec3(number(file, row[6]), number(file, row[7]), number(file, row[8]))});
+    }
+    return handles;
+}
+
+}  // namespace
+
+std::filesystem::path models_folder() { return data_folder() / "models"; }
+
+DesignTables read_design_tables(const std::filesystem::path& folder) {
+    DesignTables tables;
+    tables.face_depth = read_grid(folder / "face_depth.csv");
+    tables.head_radius = read_grid(folder / "head_radius.csv");
+    const auto file = folder / "landmarks.csv";
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r)
+        tables.landmarks[cells[r][0]] =
+            Vec3(number(file, cells[r][2]), number(file, cells[r][3]), number(file, cells[r][4]));
+    tables.nose_loops = read_loops(folder / "nose_loops.csv");
+    tables.ear_loops = read_loops(folder / "ear_loops.csv");
+    tables.ear_relief = read_relief(folder / "ear_relief.csv");
+    tables.measures = read_measures(folder / "anthropometry.csv");
+    tables.handles = read_handles(folder / "parameters.csv");
+    const auto tones = folder / "tones.csv";
+    for (const auto& row : read_csv(tones))
+        if (row.size() == 5 && row[0] != "part")
+            tables.tones[row[0]][row[1]] =
+                Vec3(number(tones, row[2]), number(tones, row[3]), number(tones, row[4]));
+    for (const char* part : {"skin", "lips", "iris", "hair"})
+        if (tables.tones[part].empty())
+            throw Error(tones.string(), std::string("a row of part ") + part, "none");
+    for (const auto& [name, tone] : tables.tones["skin"])
+        if (!tables.tones["lips"].count(name))
+            throw Error(tones.string(), "lips for skin " + quoted(name), "none");
+    return tables;
+}
+
+}  // namespace risorius::headmodel

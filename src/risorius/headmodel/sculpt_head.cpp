@@ -1,0 +1,200 @@
+#include "risorius/headmodel/sculpt_head.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/known_names.h"
+#include "risorius/fitting/fit_rig.h"
+#include "risorius/headmodel/detail/deform_head.h"
+#include "risorius/headmodel/detail/head_textures.h"
+#include "risorius/media/image_file.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/rig/head.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/scene/scene_from_rig.h"
+
+namespace risorius::headmodel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kMeshFile = "head.obj";
+constexpr const char* kLandmarks = "landmarks.json";
+constexpr const char* kRegions = "regions.json";
+constexpr const char* kIdentityFile = "identity.json";
+constexpr const char* kRigFile = "rig.json";
+constexpr const char* kViews = "views.png";
+constexpr const char* kResults = "results.json";
+
+headmodel::DesignTables design_tables() {
+    return headmodel::read_design_tables(headmodel::models_folder() / "adult/design");
+}
+
+Json tone_json(const Vec3& tone) { return Json{tone.x(), tone.y(), tone.z()}; }
+
+Json look_json(const headmodel::Identity& identity, const headmodel::DesignTables& tables) {
+    // Skin begins to show its age at 25, and hair is grey at 75.
+    constexpr double kYoung = 25, kOld = 75;
+    Json look;
+    look["skin_tone"] = tone_json(tables.tones.at("skin").at(identity.skin));
+    look["lip_tone"] = tone_json(tables.tones.at("lips").at(identity.skin));
+    look["iris_tone"] = tone_json(tables.tones.at("iris").at(identity.iris));
+    look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
+    look["freckles"] = identity.freckles;
+    look["scalp_hair"] = identity.scalp_hair;
+    look["hairline_mm"] = identity.hairline;
+    look["temples_mm"] = identity.temples;
+    look["beard"] = identity.beard;
+    look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
+    return look;
+}
+
+render::Scene scene_of(const fs::path& rig_file) {
+    const scene::RigFiles files = scene::read_rig_files(rig_file);
+    return scene::scene_from_rig(rig::place_head(files.rig, files.mesh, files.place()), files.rig,
+                                 files.mesh);
+}
+
+Image views_of(const render::Scene& scene) {
+    constexpr int kWidth_px = 560, kHeight_px = 720;
+    render::Pose pose;
+    pose.positions = scene.rest;
+    Image row(3 * kWidth_px, kHeight_px);
+    int left = 0;
+    for (const char* camera : {"front", "three_quarter", "profile"}) {
+        render::OffscreenView view(
+            scene, {.width_px = kWidth_px, .height_px = kHeight_px, .camera = camera});
+        const Image one = view.draw(pose);
+        for (int y = 0; y < kHeight_px; ++y)
+            std::copy_n(one.pixel(0, y), 4 * kWidth_px, row.pixel(left, y));
+        left += kWidth_px;
+    }
+    return row;
+}
+
+}  // namespace
+
+headmodel::Identity chosen_identity(const IdentityChoice& choice) {
+    const headmodel::DesignTables tables = design_tables();
+    if (choice.seed && !choice.identity.empty())
+        throw Error("--seed", "a seed or --identity", "both");
+    headmodel::Identity identity;
+    if (!choice.identity.empty()) {
+        fs::path file = choice.identity;
+        if (file.extension() != ".json") {
+            index_of_name("--identity", choice.identity, headmodel::named_identities());
+            file = headmodel::identity_file(choice.identity);
+        }
+        identity = headmodel::read_identity(file, tables);
+    } else if (choice.seed) {
+        identity = headmodel::random_identity(*choice.seed, tables);
+    }
+    identity.sex = choice.sex.value_or(identity.sex);
+    identity.age = choice.age.value_or(identity.age);
+    identity.skin = choice.skin.value_or(identity.skin);
+    identity.iris = choice.iris.value_or(identity.iris);
+    identity.hair = choice.hair.value_or(identity.hair);
+    headmodel::check_identity(identity, tables, "--");
+    if (choice.seed)
+        headmodel::deform_within_spread(headmodel::make_head(tables), tables, identity);
+    for (const std::string& text : choice.shape) {
+        const std::size_t equals = text.find('=');
+        std::size_t used = 0;
+        double value = 0;
+        if (equals != std::string::npos) {
+            try {
+                value = std::stod(text.substr(equals + 1), &used);
+            } catch (const std::exception&) {
+                used = 0;
+            }
+        }
+        if (used == 0 || equals + 1 + used != text.size())
+            throw Error("--shape", "PARAMETER=NUMBER", quoted(text));
+        identity.shape[text.substr(0, equals)] = value;
+    }
+    headmodel::check_identity(identity, tables, "--");
+    return identity;
+}
+
+SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
+    if (options.mesh_only && fs::exists(options.out / kRigFile))
+        throw Error("--mesh-only", "a folder without a rig, which it would take away",
+                    quoted((options.out / kRigFile).generic_string()));
+    // Shape it, and prove that there are people like this
+    watch.tell(0, "sculpting");
+    const headmodel::DesignTables tables = design_tables();
+    SculptReport report;
+    report.out = options.out;
+    report.identity = options.identity;
+    const headmodel::HeadModel model =
+        headmodel::deform_head(headmodel::make_head(tables), tables, options.identity);
+    headmodel::check_spread(model, tables, options.identity, options.place);
+    report.quality = headmodel::head_quality(model, tables, options.identity.sex, false);
+
+    // Write mesh, landmarks and who it is
+    report::StagedFolder folder(options.out);
+    const fs::path partial = folder.partial();
+    const bool textured = options.texture_px > 0;
+    headmodel::write_head(model, partial, textured ? kTextureLibrary : "");
+    report::write_text(partial / kIdentityFile,
+                       headmodel::identity_json(options.identity).dump(2) + "\n");
+    report.files = {kMeshFile, kLandmarks, kRegions, kIdentityFile, kResults};
+
+    // Give it muscles, and colours of its own
+    if (!options.mesh_only) {
+        fitting::FitOptions fit;
+        fit.mesh = partial / kMeshFile;
+        fit.landmarks = partial / kLandmarks;
+        fit.out = partial / kRigFile;
+        fit.standard = options.standard;
+        fit.metres_per_unit = 1e-3;
+        fit.name = options.identity.name;
+        fit.calibrate = options.calibrate;
+        fit.solids = true;
+        report.notes = fitting::fit_rig(fit, watch).notes;
+        Json rig = JsonCursor::read_file(fit.out).json();
+        rig["look"] = look_json(options.identity, tables);
+        // The pictures are for others: drawn here, the head looks the same with and without them.
+        if (textured) rig["look"]["textures"] = "generated";
+        report::write_text(fit.out, rig.dump(1) + "\n");
+        const render::Scene scene = scene_of(fit.out);
+        media::write_png(views_of(scene), partial / kViews);
+        if (textured) {
+            const std::vector<std::string> written =
+                write_head_textures(scene, options.texture_px, model.crown_height, partial);
+            report.files.insert(report.files.end(), written.begin(), written.end());
+        }
+        report.files.insert(report.files.end(), {kRigFile, kViews});
+    }
+    std::sort(report.files.begin(), report.files.end());
+    report::write_text(partial / kResults, report.json().dump(2) + "\n");
+    folder.commit();
+    watch.tell(1, "done");
+    return report;
+}
+
+Json SculptReport::json() const {
+    Json json;
+    json["identity"] = headmodel::identity_json(identity);
+    json["worst_deviation"] = quality.worst_deviation();
+    for (const headmodel::MeasureScore& m : quality.measures)
+        json["measures"][m.measure] = {{"length_mm", m.length_mm}, {"deviation", m.deviation}};
+    json["self_intersections"] = quality.self_intersections;
+    json["quad_share"] = quality.quad_share;
+    json["unusual_valence_share"] = quality.unusual_valence_share;
+    json["mirror_error_mm"] = quality.mirror_error_mm;
+    json["aspect"] = {{"median", quality.aspect_median},
+                      {"of_99", quality.aspect_99},
+                      {"greatest", quality.aspect_worst}};
+    json["layout"] = {{"stretch_low", quality.stretch_low},
+                      {"stretch_high", quality.stretch_high},
+                      {"turned_over", quality.turned_over}};
+    json["notes"] = notes;
+    json[report::kFilesKey] = files;
+    return json;
+}
+
+}  // namespace risorius::headmodel

@@ -1,0 +1,51 @@
+// A head of the parametric family in a folder of its own: mesh, landmarks, rig, picture, and what it was made of.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/watch.h"
+#include "risorius/headmodel/detail/identity.h"
+#include "risorius/headmodel/head_quality.h"
+
+namespace risorius::headmodel {
+
+struct SculptOptions {
+    std::filesystem::path out;     ///< folder
+    headmodel::Identity identity;  ///< who
+    std::string place = "head";    ///< where the identity is from, for messages
+    bool mesh_only = false;        ///< no rig and no picture
+    int texture_px =
+        0;  ///< side of a picture of the skin's colours, those of the other parts half of it; 0: none
+    bool calibrate = false;  ///< muscles anew, minutes; else as strong as the adult's
+    std::filesystem::path
+        standard{};  ///< folder of the standard tables; empty: those of this build
+};
+
+struct SculptReport {
+    std::filesystem::path out;
+    headmodel::Identity identity;
+    headmodel::HeadQuality quality;
+    std::vector<std::string> files;  ///< in the folder, sorted
+    std::vector<std::string> notes;  ///< of the fit
+
+    Json json() const;
+};
+
+/// The identity a command line asks for, checked: somebody with a name or a file, or drawn by a seed, then with what is set.
+struct IdentityChoice {
+    std::string identity{};  ///< of models/identities, or a file; empty: the average adult
+    std::optional<unsigned> seed{};
+    std::optional<double> sex{}, age{};
+    std::vector<std::string> shape{};  ///< "lips=1.2"
+    std::optional<std::string> skin{}, iris{}, hair{};
+};
+/// Throws Error naming the option.
+headmodel::Identity chosen_identity(const IdentityChoice& choice);
+
+/// Throws Error when the identity is beyond what adults are, or the folder is somebody's own; then nothing is written.
+SculptReport sculpt_head(const SculptOptions& options, const Watch& watch = {});
+
+}  // namespace risorius::headmodel

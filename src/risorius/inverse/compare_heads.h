@@ -1,0 +1,37 @@
+// Whether two heads make the same expressions: the tables of each drive it, and the displacements of landmarks are compared
+// after scaling by the size of the head.
+//
+//   difference  sqrt(sum |u/s - u'/s'|^2 / sum |u'/s'|^2) over the landmarks of brows, eyes, nose and lips;  s  size of a head / the atlas head
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/core/watch.h"
+
+namespace risorius::inverse {
+
+struct HeadDifference {
+    std::string expression;
+    double difference = 0;    ///< ratio
+    double cosine = 1;        ///< of the two displacements
+    double length_ratio = 1;  ///< |u/s| / |u'/s'|
+    double landmark_mm = 0;   ///< mean |u/s - u'/s'|
+    std::string worst;        ///< landmark
+};
+
+struct HeadComparison {
+    std::string rig, like;
+    std::vector<HeadDifference> expressions;
+    double mean_difference() const;
+    Json json() const;
+};
+
+/// `names` as in expression_drive.h, known to both rigs. Throws Error, Interrupted.
+HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,
+                             const std::vector<std::string>& names, const std::string& quality,
+                             const Watch& watch = {});
+
+}  // namespace risorius::inverse

@@ -1,0 +1,39 @@
+// The pictures of an evaluation: every expression as simulated and as measured, and what lies between as colour on the face; contact
+// sheets of all of them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "risorius/geom/polygon_mesh.h"
+#include "risorius/inverse/evaluate.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::inverse {
+
+/// Cameras of the pictures, in this order.
+const std::vector<std::string>& evaluation_cameras();
+
+/// mm that the colours of the errors end at, the same for every head and run.
+inline constexpr double kErrorScale_mm = 6;
+
+struct EvaluationPictures {
+    static constexpr int kWidth_px = 396, kHeight_px = 440;  ///< of a single picture
+    /// What it shows -> its file: "neutral", "table", "fitted", "measured", "table_error", "fitted_error".
+    using Kinds = std::map<std::string, std::string>;
+    std::vector<std::map<std::string, Kinds>> expressions;  ///< per expression, by camera
+    std::map<std::string, std::string> sheets;              ///< by camera
+
+    std::vector<std::string> files() const;
+};
+
+/// Written below `folder`; names of files are relative to it. `area`: of each vertex, 0 where nothing is compared.
+EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
+                                   const geom::PolygonMesh& mesh, const rig::Head& head,
+                                   const Eigen::VectorXd& area, const std::filesystem::path& folder,
+                                   const Watch& watch);
+
+}  // namespace risorius::inverse

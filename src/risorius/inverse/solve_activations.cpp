@@ -1,0 +1,342 @@
+#include "risorius/inverse/solve_activations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "risorius/core/error.h"
+#include "risorius/core/parallel.h"
+#include "risorius/face/face.h"
+#include "risorius/inverse/detail/given_motion.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/rig/expression_drive.h"
+#include "risorius/scene/expression_score.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/scene/rig_files.h"
+
+namespace risorius::inverse {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using track::Kinematic;
+
+constexpr double kPressure_pa = 3000;           // in the mouth, at most
+constexpr double kRamp_s = 0.3, kHold_s = 0.4;  // of each shape, when they are shown in turn
+constexpr int kShapeFps = 30;
+constexpr int kShapeRounds = 16, kFrameRounds = 4;
+constexpr int kIterations = 400;       // of a pose, and how exactly it is
+constexpr double kTolerance_m = 5e-6;  // at rest: what landmarks are told to
+
+track::Drive nothing(const track::ChannelTable& channels) {
+    track::Drive drive;
+    drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    return drive;
+}
+
+void add_channel(std::vector<ActivationUnknown>& unknowns, Kinematic which, double most) {
+    const track::KinematicChannel& range =
+        track::kinematic_channels()[static_cast<std::size_t>(which)];
+    const double scale = std::min(most, range.max);
+    unknowns.push_back({.name = std::string(range.name),
+                        .columns = {},
+                        .channels = {which},
+                        .least = std::max(range.min / scale, -1.0),
+                        .most = 1,
+                        .scale = scale});
+}
+
+// Muscles and the jaw; pressure; gaze and tongue where their parts are counted.
+std::vector<ActivationUnknown> unknowns_of(const scene::RigFiles& files, const rig::Head& head,
+                                           const Eigen::VectorXd& weight) {
+    std::vector<ActivationUnknown> out =
+        activation_unknowns(files.rig, nothing(files.rig.channels()), true);
+    add_channel(out, Kinematic::kMouthPressure, kPressure_pa);
+    out.back().least = 0;
+    const auto counted = [&](rig::Carrier part) {
+        for (long v = 0; v < weight.size(); ++v)
+            if (head.carrier[static_cast<std::size_t>(v)] == part && weight[v] > 0) return true;
+        return false;
+    };
+    if (counted(rig::Carrier::kEyeLeft)) {
+        add_channel(out, Kinematic::kGazeYawLeft, 35);
+        add_channel(out, Kinematic::kGazePitchLeft, 35);
+    }
+    if (counted(rig::Carrier::kEyeRight)) {
+        add_channel(out, Kinematic::kGazeYawRight, 35);
+        add_channel(out, Kinematic::kGazePitchRight, 35);
+    }
+    if (counted(rig::Carrier::kTongue)) {
+        add_channel(out, Kinematic::kTongueOut, 1);
+        add_channel(out, Kinematic::kTongueUp, 1);
+    }
+    return out;
+}
+
+Eigen::VectorXd values_of(const std::vector<ActivationUnknown>& unknowns,
+                          const track::Drive& drive) {
+    Eigen::VectorXd out(static_cast<long>(unknowns.size()));
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+        out[static_cast<long>(i)] = value_of(unknowns[i], drive);
+    return out;
+}
+
+double squares(const Points& field, const Eigen::VectorXd& weight) {
+    return weight.dot(field.rowwise().squaredNorm());
+}
+
+void measure(const face::Face& face, const Points& given, const Eigen::VectorXd& weight,
+             SolvedDrive& out) {
+    const Points miss = face.pose().vertices - face.head().vertices - given;
+    const double whole = weight.sum();
+    out.rms_m = std::sqrt(squares(miss, weight) / whole);
+    out.given_rms_m = std::sqrt(squares(given, weight) / whole);
+    out.greatest_m = 0;
+    for (long v = 0; v < weight.size(); ++v)
+        if (weight[v] > 0) out.greatest_m = std::max(out.greatest_m, miss.row(v).norm());
+    out.highest = out.drive.excitation.cwiseAbs().maxCoeff();
+}
+
+class Solver {
+  public:
+    Solver(const SolveOptions& options, const scene::RigFiles& files, const GivenMotion& given,
+           const std::vector<ActivationUnknown>& unknowns)
+        : options_(options), files_(files), given_(given), unknowns_(unknowns) {}
+
+    std::vector<SolvedDrive> shapes(const Watch& watch) const {
+        std::vector<SolvedDrive> out(given_.fields.size());
+        std::mutex telling;
+        std::size_t done = 0;
+        SpareThreads spare(ThreadLimit(options_.threads).count() - 1);
+        parallel_for(static_cast<int>(out.size()), {options_.threads, &spare}, [&](int i) {
+            if (watch.stopped && watch.stopped()) throw Interrupted();
+            const std::unique_ptr<face::Face> face = at_rest();
+            SolvedDrive& one = out[static_cast<std::size_t>(i)];
+            ActivationFitOptions fit = usual(kShapeRounds, watch);
+            seek(*face, static_cast<std::size_t>(i), nothing(files_.rig.channels()), fit, one);
+            const std::lock_guard<std::mutex> lock(telling);
+            watch.tell(static_cast<double>(++done) / static_cast<double>(out.size()), one.name);
+        });
+        return out;
+    }
+
+    std::vector<SolvedDrive> sequence(const Watch& watch) const {
+        std::vector<SolvedDrive> out(given_.fields.size());
+        const std::unique_ptr<face::Face> face = at_rest();
+        ActivationFitOptions fit = usual(kFrameRounds, watch);
+        for (const Points& field : given_.fields)
+            fit.size = std::max(fit.size, squares(field, given_.weight));
+        if (!(fit.size > 0))
+            throw Error(options_.landmarks.string(), "landmarks that move", "none that does");
+        track::Drive last = nothing(files_.rig.channels());
+        fit.keep = options_.smooth;
+        for (std::size_t t = 0; t < out.size(); ++t) {
+            watch.tell(0.6 * static_cast<double>(t) / static_cast<double>(out.size()),
+                       given_.names[t]);
+            fit.near = values_of(unknowns_, last);
+            seek(*face, t, last, fit, out[t]);
+            last = out[t].drive;
+        }
+        // Between both neighbours
+        fit.keep = 2 * options_.smooth;
+        fit.rounds = 1;
+        for (std::size_t t = out.size(); t-- > 0;) {
+            watch.tell(1 - 0.4 * static_cast<double>(t + 1) / static_cast<double>(out.size()),
+                       given_.names[t]);
+            if (t == 0 || t + 1 == out.size()) continue;
+            fit.near = 0.5 * (values_of(unknowns_, out[t - 1].drive) +
+                              values_of(unknowns_, out[t + 1].drive));
+            seek(*face, t, out[t].drive, fit, out[t]);
+        }
+        return out;
+    }
+
+  private:
+    ActivationFitOptions usual(int rounds, const Watch& watch) const {
+        ActivationFitOptions fit;
+        fit.rounds = rounds;
+        fit.price = options_.price;
+        fit.ridge = options_.ridge;
+        fit.least_gain = 3e-3;
+        fit.rest = {.iterations = kIterations,
+                    .tolerance_m = kTolerance_m,
+                    .planes_m = kTolerance_m,
+                    .stopped = watch.stopped};
+        return fit;
+    }
+    std::unique_ptr<face::Face> at_rest() const {
+        auto face = std::make_unique<face::Face>(
+            files_.rig, files_.mesh, face::quality_named(options_.quality), files_.place());
+        const track::Drive rest = nothing(files_.rig.channels());
+        face->start([&](double) { return rest; });
+        return face;
+    }
+    void seek(face::Face& face, std::size_t i, const track::Drive& begin,
+              const ActivationFitOptions& fit, SolvedDrive& out) const {
+        out.name = given_.names[i];
+        if (!given_.times_s.empty()) out.time_s = given_.times_s[i];
+        out.drive = begin;
+        if (squares(given_.fields[i], given_.weight) > 0 || fit.size > 0)
+            out.drive =
+                fit_activations(face, unknowns_, given_.fields[i], given_.weight, begin, fit);
+        measure(face, given_.fields[i], given_.weight, out);
+    }
+
+    const SolveOptions& options_;
+    const scene::RigFiles& files_;
+    const GivenMotion& given_;
+    const std::vector<ActivationUnknown>& unknowns_;
+};
+
+// Every shape in turn, or the frames as they come; muscles straight to their activation.
+Json script_of(const SolveReport& report, const SolveOptions& options) {
+    const double each_s = 2 * kRamp_s + kHold_s;
+    const double duration_s = report.sequence ? report.solved.back().time_s + 1.0 / options.fps
+                                              : each_s * static_cast<double>(report.solved.size());
+    Json channels = Json::object();
+    const auto add = [&](const std::string& name, bool muscle, auto&& value) {
+        bool used = false;
+        for (const SolvedDrive& one : report.solved) used = used || value(one.drive) != 0;
+        if (!used) return;
+        Json keys = Json::array();
+        const auto key = [&](double t_s, double v) {
+            keys.push_back({std::round(1e6 * t_s) / 1e6, std::round(1e6 * v) / 1e6});
+        };
+        for (std::size_t i = 0; i < report.solved.size(); ++i) {
+            const double v = value(report.solved[i].drive);
+            if (report.sequence) {
+                key(report.solved[i].time_s, v);
+                continue;
+            }
+            const double from_s = each_s * static_cast<double>(i);
+            if (i == 0) key(from_s, 0);
+            key(from_s + kRamp_s, v);
+            key(from_s + kRamp_s + kHold_s, v);
+            key(from_s + each_s, 0);
+        }
+        Json channel{{"keys", keys}, {"interpolation", "linear"}};
+        if (muscle) channel["activation"] = true;
+        channels[name] = channel;
+    };
+    const std::vector<std::string> columns = report.channels.column_names();
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        add(columns[c], true,
+            [c](const track::Drive& drive) { return drive.excitation[static_cast<long>(c)]; });
+    for (int k = 0; k < track::kKinematicCount; ++k)
+        add(std::string(track::kinematic_channels()[static_cast<std::size_t>(k)].name), false,
+            [k](const track::Drive& drive) { return drive.at(static_cast<Kinematic>(k)); });
+    return {{"format", "risorius-script"},
+            {"version", 1},
+            {"rig", fs::absolute(options.rig)
+                        .lexically_normal()
+                        .lexically_proximate(fs::absolute(options.out).lexically_normal())
+                        .generic_string()},
+            {"fps", report.sequence ? options.fps : kShapeFps},
+            {"duration_s", duration_s},
+            {"seed", 1},
+            {"motion", "quasi_static"},
+            {"channels", channels}};
+}
+
+}  // namespace
+
+double SolveReport::rms_m() const {
+    double sum = 0;
+    for (const SolvedDrive& one : solved) sum += one.rms_m * one.rms_m;
+    return solved.empty() ? 0 : std::sqrt(sum / static_cast<double>(solved.size()));
+}
+
+Json SolveReport::json() const {
+    Json list = Json::array();
+    for (const SolvedDrive& one : solved) {
+        Json entry{{"name", one.name}};
+        if (sequence) entry["time_s"] = one.time_s;
+        entry["rms_mm"] = 1e3 * one.rms_m;
+        entry["max_mm"] = 1e3 * one.greatest_m;
+        entry["given_rms_mm"] = 1e3 * one.given_rms_m;
+        entry["drive"] = rig::drive_json(one.drive, channels);
+        list.push_back(entry);
+    }
+    return {{"format", "risorius-solve"},
+            {"version", 1},
+            {"name", name},
+            {"rig", rig},
+            {"given", given},
+            {"kind", sequence ? "frames" : "shapes"},
+            {"points", points},
+            {"rms_mm", 1e3 * rms_m()},
+            {"solved", list}};
+}
+
+SolveReport solve_activations(const SolveOptions& options, const Watch& watch) {
+    const int kinds =
+        !options.shapes.empty() + !options.meshes.empty() + !options.landmarks.empty();
+    if (kinds != 1)
+        throw Error("solve", "one of --shapes, --mesh and --landmarks",
+                    kinds == 0 ? "none" : std::to_string(kinds));
+    if (!options.only.empty() && options.shapes.empty())
+        throw Error("--only", "--shapes to choose from", "none");
+    for (const auto& [name, value] :
+         {std::pair{"--price", options.price}, std::pair{"--ridge", options.ridge},
+          std::pair{"--smooth", options.smooth}})
+        if (!(value >= 0 && value <= 1e3))
+            throw Error(name, "a number in [0, 1000]", format_number(value));
+    if (options.fps < 1 || options.fps > 240)
+        throw Error("--fps", "an integer in [1, 240]", std::to_string(options.fps));
+    const scene::RigFiles files = scene::read_rig_files(options.rig);
+    report::StagedFolder folder(options.out);
+    watch.tell(0, "building the face");
+    face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
+    GivenMotion given;
+    if (!options.landmarks.empty()) {
+        // How far everything that is sought moves each landmark at most
+        const scene::LandmarkPoints points(face.head(), files.rig);
+        const track::Drive rest = nothing(files.rig.channels());
+        face.start([&](double) { return rest; });
+        face.settle(rest.excitation, rest);
+        std::vector<int> columns;
+        for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
+            columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
+        const std::vector<Points> ways =
+            face.sensitivities(columns, std::array{Kinematic::kJawOpen});
+        std::vector<double> most_m;
+        for (const std::string& id : points.ids()) {
+            double most = 0;
+            for (const Points& way : ways) most = std::max(most, way.row(points.vertex(id)).norm());
+            most_m.push_back(most);
+        }
+        given = given_landmarks(options.landmarks, options.fps, points, most_m,
+                                face.head().vertices.rows());
+    } else {
+        given = options.meshes.empty() ? given_shapes(options.shapes, options.only, files, face)
+                                       : given_meshes(options.meshes, files, face);
+    }
+    const std::vector<ActivationUnknown> unknowns = unknowns_of(files, face.head(), given.weight);
+    SolveReport report;
+    report.name = files.rig.name;
+    report.rig = options.rig.generic_string();
+    report.given = (!options.shapes.empty()   ? options.shapes
+                    : !options.meshes.empty() ? options.meshes.front()
+                                              : options.landmarks)
+                       .generic_string();
+    report.sequence = !options.landmarks.empty();
+    report.points = static_cast<int>((given.weight.array() > 0).count());
+    report.channels = files.rig.channels();
+    const Solver solver(options, files, given, unknowns);
+    report.solved = report.sequence ? solver.sequence(watch) : solver.shapes(watch);
+
+    report::write_text(folder.partial() / "script.json", script_of(report, options).dump(1) + "\n");
+    Json json = report.json();
+    json[report::kFilesKey] = {"results.json", "script.json"};
+    report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    folder.commit();
+    return report;
+}
+
+}  // namespace risorius::inverse

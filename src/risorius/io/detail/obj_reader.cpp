@@ -1,0 +1,264 @@
+#include "risorius/io/detail/obj_reader.h"
+
+#include <array>
+#include <charconv>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "risorius/core/error.h"
+
+namespace risorius::io::detail {
+namespace {
+
+constexpr int kNoTexCoord = -1;
+const std::string kDefaultGroup = "default";  // the name the format gives to faces before any "g"
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// What stands in the file at an error, kept short and printable.
+std::string quoted(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text.substr(0, 24)) out += (c >= 32 && c < 127) ? c : '?';
+    if (text.size() > 24) out += "...";
+    return out + "\"";
+}
+
+class ObjReader {
+  public:
+    ObjReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+
+    geom::PolygonMesh read() {
+        std::size_t at = 0;
+        std::string joined;
+        while (at < text_.size()) {
+            std::string_view line = next_line(at);
+            // A backslash at the end of a line continues it on the next.
+            if (!line.empty() && line.back() == '\\') {
+                joined.assign(line.substr(0, line.size() - 1));
+                while (at < text_.size()) {
+                    const std::string_view more = next_line(at);
+                    const bool goes_on = !more.empty() && more.back() == '\\';
+                    joined += ' ';
+                    joined += more.substr(0, more.size() - (goes_on ? 1 : 0));
+                    if (!goes_on) break;
+                }
+                line = joined;
+            }
+            read_statement(line);
+        }
+        return finish();
+    }
+
+    ObjMaterials take_materials() {
+        return {std::move(libraries_), std::move(material_names_), std::move(face_material_)};
+    }
+
+  private:
+    std::string_view next_line(std::size_t& at) {
+        std::size_t end = text_.find('\n', at);
+        if (end == std::string_view::npos) end = text_.size();
+        std::string_view line = text_.substr(at, end - at);
+        while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+        at = end + 1;
+        ++line_;
+        return line;
+    }
+
+    static std::string_view next_word(std::string_view& rest) {
+        std::size_t begin = 0;
+        while (begin < rest.size() && is_blank(rest[begin])) ++begin;
+        std::size_t end = begin;
+        while (end < rest.size() && !is_blank(rest[end])) ++end;
+        const std::string_view word = rest.substr(begin, end - begin);
+        rest.remove_prefix(end);
+        return word;
+    }
+
+    [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
+        throw Error(name_ + ":" + std::to_string(line_), expected, found);
+    }
+
+    void read_statement(std::string_view rest) {
+        const std::string_view key = next_word(rest);
+        if (key.empty() || key.front() == '#') return;
+        if (key == "v") {
+            std::array<double, 3> p;
+            read_numbers(rest, p.data(), 3, "three coordinates after \"v\"");
+            positions_.push_back(p);
+        } else if (key == "vt") {
+            std::array<double, 2> t{0.0, 0.0};
+            read_numbers(rest, t.data(), 2, "two coordinates after \"vt\"");
+            texcoords_.push_back(t);
+        } else if (key == "f") {
+            read_face(rest);
+        } else if (key == "g" || key == "o") {
+            has_groups_ = true;
+            group_ = group_named(rest, group_names_, group_of_name_);
+        } else if (key == "usemtl") {
+            material_ = group_named(rest, material_names_, material_of_name_);
+        } else if (key == "mtllib") {
+            while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+            while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
+            libraries_.emplace_back(rest);
+        } else if (stranger_.empty() && key != "vn" && key != "s") {
+            stranger_ = quoted(key);
+            stranger_line_ = line_;
+        }
+    }
+
+    void read_numbers(std::string_view rest, double* out, int count, const char* expected) {
+        for (int k = 0; k < count; ++k) {
+            std::string_view word = next_word(rest);
+            if (word.empty()) fail(expected, std::to_string(k));
+            const std::string_view whole = word;
+            if (word.front() == '+') word.remove_prefix(1);
+            const auto [end, problem] =
+                std::from_chars(word.data(), word.data() + word.size(), out[k]);
+            if (problem == std::errc::result_out_of_range)
+                fail("a number that a double can hold", quoted(whole));
+            if (problem != std::errc() || end != word.data() + word.size())
+                fail("a number", quoted(whole));
+        }
+    }
+
+    /// OBJ counts from 1, and from the latest backwards when negative.
+    int resolve(int index, std::size_t count, const char* what) const {
+        const int n = static_cast<int>(count);
+        const int resolved = index > 0 ? index - 1 : n + index;
+        if (index == 0 || resolved < 0)
+            fail(std::string("the index of a ") + what + " (from 1, or back from -1)",
+                 std::to_string(index));
+        return resolved;
+    }
+
+    void read_face(std::string_view rest) {
+        int corners = 0;
+        for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+            const char* const end = word.data() + word.size();
+            int vertex = 0, texcoord = 0;
+            auto [at, problem] = std::from_chars(word.data(), end, vertex);
+            if (problem != std::errc())
+                fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+            corner_vertex_.push_back(resolve(vertex, positions_.size(), "vertex"));
+            int corner_texcoord = kNoTexCoord;
+            if (at != end && *at == '/' && at + 1 != end && at[1] != '/') {
+                std::tie(at, problem) = from_chars_pair(at + 1, end, texcoord);
+                if (problem != std::errc())
+                    fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+                corner_texcoord = resolve(texcoord, texcoords_.size(), "texture coordinate");
+            }
+            if (at != end && *at != '/')
+                fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+            corner_texcoord_.push_back(corner_texcoord);
+            ++corners;
+        }
+        if (corners < 3) fail("a face of at least three corners", std::to_string(corners));
+        face_begin_.push_back(static_cast<int>(corner_vertex_.size()));
+        face_line_.push_back(line_);
+        face_group_.push_back(group_);
+        face_material_.push_back(material_);
+    }
+
+    static std::pair<const char*, std::errc> from_chars_pair(const char* begin, const char* end,
+                                                             int& value) {
+        const auto result = std::from_chars(begin, end, value);
+        return {result.ptr, result.ec};
+    }
+
+    /// A "g" line may list several names; they stay one name with spaces, as written.
+    static int group_named(std::string_view rest, std::vector<std::string>& names,
+                           std::unordered_map<std::string, int>& index) {
+        while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+        const std::string name = rest.empty() ? kDefaultGroup : std::string(rest);
+        const auto [entry, is_new] = index.try_emplace(name, static_cast<int>(names.size()));
+        if (is_new) names.push_back(name);
+        return entry->second;
+    }
+
+    geom::PolygonMesh finish() {
+        if (positions_.empty() || face_line_.empty()) {
+            const std::string expected =
+                positions_.empty() ? "vertices (\"v x y z\")" : "faces (\"f a b c\")";
+            if (stranger_.empty()) throw Error(name_, expected, "none");
+            throw Error(
+                name_, expected,
+                "none (line " + std::to_string(stranger_line_) + " begins with " + stranger_ + ")");
+        }
+        // An index may point ahead of its face, so the upper end is only known now.
+        const int vertex_count = static_cast<int>(positions_.size());
+        const int texcoord_count = static_cast<int>(texcoords_.size());
+        bool any_texcoord = false;
+        for (std::size_t face = 0; face < face_line_.size(); ++face)
+            for (int c = face_begin_[face]; c < face_begin_[face + 1]; ++c) {
+                line_ = face_line_[face];
+                if (corner_vertex_[c] >= vertex_count)
+                    fail("a vertex index of at most " + std::to_string(vertex_count),
+                         std::to_string(corner_vertex_[c] + 1));
+                if (corner_texcoord_[c] >= texcoord_count)
+                    fail("a texture coordinate index of at most " + std::to_string(texcoord_count),
+                         std::to_string(corner_texcoord_[c] + 1));
+                any_texcoord |= corner_texcoord_[c] != kNoTexCoord;
+            }
+
+        geom::PolygonMesh mesh;
+        mesh.positions.resize(vertex_count, 3);
+        for (int v = 0; v < vertex_count; ++v)
+            for (int k = 0; k < 3; ++k) mesh.positions(v, k) = positions_[v][k];
+        if (any_texcoord) {
+            mesh.corner_texcoord.setZero(static_cast<long>(corner_vertex_.size()), 2);
+            for (std::size_t c = 0; c < corner_vertex_.size(); ++c)
+                if (corner_texcoord_[c] != kNoTexCoord)
+                    for (int k = 0; k < 2; ++k)
+                        mesh.corner_texcoord(static_cast<long>(c), k) =
+                            texcoords_[corner_texcoord_[c]][k];
+        }
+        mesh.face_begin = std::move(face_begin_);
+        mesh.corner_vertex = std::move(corner_vertex_);
+        name_groups(mesh);
+        return mesh;
+    }
+
+    /// Groups in the order of their first face, so that a name without faces is no group.
+    void name_groups(geom::PolygonMesh& mesh) const {
+        const bool by_material = !has_groups_ && !material_names_.empty();
+        const std::vector<std::string>& names = by_material ? material_names_ : group_names_;
+        std::unordered_map<std::string, int> seen;
+        for (const int named : by_material ? face_material_ : face_group_) {
+            const std::string& name = named == kUnnamed ? kDefaultGroup : names[named];
+            const auto [entry, is_new] =
+                seen.try_emplace(name, static_cast<int>(mesh.group_names.size()));
+            if (is_new) mesh.group_names.push_back(name);
+            mesh.face_group.push_back(entry->second);
+        }
+    }
+
+    static constexpr int kUnnamed = -1;
+
+    std::string_view text_;
+    std::string name_;
+    int line_ = 0;
+    std::vector<std::array<double, 3>> positions_;
+    std::vector<std::array<double, 2>> texcoords_;
+    std::vector<int> face_begin_{0}, face_line_, face_group_, face_material_;
+    std::vector<int> corner_vertex_, corner_texcoord_;
+    bool has_groups_ = false;
+    int group_ = kUnnamed, material_ = kUnnamed;
+    std::vector<std::string> group_names_, material_names_, libraries_;
+    std::unordered_map<std::string, int> group_of_name_, material_of_name_;
+    std::string stranger_;
+    int stranger_line_ = 0;
+};
+
+}  // namespace
+
+geom::PolygonMesh read_obj(const std::string& text, const std::string& name,
+                           ObjMaterials* materials) {
+    ObjReader reader(text, name);
+    geom::PolygonMesh mesh = reader.read();
+    if (materials) *materials = reader.take_materials();
+    return mesh;
+}
+
+}  // namespace risorius::io::detail

@@ -1,0 +1,30 @@
+// Wavefront OBJ by its own indices: vertex i of the result is the i-th "v" of the file.
+//
+// assimp splits an OBJ by object and material and gives every face corner a vertex of its own; the
+// index of the "v" line is lost, and positions cannot bring it back because several vertices of a
+// face may share one (a closed lid, a seam between regions). Displacement tables and landmark lists
+// are by that index, so this format is read here.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "risorius/geom/polygon_mesh.h"
+
+namespace risorius::io::detail {
+
+/// What the faces are made of, by name; the libraries that tell more are not read here.
+struct ObjMaterials {
+    std::vector<std::string> libraries;  ///< of "mtllib", as written
+    std::vector<std::string> names;
+    std::vector<int> of_face;  ///< F, into names; -1 before the first "usemtl"
+};
+
+/// Understands v, vt, f, g, o and usemtl, relative indices and continued lines; passes over the
+/// rest. A face belongs to the last "g" or "o" before it ("default" before the first); in a file
+/// without either, to its material. `name` opens the messages, which number lines and indices from
+/// 1 as the file does.
+geom::PolygonMesh read_obj(const std::string& text, const std::string& name,
+                           ObjMaterials* materials = nullptr);
+
+}  // namespace risorius::io::detail

@@ -1,0 +1,30 @@
+// Pictures and their sound into one file. Knows nothing of temporary names.
+//
+// bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
+// milliseconds; the exact frame period stands in its DefaultDuration.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "risorius/core/image.h"
+#include "risorius/media/detail/video_form.h"
+
+namespace risorius::media::detail {
+
+class Encoder {
+  public:
+    /// `name` stands in messages, since `file` is a temporary name. `form` is no folder.
+    Encoder(const std::filesystem::path& file, std::string name, Form form,
+            const VideoOptions& options, bool alpha);
+    ~Encoder();
+    void append(const Image& frame);
+    void finish();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace risorius::media::detail

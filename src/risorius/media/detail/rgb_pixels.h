@@ -1,0 +1,14 @@
+// Pixels of 8-bit RGB frames, packed or in planes, to and from pictures, to the bit.
+#pragma once
+
+#include "risorius/core/image.h"
+#include "risorius/media/detail/ffmpeg.h"
+
+namespace risorius::media::detail {
+
+/// Whether a frame of this format is one of those.
+bool is_rgb_of_bytes(AVPixelFormat format);
+void put_rgb_pixels(const Image& image, AVFrame& frame);
+Image rgb_pixels_of(const AVFrame& frame);  ///< opaque when the frame has no alpha
+
+}  // namespace risorius::media::detail

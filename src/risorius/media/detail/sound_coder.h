@@ -1,0 +1,38 @@
+// Sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
+//
+// The stream begins with the first frame and ends with the last: silence before and after the recording, and what reaches
+// beyond is cut. So the place of a sample does not hang on time stamps, which Matroska rounds to a millisecond.
+#pragma once
+
+#include <string>
+
+#include "risorius/media/detail/ffmpeg.h"
+#include "risorius/media/detail/video_form.h"
+
+namespace risorius::media::detail {
+
+class SoundCoder {
+  public:
+    /// `offset_samples` of the recording's own rate from the first frame to its first sample.
+    SoundCoder(std::string name, Form form, const Sound& recording, std::int64_t offset_samples,
+               bool headers_apart);
+
+    /// Hands the encoder what comes before a time; true while there are packets to receive() first.
+    bool send_until(std::int64_t sample);
+    void send_end(std::int64_t sample);  ///< the same, with a last piece of any length
+    bool receive(AVPacket* packet);
+    const AVCodecContext& codec() const { return *codec_; }
+
+  private:
+    void send(int length);
+    void check(int code, const char* what) const;
+
+    std::string name_;
+    Sound sound_;
+    std::int64_t first_ = 0;  ///< sample of the stream that is the first of the sound
+    CodecPtr codec_;
+    FramePtr piece_;
+    std::int64_t next_ = 0;
+};
+
+}  // namespace risorius::media::detail

@@ -1,0 +1,35 @@
+// What a target's ending asks for: the container, and which way pictures are coded in it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "risorius/media/video_writer.h"
+
+namespace risorius::media::detail {
+
+enum class Form { kMp4, kMov, kMatroska, kWebm, kFolder };
+
+/// Throws Error for an ending that is none of these.
+Form form_of(const std::filesystem::path& target);
+
+enum class Coding {
+    kH264,     ///< 8 bits, yuv420p or yuv444p
+    kH264Rgb,  ///< lossless
+    kProRes,   ///< 4444 with alpha, 10 bits of colour
+    kPng,      ///< lossless with alpha
+    kFfv1,     ///< lossless, with alpha or without
+    kVp9,      ///< 8 bits, yuv420p or yuv444p, alpha beside yuv420p
+    kVp9Rgb,   ///< lossless
+};
+
+/// For every form but a folder.
+Coding coding_of(Form form, const VideoOptions& options, bool alpha);
+
+/// Colour at half the resolution of brightness.
+bool halves_colour(Coding coding, const VideoOptions& options);
+
+/// The options against the form, place first: Throws Error for what the form cannot do.
+void check_options(const std::string& place, Form form, const VideoOptions& options);
+
+}  // namespace risorius::media::detail

@@ -1,0 +1,27 @@
+// Pictures to and from files (libpng): PNG with or without alpha.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "risorius/core/image.h"
+
+namespace risorius::media {
+
+/// Written beside and renamed, never half. Alpha is kept when any pixel is not opaque. Throws RunError when it cannot be written.
+void write_png(const Image& image, const std::filesystem::path& file);
+/// 16 bits per channel: the picture's own deep pixels, or where it has none its 8 bits spread over 16.
+void write_png16(const Image& image, const std::filesystem::path& file);
+/// Numbers rather than colours: one channel, 8 or 16 bits, rows from the top.
+void write_grey_png(int width_px, int height_px, int bits,
+                    const std::vector<std::uint16_t>& samples, const std::filesystem::path& file);
+/// Whether any pixel is not opaque.
+bool has_transparency(const Image& image);
+Image read_png(const std::filesystem::path& file);
+
+/// Writes ASCII text, its baseline beginning at x, y; capitals are `height_px` high. For captions of pictures.
+void put_text(Image& image, const std::string& text, int x, int y, int height_px);
+
+}  // namespace risorius::media

@@ -1,0 +1,42 @@
+// What a picture is as a stimulus, from its own pixels: how light, how much contrast, how much has changed since the last.
+//
+//   Y    relative luminance of a pixel, 0 black .. 1 white: sRGB decoded to linear light (IEC 61966-2-1), BT.709 weights
+//
+// A screen whose luminance grows with the decoded value shows them in proportion; transparent pixels count by their opacity.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "risorius/core/image.h"
+
+namespace risorius::media {
+
+struct PictureMeasures {
+    double luminance_mean = 0;  ///< of Y
+    double luminance_sd = 0;    ///< RMS contrast as Peli 1990, J. Opt. Soc. Am. A 7(10), has it
+    double contrast_rms = 0;    ///< luminance_sd / luminance_mean
+    double motion_energy = 0;   ///< mean of (Y - Y of the picture before)^2; 0 for the first
+};
+
+class LuminanceMeter {
+  public:
+    /// Pictures in their order, all of one size.
+    PictureMeasures measure(const Image& image);
+
+  private:
+    /// Sums over some neighbouring pixels, which stay what they are while these do.
+    struct Block {
+        double opacity = 0, sum = 0, squares = 0;
+    };
+    std::vector<std::uint8_t> before_;  ///< RGBA of the last picture
+    std::vector<Block> blocks_;
+};
+
+/// Mean of Y where the mask is not 0; not a number where it is 0 everywhere.
+double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask);
+
+/// Y of an sRGB pixel.
+double relative_luminance(const std::uint8_t* rgb);
+
+}  // namespace risorius::media

@@ -1,0 +1,18 @@
+// Pictures of any common kind (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "risorius/core/image.h"
+
+namespace risorius::media {
+
+/// Throws Error naming the file when it is missing or no picture.
+Image read_picture(const std::filesystem::path& file);
+/// The same from the bytes of a file, which messages call `name`.
+Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name);
+
+}  // namespace risorius::media

@@ -1,0 +1,60 @@
+#include "risorius/media/sha256.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "risorius/core/error.h"
+
+namespace risorius::media {
+
+struct Sha256::Impl {
+    std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+
+    Impl() { check(context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr)); }
+    static void check(bool done) {
+        if (!done) throw RunError("SHA-256 cannot be had from OpenSSL's libcrypto");
+    }
+};
+
+Sha256::Sha256() : impl_(std::make_unique<Impl>()) {}
+Sha256::~Sha256() = default;
+
+void Sha256::add(const void* bytes, std::size_t count) {
+    Impl::check(EVP_DigestUpdate(impl_->context.get(), bytes, count));
+}
+
+std::string Sha256::finish() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned count = 0;
+    Impl::check(EVP_DigestFinal_ex(impl_->context.get(), digest.data(), &count));
+    constexpr char kDigits[] = "0123456789abcdef";
+    std::string text;
+    for (unsigned i = 0; i < count; ++i) {
+        text += kDigits[digest[i] >> 4];
+        text += kDigits[digest[i] & 15];
+    }
+    return text;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw Error(file.string(), "a readable file", "no such file");
+    if (std::filesystem::is_directory(file, ignored))
+        throw Error(file.string(), "a readable file", "a folder");
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
+                                                             &std::fclose);
+    if (!in) throw Error(file.string(), "a readable file", "one that cannot be opened");
+    Sha256 sha;
+    std::vector<char> block(1 << 20);
+    std::size_t got = 0;
+    while ((got = std::fread(block.data(), 1, block.size(), in.get())) > 0)
+        sha.add(block.data(), got);
+    if (std::ferror(in.get())) throw Error(file.string(), "a readable file", "a read error");
+    return sha.finish();
+}
+
+}  // namespace risorius::media

@@ -1,0 +1,31 @@
+// Marks in a corner of every picture for machines that watch the screen: a square for a photodiode, and the number of the
+// frame as black and white cells that survive any encoder and are read back without a font.
+//
+// The counter is a strip of 24 square cells, from the left: white, black, the number as 20 bits with the most significant
+// first (white is 1), a cell that makes the number of white bits even, white. Numbers start again at 2^20.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/image.h"
+
+namespace risorius::media {
+
+enum class Corner { kUpperLeft, kUpperRight, kLowerLeft, kLowerRight };
+/// "upper_left", ...
+const std::vector<std::string>& corner_names();
+Corner corner_named(const std::string& name, const std::string& place);
+
+inline constexpr int kCounterCells = 24;
+
+/// A white or black square of this side; cut where the picture ends.
+void draw_photodiode(Corner corner, int side_px, bool lit, Image& image);
+
+/// `cell_px`: side of a cell.
+void draw_frame_counter(Corner corner, int cell_px, int frame, Image& image);
+/// The number on the picture; nothing when there is none, or it does not check.
+std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& image);
+
+}  // namespace risorius::media

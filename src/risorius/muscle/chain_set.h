@@ -1,0 +1,75 @@
+// Fibres of a volume muscle with their tendons: chains of nodes that pull along themselves with one tension each.
+//
+//   L    length of a chain, all its segments     lT   of it tendon, lTs when just slack     S = L - lT   of it fibres
+//   r    l/l0 at rest      alpha   pennation at l0      S0   S at rest, when the tendon is just slack
+//   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, thickness constant
+//   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
+//
+// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The length is that of the whole chain: segments in
+// series cannot run apart, and a stiff tendon makes no stiff segment. A short tendon may be rigid: lT = lTs.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/muscle/muscle_curves.h"
+#include "risorius/solve/hessian_builder.h"
+
+namespace risorius::solve {
+enum class Curvature;
+}
+
+namespace risorius::muscle {
+
+struct ChainProperties {
+    double f0_n = 0;           ///< F0 of one chain                                [0, inf)
+    double rest_stretch = 1;   ///< r                                              (sin alpha, inf)
+    double pennation_rad = 0;  ///< alpha                                          [0, pi/2)
+    double tendon_share = 0;   ///< lTs / length of a chain at rest                [0, 1)
+    bool rigid_tendon = true;
+};
+
+class ChainSet {
+  public:
+    /// Each chain is a list of two or more rows of `rest`. Throws std::invalid_argument for a segment without length.
+    ChainSet(std::vector<std::vector<int>> chains, const Points& rest, ChainProperties properties,
+             MuscleCurves curves);
+
+    void set_f0(double f0_n) { properties_.f0_n = f0_n; }
+    const ChainProperties& properties() const { return properties_; }
+
+    /// Returns E, J, and adds dE/dx to `gradient`, N.
+    double add_energy(const Points& x, double activation, Points& gradient) const;
+
+    /// A positive second derivative, segment by segment: a chain's stiffness is given to its segments in series.
+    /// Node i is row `row[i]` of the builder.
+    void add_stiffness(const Points& x, double activation, const std::vector<int>& row,
+                       solve::HessianBuilder& hessian) const;
+
+    /// The second derivative of E itself: the one stiffness of a chain joins all its nodes. kPositive without its negative
+    /// part. Node i is row `row[i]` of the builder.
+    void add_hessian(const Points& x, double activation, solve::Curvature curvature,
+                     const std::vector<int>& row, solve::HessianBuilder& hessian) const;
+
+    double mean_stretch(const Points& x, double activation) const;  ///< of lam / r over the chains
+
+  private:
+    struct Chain {
+        std::vector<int> node;
+        double fibre_m = 0;   ///< S0
+        double tendon_m = 0;  ///< lTs
+    };
+    struct Pull {
+        double tension = 0, slope = 0, energy = 0;
+        double stretch = 1;  ///< lam
+    };
+    double length(const Chain& chain, const Points& x) const;
+    Pull fibre_pull(const Chain& chain, double fibre_m, double activation) const;
+    Pull pull(const Chain& chain, double length_m, double activation) const;
+
+    std::vector<Chain> chains_;
+    ChainProperties properties_;
+    MuscleCurves curves_;
+};
+
+}  // namespace risorius::muscle

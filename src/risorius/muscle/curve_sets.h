@@ -1,0 +1,36 @@
+// The published sets of force curves by name, and how a file chooses and tunes one:
+//
+//   "curves": "thelen2003"                                     as published
+//   "curves": {"set": "zajac", "tendon_strain": 0.05}          with numbers of one's own; keys are the fields of the shape
+//
+//   zajac         F. E. Zajac 1989 and S. L. Delp 1990            muscle_curves.h
+//   thelen2003    D. G. Thelen 2003                               thelen_curves.h
+//   millard2013   M. Millard, T. Uchida, A. Seth, S. L. Delp 2013   millard_curves.h
+#pragma once
+
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/muscle/detail/millard_curves.h"
+#include "risorius/muscle/detail/thelen_curves.h"
+#include "risorius/muscle/muscle_curves.h"
+
+namespace risorius::muscle {
+
+/// Which set, and its numbers.
+using CurveShape = std::variant<ZajacShape, ThelenShape, MillardShape>;
+
+const std::vector<std::string_view>& curve_set_names();
+
+/// As published. Throws Error naming `place`.
+CurveShape curve_set_named(const std::string& name, const std::string& place = "curves");
+
+/// A name, or an object. Throws Error for what make_curves would refuse.
+CurveShape read_curve_shape(const JsonCursor& json);
+
+/// Throws std::invalid_argument when numbers are outside their ranges or do not go together.
+MuscleCurves make_curves(const CurveShape& shape);
+
+}  // namespace risorius::muscle

@@ -1,0 +1,63 @@
+// A curve as a table for inner loops: its integral as cubics on equal cells, its value as their slope, so that energy and
+// force agree to rounding whatever the width of the cells.
+//
+// At the ends of cells value and integral are those of the curve; between them the value is off by less than
+// f''' w^2 / 70, w the width of a cell. Beyond the table the curve itself is asked.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "risorius/muscle/detail/curve.h"
+#include "risorius/solve/lanes.h"
+
+namespace risorius::muscle {
+
+class CurveTable {
+  public:
+    struct Value {
+        double value, integral;
+    };
+    /// From `low` to `high` in `cells` equal cells. Ends of cells should lie where the curve has kinks.
+    CurveTable(const Curve& curve, double low, double high, int cells);
+
+    Value at(double x) const {
+        const double place = (x - low_) * cells_per_unit_;
+        if (!(place >= 0 && place < static_cast<double>(cells_.size()))) return beyond(x);
+        const auto cell = static_cast<std::size_t>(place);
+        const solve::Lanes& c = cells_[cell];
+        const double u = x - (low_ + static_cast<double>(cell) * width_);
+        return {c[1] + u * (2 * c[2] + u * 3 * c[3]), c[0] + u * (c[1] + u * (c[2] + u * c[3]))};
+    }
+
+    struct Values {
+        solve::Lanes value, integral;
+    };
+    /// The same four times, with the same bits.
+    Values at(const solve::Lanes& x) const {
+        const solve::Lanes place = (x - low_) * cells_per_unit_;
+        const auto within = (place >= 0.0) & (place < static_cast<double>(cells_.size()));
+        if (!(within[0] & within[1] & within[2] & within[3])) return one_by_one(x);
+        typedef std::int32_t Cells __attribute__((vector_size(16)));
+        const Cells cell = __builtin_convertvector(place, Cells);
+        const solve::Lanes begin = __builtin_convertvector(cell, solve::Lanes);
+        const solve::Lanes row[4] = {
+            cells_[static_cast<std::size_t>(cell[0])], cells_[static_cast<std::size_t>(cell[1])],
+            cells_[static_cast<std::size_t>(cell[2])], cells_[static_cast<std::size_t>(cell[3])]};
+        const solve::Lanes u = x - (low_ + begin * width_);
+        solve::Lanes c0, c1, c2, c3;
+        solve::transpose(row, c0, c1, c2, c3);
+        return {c1 + u * (2 * c2 + u * 3 * c3), c0 + u * (c1 + u * (c2 + u * c3))};
+    }
+
+  private:
+    Value beyond(double x) const;
+    Values one_by_one(const solve::Lanes& x) const;
+
+    Curve curve_;
+    double low_, width_, cells_per_unit_;
+    std::vector<solve::Lanes>
+        cells_;  ///< c0 .. c3: c0 + c1 u + c2 u^2 + c3 u^3, u from the begin of a cell
+};
+
+}  // namespace risorius::muscle

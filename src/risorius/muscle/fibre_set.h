@@ -1,0 +1,156 @@
+// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
+//
+//   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   greatest force, N
+//   at rest     E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
+//   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
+//               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths a second
+//
+// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv Hill's as in muscle/muscle_curves.h, Ifl, Ifp and
+// Ifv their integrals. A step's E is convex in l, and what comes to rest in steps (l = l_n, fv = 1) is at rest. fl is that
+// of each segment, not of the whole fibre: segments on the falling limb, which would run apart in series, are held by the
+// tissue they lie in.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/muscle/detail/curve.h"
+#include "risorius/muscle/detail/curve_table.h"
+#include "risorius/muscle/detail/hill_shape.h"
+#include "risorius/solve/lanes.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
+namespace risorius::muscle {
+
+struct FibrePoint {
+    int nodes[4] = {0, 0, 0, 0};
+    double weights[4] = {0, 0, 0, 0};  ///< sum 1
+    int count = 0;                     ///< of nodes, 1..4; 0: the point rides on a body
+    int body = 0;                      ///< which, when count is 0
+    Vec3 body_rest = Vec3::Zero();     ///< its place when the body is at rest, m
+};
+
+struct Fibre {
+    int first_point = 0;
+    int point_count = 0;            ///< consecutive points, 2 or more
+    int column = 0;                 ///< of the activation vector
+    double f0_n = 0;                ///< F0                                       [0, inf)
+    double rest_stretch = 1;        ///< lam at rest: l0 = rest length / this     (0, inf)
+    double greatest_speed_hz = 10;  ///< vmax                               (0, inf)
+};
+
+/// One object serves one thread at a time: it keeps scratch arrays.
+class FibreSet {
+  public:
+    /// `rest` are the nodes at rest, n x 3, m; bodies are then at rest as well. Throws std::invalid_argument on a fibre with
+    /// fewer than two points or a segment without length, and on a point that two fibres want.
+    FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, const Points& rest,
+             const HillShape& shape = {});
+
+    const std::vector<FibrePoint>& points() const { return points_; }
+    const std::vector<Fibre>& fibres() const { return fibres_; }
+    void set_f0(int fibre, double f0_n) { fibres_[static_cast<std::size_t>(fibre)].f0_n = f0_n; }
+
+    /// Moves the points that ride on bodies. `bodies` are motions from rest, indexed by
+    /// FibrePoint::body.
+    void set_body_positions(std::span<const Rigid> bodies);
+
+    /// From here on E is that of a step of length h from x, bodies where they are now; until end_step(). Force goes with the
+    /// length at `expected`, the likely end of the step.
+    void begin_step(const Points& x, const Points& expected, double h);
+    void begin_step(const Points& x, double h) { begin_step(x, x, h); }
+    /// The same step as that of `whole`, which this set is a part of: its fibres and points by their numbers there.
+    void go_on(const FibreSet& whole, std::span<const int> fibres, std::span<const int> points);
+    /// From here on E is that at rest.
+    void end_step() { step_s_ = 0; }
+
+    /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by
+    /// Fibre::column.
+    double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
+
+    /// Adds the second derivative of E at rest (not in a step), slack segments named too; kPositive without its negative
+    /// part, segment by segment.
+    void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
+
+    /// dE/d(place of a point) in the last call of add_energy, N: what a point on a body pulls it with is the negative of it.
+    Vec3 point_gradient(int point) const {
+        const solve::Lanes force = force_[point];
+        return {force[0], force[1], force[2]};
+    }
+
+    /// F0/(2 l0) per segment on the difference of its ends; in a step of length h, a tenth of F0 fv'(0) / (l0 vmax h)
+    /// more.
+    void add_metric(solve::MetricBuilder& builder, double h = 0) const;
+
+    /// lam of each fibre: its length over the sum of its optimal lengths.
+    Eigen::VectorXd mean_stretch(const Points& x) const;
+
+    /// Where the points are, P x 3, m: for drawing and measuring.
+    Points positions(const Points& x) const;
+
+  private:
+    /// What an inner loop reads of a point; beyond its count nodes have no weight.
+    struct Embedding {
+        std::int32_t nodes[4]{};
+        std::int32_t count = 0;
+        double weights[4]{};
+    };
+    solve::Lanes place(std::size_t point) const {
+        const Embedding& at = embedding_[point];
+        const solve::Lanes& own = body_place_[static_cast<int>(point)];
+        if (at.count == 0) return own;
+        const auto term = [&](int i, const solve::Lanes& sum) {
+            return solve::fused(solve::Lanes{} + at.weights[i], x_[at.nodes[i]], sum);
+        };
+        return term(1, term(0, own)) + term(3, term(2, solve::Lanes{}));
+    }
+    void place_points(const Points& x) const;
+    double length(int segment) const;
+    static constexpr int kTogether =
+        solve::LanesOf<double>::kWidth;  ///< segments worked out at once
+    /// What segments pull with and their energy, J.
+    struct Pulls {
+        solve::Lanes tension_n, energy_j;
+    };
+    /// Those of the segments from `first` on, of lengths l; at rest only those before `last`.
+    Pulls at_rest(const Fibre& fibre, double a, int first, int last, const solve::Lanes& l) const;
+    Pulls in_step(const Fibre& fibre, double a, int first, const solve::Lanes& l) const;
+
+    std::vector<FibrePoint> points_;
+    std::vector<Fibre> fibres_;
+    LengthCurves curves_;
+    Curve velocity_;
+    CurveTable velocity_table_, passive_table_;  ///< of steps
+    std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at a point
+    double step_s_ = 0;                          ///< h, 0 at rest
+    /// Columns, one number per point: that of the segment that begins there; kTogether more, so that they are read together.
+    struct StepSegments {
+        std::vector<double> inverse_optimal;  ///< 1 / l0
+        std::vector<double> start_m;          ///< l_n
+        std::vector<double> inverse_way;      ///< 1 / (h vmax l0)
+        std::vector<double> force;            ///< F0 fl(lam_n)
+        std::vector<double> work;             ///< that times h vmax l0
+        std::vector<double> stiffness;        ///< F0 l0
+        static constexpr std::vector<double> StepSegments::*kColumns[] = {
+            &StepSegments::inverse_optimal, &StepSegments::start_m, &StepSegments::inverse_way,
+            &StepSegments::force,           &StepSegments::work,    &StepSegments::stiffness};
+        void resize(std::size_t count) {
+            for (const auto column : kColumns) (this->*column).resize(count);
+        }
+    };
+    StepSegments in_step_;
+    std::vector<Embedding> embedding_;
+    solve::PaddedPoints body_place_;            ///< of points that ride on bodies; the others: 0
+    mutable solve::PaddedPoints x_, gradient_;  ///< nodes
+    mutable solve::PaddedPoints position_, force_;  ///< points
+};
+
+}  // namespace risorius::muscle

@@ -1,0 +1,118 @@
+#include "risorius/plot/detail/axis_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+
+namespace risorius::plot {
+namespace {
+
+constexpr double kMargin = 0.05;  ///< of the axis, beyond the data at either end
+
+std::string raised(const std::string& digits) {
+    static const char* const kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text;
+    for (const char c : digits) text += c == '-' ? "⁻" : kDigits[c - '0'];
+    return text;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string power_of_ten(int exponent) { return "10" + raised(std::to_string(exponent)); }
+
+// Decades, thinned to at most eight labels; 2 and 5 besides where there are fewer than three decades.
+std::vector<Tic> logarithmic_tics(double low, double high) {
+    const double decades = std::log10(high / low);
+    const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
+    const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
+    const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
+    // Powers throughout where some number would be long, plain numbers otherwise
+    const bool powers = first < -3 || last > 4;
+    std::vector<Tic> tics;
+    const auto add = [&](double at, const std::string& label) {
+        if (at >= low * (1 - 1e-9) && at <= high * (1 + 1e-9)) tics.push_back({at, label});
+    };
+    for (int e = first; e <= last; ++e) {
+        const double decade = std::pow(10.0, e);
+        const bool named = e % stride == 0;
+        add(decade, named ? (powers ? power_of_ten(e) : format_number(decade)) : "");
+        for (int k = 2; k <= 9; ++k) {
+            const bool labelled = decades < 1.05 || (decades < 2.5 && (k == 2 || k == 5));
+            // Rounded to its two digits, so that 3 * 0.1 is written 0.3
+            const std::string digit = std::to_string(k);
+            add(k * decade, !labelled ? ""
+                            : powers  ? digit + "×" + power_of_ten(e)
+                                      : format_number(std::stod(digit + "e" + std::to_string(e))));
+        }
+    }
+    return tics;
+}
+
+}  // namespace
+
+std::string typeset(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (static_cast<unsigned char>(text[i]) < ' ' || text[i] == 0x7f) {
+            out += ' ';
+            continue;
+        }
+        std::size_t end = i + 1;
+        if (text[i] == '^') {
+            if (end < text.size() && text[end] == '-') ++end;
+            const std::size_t digits = end;
+            while (end < text.size() && is_digit(text[end])) ++end;
+            if (end > digits) {
+                out += raised(text.substr(i + 1, end - i - 1));
+                i = end - 1;
+                continue;
+            }
+        }
+        out += text[i];
+    }
+    return out;
+}
+
+AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const std::string& place) {
+    AxisLayout layout;
+    if (axis.range) {
+        layout.low = axis.range->first;
+        layout.high = axis.range->second;
+        if (!std::isfinite(layout.low) || !std::isfinite(layout.high) ||
+            !(layout.low < layout.high))
+            throw Error(place + "/range", "a low end below a high end",
+                        format_number(layout.low) + " to " + format_number(layout.high));
+    }
+    double least = INFINITY, most = -INFINITY;
+    for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        if (axis.logarithmic && value <= 0)
+            throw Error(place, "values above 0 on a logarithmic axis", format_number(value));
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+    if (axis.logarithmic && axis.range && layout.low <= 0)
+        throw Error(place + "/range", "a low end above 0 on a logarithmic axis",
+                    format_number(layout.low));
+    if (!axis.range) {
+        if (least > most) throw Error(place, "a finite value", "none");
+        if (axis.logarithmic) {
+            const double margin = std::max(kMargin * std::log10(most / least), 0.05);
+            layout.low = least * std::pow(10.0, -margin);
+            layout.high = most * std::pow(10.0, margin);
+        } else {
+            // All values the same: a range around them wide enough to have distinct numbers
+            const double span = most - least;
+            const double margin = span > 0 ? kMargin * span : std::max(0.1 * std::abs(most), 1e-3);
+            // Data that starts at zero keeps its zero.
+            layout.low = least == 0 && span > 0 ? 0 : least - margin;
+            layout.high = most == 0 && span > 0 ? 0 : most + margin;
+        }
+    }
+    if (axis.logarithmic) layout.tics = logarithmic_tics(layout.low, layout.high);
+    return layout;
+}
+
+}  // namespace risorius::plot

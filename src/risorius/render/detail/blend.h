@@ -1,0 +1,27 @@
+// Painting on a finished picture.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "risorius/core/types.h"
+
+namespace risorius::render {
+
+/// Straight alpha, over. `srgb` 0..1.
+inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
+    const double under = pixel[3] / 255.0 * (1 - cover), alpha = cover + under;
+    if (alpha <= 0) return;
+    for (int k = 0; k < 3; ++k)
+        pixel[k] = static_cast<std::uint8_t>(
+            std::lround((255 * srgb[k] * cover + pixel[k] * under) / alpha));
+    pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
+}
+
+/// IEC 61966-2-1
+inline Vec3 srgb_of_linear(const Vec3& linear) {
+    return linear.unaryExpr(
+        [](double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; });
+}
+
+}  // namespace risorius::render

@@ -1,0 +1,33 @@
+// Skull and mandible as one would see them with the skin made of glass: bone and teeth, and over them the nearest skin, clear
+// where one looks straight through it and pale at its edges.
+#pragma once
+
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/moving_surface.h"
+#include "risorius/render/detail/scene_buffers.h"
+#include "risorius/render/scene.h"
+
+namespace risorius::render {
+
+class BoneLayer {
+  public:
+    /// Throws Error for a scene without bones, and for triangles that name a vertex there is not.
+    explicit BoneLayer(const Scene& scene);
+    ~BoneLayer();
+    BoneLayer(const BoneLayer&) = delete;
+    BoneLayer& operator=(const BoneLayer&) = delete;
+
+    /// Throws Error when the pose has other bones than the scene.
+    void upload(const Pose& pose);
+
+    /// Into the framebuffer that is bound, by the frame's uniforms: bone, teeth of the buffers, their skin.
+    void draw(const SceneBuffers& buffers) const;
+
+  private:
+    MovingSurface surface_;
+    GlProgram bone_, skin_;
+    GLsizei index_count_ = 0;
+    GLuint array_ = 0, fixed_buffer_ = 0, elements_ = 0;
+};
+
+}  // namespace risorius::render

@@ -1,0 +1,28 @@
+// Clears the cells of a picture that are drawn in samples, and only these: memory costs as much as drawing.
+#pragma once
+
+#include <vector>
+
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/picture_cells.h"
+
+namespace risorius::render {
+
+class CellClear {
+  public:
+    /// The context must be current.
+    CellClear();
+    ~CellClear();
+    CellClear(const CellClear&) = delete;
+    CellClear& operator=(const CellClear&) = delete;
+
+    /// Colour and alpha to 0 and depth to the farthest, of a viewport of so many pixels. Binds a vertex array of its own.
+    void clear(const PictureCells& cells, int width_px, int height_px);
+
+  private:
+    GlProgram program_;
+    std::vector<float> corners_;
+    GLuint array_ = 0, buffer_ = 0;
+};
+
+}  // namespace risorius::render

@@ -1,0 +1,11 @@
+// Colours by how people see them.
+#pragma once
+
+#include "risorius/core/types.h"
+
+namespace risorius::render {
+
+/// Linear light, sRGB primaries, of CIE L*C*h (D65); what a screen cannot show is cut.
+Vec3 linear_of_lch(double lightness, double chroma, double hue_deg);
+
+}  // namespace risorius::render

@@ -1,0 +1,26 @@
+// From samples in linear light of 32-bit floating point to pixels of 16 bits, and from these to 8.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "risorius/core/image.h"
+#include "risorius/render/detail/resolve.h"
+
+namespace risorius::render {
+
+class DeepResolve {
+  public:
+    explicit DeepResolve(const Background& background);
+
+    /// As Resolve, from linear samples, into image.deep and its nearest bytes into image.rgba.
+    void resolve(const std::vector<float>& samples, int supersampling, const Tile& tile,
+                 Image& image) const;
+
+  private:
+    bool transparent_;
+    std::array<double, 3> background_;  ///< linear
+};
+
+}  // namespace risorius::render

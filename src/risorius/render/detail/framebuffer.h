@@ -1,0 +1,69 @@
+// What is drawn into: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "risorius/core/image.h"
+#include "risorius/render/detail/deep_resolve.h"
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/picture_cells.h"
+#include "risorius/render/detail/resolve.h"
+
+namespace risorius::render {
+
+/// Limits of every picture drawn here.
+constexpr int kLeastSide_px = 16;
+constexpr int kMostSide_px = 8192;
+constexpr int kMostSupersampling = 4;
+
+/// Throws Error naming the field for a value outside of [least, most].
+void check_range(const char* field, int value, int least, int most);
+
+/// sRGB colour with alpha, or linear colour in floating point, and depth. The context must be current.
+class Framebuffer {
+  public:
+    enum class Colour { kSrgbBytes, kLinearFloats };
+    Framebuffer(int width, int height, Colour colour = Colour::kSrgbBytes);
+    ~Framebuffer();
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+    void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]); }
+    /// The same store for programs that give the four bytes of sRGB and alpha as one number; not of floats.
+    void bind_bytes() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[1]); }
+
+  private:
+    GLuint colours_[2] = {0, 0}, framebuffers_[2] = {0, 0};
+    GLuint depth_ = 0;
+};
+
+/// A picture in tiles that the framebuffer can hold.
+class TiledPicture {
+  public:
+    TiledPicture(int width_px, int height_px, int supersampling);
+
+    /// From now on pictures get 16 bits besides, over this background; what is drawn into holds linear floats.
+    void keep_deep(const Background& background) { deep_.emplace(background); }
+
+    std::vector<Tile> tiles() const;
+    int tile_width_samples() const { return tile_width_ * supersampling_; }
+    int tile_height_samples() const { return tile_height_ * supersampling_; }
+
+    /// Makes the tile's part of clip space fill the viewport.
+    Eigen::Matrix4d crop(const Tile& tile) const;
+    void set_viewport(const Tile& tile) const;
+    /// What was drawn, into its place in the image.
+    void read_back(const Tile& tile, const Resolve& resolve, Image& image);
+    /// The same where the cells need samples; elsewhere the skin layer, `shaded` places per pixel and side, is the picture.
+    void read_back(const Tile& tile, const Resolve& resolve, const PictureCells& cells,
+                   const std::vector<std::uint8_t>& layer, int shaded, Image& image);
+
+  private:
+    int width_, height_, supersampling_, tile_width_, tile_height_;
+    std::vector<std::uint8_t> samples_;
+    std::vector<float> deep_samples_;
+    std::optional<DeepResolve> deep_;
+};
+
+}  // namespace risorius::render

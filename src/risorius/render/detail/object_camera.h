@@ -1,0 +1,34 @@
+// One camera per object of a row, all of the same kind: same direction, distance and scale, each centred on its own.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "risorius/core/types.h"
+
+namespace risorius::render {
+
+/// Camera axes in the world, each of unit length.
+struct ObjectAxes {
+    Vec3 right, up, backward;
+};
+ObjectAxes object_axes(double azimuth_deg, double elevation_deg);
+
+struct ObjectCamera {
+    Vec3 position;                    ///< m
+    Eigen::Matrix4d clip_from_world;  ///< its depth is 0 everywhere: nothing is cut off
+};
+
+struct ObjectRow {
+    ObjectAxes axes;
+    std::vector<ObjectCamera> cameras;  ///< one per object
+    double reach_m;                     ///< radius of the largest object about its middle
+    double distance_m;                  ///< of a camera from the middle of its object
+    double pixel_m;                     ///< size of a pixel there
+};
+
+/// Frames every vertex of every object, with a margin.
+ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectAxes& axes,
+                        int width_px, int height_px);
+
+}  // namespace risorius::render

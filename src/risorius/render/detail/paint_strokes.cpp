@@ -1,0 +1,292 @@
+#include "risorius/render/detail/paint_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/shader_paint.h"
+#include "risorius/render/detail/skin_paint.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr double kMapPerMetre =
+    2.5;  ///< length on the map of a metre on a sphere of 0.1 m at its centre
+
+class StrokePad {
+  public:
+    /// A tapering quad from root to tip on the map.
+    void add(const Vec2& root, const Vec2& tip, double half_width, const Vec3& linear,
+             double opacity) {
+        const Vec2 along = tip - root;
+        const double length = along.norm();
+        if (length <= 0) return;
+        const Vec2 across = Vec2(-along.y(), along.x()) * (half_width / length);
+        const Eigen::Vector3f c = linear.cwiseSqrt().cast<float>();
+        const auto corner = [&](const Vec2& p, float t, float s) {
+            vertices_.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y())},
+                                 {t, s},
+                                 {c.x(), c.y(), c.z(), static_cast<float>(opacity)}});
+        };
+        corner(root - across, 0, -1);
+        corner(root + across, 0, 1);
+        corner(tip + across, 1, 1);
+        corner(root - across, 0, -1);
+        corner(tip + across, 1, 1);
+        corner(tip - across, 1, -1);
+    }
+    std::vector<StrokeVertex> take() { return std::move(vertices_); }
+
+  private:
+    std::vector<StrokeVertex> vertices_;
+};
+
+/// The ground the hairs of a brow stand in: their shadows and the finest among them.
+void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
+          StrokeRandom& random, StrokePad& pad) {
+    if (line.size() < 3) return;
+    constexpr int kHairs = 420;
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    for (int i = 0; i < kHairs; ++i) {
+        const BrowHair next = next_brow_hair(line, centre, random);
+        const double shade = 0.7 + 0.7 * random.next(), density = 0.22 + 0.16 * random.next();
+        const Vec2 tip = next.root + kMapPerMetre * next.length_m * next.step.normalized();
+        pad.add(next.root, tip, kMapPerMetre * 0.00022, hair * shade, density * next.density);
+    }
+}
+
+/// Cropped hair beyond the hairline, lying away from the whorl at the crown.
+void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
+           StrokeRandom& random, StrokePad& pad) {
+    if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
+    // Evenly spread by the sequence of the plastic number (Roberts 2018): chance alone leaves bald spots and clots.
+    constexpr int kHairs = 170000;
+    constexpr double kPlastic = 1.32471795724474602596;
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const auto crown = scene.landmarks.find("v");
+    const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
+    const Vec2 whorl = paint_place(top + Vec3(0.008, 0, -0.03), centre);
+    for (int i = 0; i < kHairs; ++i) {
+        const double u = (i + 0.5) / kPlastic, v = (i + 0.5) / (kPlastic * kPlastic);
+        const double radius = 0.5 * std::sqrt(u - std::floor(u));
+        const double turn = 2 * std::numbers::pi * (v - std::floor(v));
+        const double keep = random.next(), length_draw = random.next(), bend = random.next(),
+                     shade = random.next();
+        const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
+        // The line itself is ragged, and thins out over a centimetre.
+        const double inside = (radius - hairline_radius(plan, root)) / 0.034;
+        const double thick = std::clamp(inside + 0.22, 0.0, 1.0);
+        if (keep > thick * thick * (3 - 2 * thick)) continue;
+        Vec2 away = root - whorl;
+        const double distance = away.norm();
+        away = distance > 1e-4 ? Vec2(away / distance) : Vec2(0, 1);
+        const double angle = (bend - 0.5) * 0.8;
+        const Vec2 direction(std::cos(angle) * away.x() - std::sin(angle) * away.y(),
+                             std::sin(angle) * away.x() + std::cos(angle) * away.y());
+        const double length = 0.0014 + 0.0016 * length_draw;
+        if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
+        pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
+                hair * (0.65 + 0.6 * shade),
+                std::min(1.0, 1.3 * scene.look.scalp_hair) * (0.45 + 0.45 * length_draw) *
+                    std::clamp(0.35 + inside, 0.0, 1.0));
+    }
+}
+
+/// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
+void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+           const std::vector<unsigned>& skin, StrokeRandom& random, StrokePad& pad) {
+    if (scene.look.beard <= 0 || plan.beard.empty()) return;
+    constexpr double kPerSquareMetre = 1.1e6;  // of a man's chin
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const auto at = [&](std::size_t i) -> Vec3 {
+        return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
+    };
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+        const Vec3 a = at(i), u = at(i + 1) - a, v = at(i + 2) - a, n = u.cross(v);
+        const double density = beard_density(plan, a + (u + v) / 3);
+        if (density <= 0) continue;
+        const double expected = 0.5 * n.norm() * kPerSquareMetre * density;
+        for (auto left = static_cast<int>(expected + random.next()); left > 0; --left) {
+            double s = random.next(), t = random.next();
+            const double length = random.next(), shade = random.next(), turn = random.next();
+            if (s + t > 1) {
+                s = 1 - s;
+                t = 1 - t;
+            }
+            const Vec3 root = a + s * u + t * v;
+            if (inside_lips(plan, root)) continue;
+            const Vec3 down = (Vec3(0.9 * (turn - 0.5) + 2.5 * root.x(), -1, 0.0)).normalized();
+            const Vec2 from = paint_place(root, centre);
+            const Vec2 to = paint_place(
+                root + (0.0004 + 0.0022 * scene.look.beard * (0.5 + 0.5 * length)) * down, centre);
+            pad.add(from, to, kMapPerMetre * 0.00011, hair * (0.7 + 0.6 * shade),
+                    (0.25 + 0.55 * scene.look.beard) * density);
+        }
+    }
+}
+
+void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, StrokePad& pad) {
+    const int count = static_cast<int>(900 * std::clamp(scene.look.freckles, 0.0, 1.0));
+    const Vec3 tint = linear_from_srgb(scene.look.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
+    const bool hairless = plan.hairline[0] > 1;
+    for (int i = 0; i < count; ++i) {
+        // Densest across nose and cheeks, a little below the map's centre
+        const double turn = 2 * std::numbers::pi * random.next();
+        const double r = std::sqrt(-2 * std::log(1 - random.next()));
+        const double size = random.next(), strength = random.next();
+        const Vec2 place =
+            Vec2(0.5, 0.475) + r * Vec2(0.105 * std::sin(turn), 0.075 * std::cos(turn));
+        if (!hairless && (place - Vec2(0.5, 0.5)).norm() > hairline_radius(plan, place)) continue;
+        const double half = kMapPerMetre * (0.00035 + 0.0006 * size * size);
+        pad.add(place - Vec2(half, 0), place + Vec2(half, 0), half, tint, 0.10 + 0.22 * strength);
+    }
+}
+
+}  // namespace
+
+EarMask::EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                 const std::vector<unsigned>& skin)
+    : covered_(kSide * kSide, false) {
+    constexpr int kSteps = 6;
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+        Vec3 corner[3];
+        bool ear = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
+            ear &= plan.ears[0].contains(corner[k]) || plan.ears[1].contains(corner[k]);
+        }
+        if (!ear) continue;
+        for (int a = 0; a <= kSteps; ++a)
+            for (int b = 0; a + b <= kSteps; ++b)
+                covered_[cell(paint_place(
+                    (a * corner[0] + b * corner[1] + (kSteps - a - b) * corner[2]) / kSteps,
+                    centre))] = true;
+    }
+}
+
+std::size_t EarMask::cell(const Vec2& place) {
+    const auto along = [](double x) {
+        return static_cast<std::size_t>(std::clamp(x * kSide, 0.0, kSide - 1.0));
+    };
+    return along(place.y()) * kSide + along(place.x());
+}
+
+bool inside_lips(const SkinPlan& plan, const Vec3& p) {
+    bool inside = false;
+    const std::vector<Vec3>& outline = plan.lip_outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if ((a.head<2>() - p.head<2>()).norm() < 0.0012) return true;
+        if ((a.y() > p.y()) != (b.y() > p.y()) &&
+            p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+            inside = !inside;
+    }
+    return inside && p.z() > plan.lip_back_m;
+}
+
+BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, StrokeRandom& random) {
+    const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
+    const std::size_t end = line.size() - 1;
+    const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
+    // Dense over the first two thirds, then ever sparser: the tail ends in single hairs.
+    const double draw = std::pow(random.next(), 0.85);
+    const double t = draw < 0.62 ? draw : draw - 0.40 * (draw - 0.62) * random.next();
+    const double at = t * static_cast<double>(end);
+    const auto k = std::min(static_cast<std::size_t>(at), end - 1);
+    const Vec2 axis = (map(k + 1) - map(k)).normalized();
+    const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
+    // Full in the middle, thin at the tail, ragged at the head
+    const double half_band =
+        0.0050 * (0.50 + 0.50 * std::min(1.0, t / 0.22)) * (1.0 - 0.58 * std::pow(t, 1.6));
+    const double offset = random.next() + random.next() - 1.0;
+    BrowHair hair;
+    hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
+                kMapPerMetre * (offset * half_band - 0.0006) * up;
+    const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
+                        42.0 * offset * std::min(1.0, t / 0.3) +
+                        (24.0 + 18.0 * t) * (random.next() - 0.5);
+    const double angle = lean * std::numbers::pi / 180;
+    hair.length_m = (0.0048 + 0.0036 * random.next()) * (1.0 - 0.42 * t);
+    hair.step =
+        0.4 * kMapPerMetre * hair.length_m * (std::cos(angle) * axis + std::sin(angle) * up);
+    hair.density = std::min(1.0, 0.35 + t / 0.22) * (1.0 - 0.75 * std::pow(t, 3));
+    return hair;
+}
+
+double StrokeRandom::next() {
+    state_ += 0x9E3779B97F4A7C15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
+}
+
+std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
+                                       const std::vector<unsigned>& skin) {
+    StrokeRandom random(scene.look.seed);
+    StrokePad pad;
+    freckles(scene, plan, random, pad);
+    scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
+    beard(scene, plan, centre, skin, random, pad);
+    for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
+    return pad.take();
+}
+
+std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
+                                          const Vec3& centre) {
+    std::vector<StrokeVertex> fan;
+    if (plan.lip_outline.empty()) return fan;
+    const Eigen::Vector3f tone =
+        (0.85 * linear_from_srgb(scene.look.lip_tone)).cwiseSqrt().cast<float>();
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : plan.lip_outline)
+        middle += p / static_cast<double>(plan.lip_outline.size());
+    const auto corner = [&](const Vec3& p) {
+        const Vec2 place = paint_place(p, centre);
+        // The middle of a stroke's shaft, where it is opaque
+        fan.push_back({{static_cast<float>(place.x()), static_cast<float>(place.y())},
+                       {0.5F, 0.0F},
+                       {tone.x(), tone.y(), tone.z(), 1.0F}});
+    };
+    for (std::size_t i = 0; i < plan.lip_outline.size(); ++i) {
+        corner(middle);
+        corner(plan.lip_outline[i]);
+        corner(plan.lip_outline[(i + 1) % plan.lip_outline.size()]);
+    }
+    return fan;
+}
+
+void draw_strokes(const std::vector<StrokeVertex>& strokes) {
+    if (strokes.empty()) return;
+    GLint outer = 0;
+    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &outer);
+    GLuint array = 0, buffer = 0;
+    glGenVertexArrays(1, &array);
+    glBindVertexArray(array);
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(strokes.size() * sizeof(StrokeVertex)),
+                 strokes.data(), GL_STATIC_DRAW);
+    const auto attribute = [](GLuint index, GLint size, std::size_t offset) {
+        glEnableVertexAttribArray(index);
+        glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(StrokeVertex),
+                              reinterpret_cast<const void*>(offset));
+    };
+    attribute(0, 2, offsetof(StrokeVertex, place));
+    attribute(1, 2, offsetof(StrokeVertex, local));
+    attribute(2, 4, offsetof(StrokeVertex, rgba));
+    const GlProgram program("strokes", stroke_vertex_shader(), stroke_fragment_shader());
+    program.use();
+    glEnable(GL_BLEND);
+    // Colour goes over what is there; its oil is dulled.
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strokes.size()));
+    glDisable(GL_BLEND);
+    glBindVertexArray(static_cast<GLuint>(outer));
+    glDeleteBuffers(1, &buffer);
+    glDeleteVertexArrays(1, &array);
+}
+
+}  // namespace risorius::render

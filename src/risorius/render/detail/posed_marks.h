@@ -1,0 +1,46 @@
+// Landmarks that move with the skin, and what of them lights the mouth and the eyes.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "risorius/render/scene.h"
+
+namespace risorius::render {
+
+/// The gap between the lips.
+struct MouthGap {
+    Vec3 centre = Vec3::Zero();
+    Vec3 half_axis = Vec3::Zero();  ///< from the centre towards the left corner
+    double area_m2 = 0.0;
+};
+
+/// Margins of the lids of one eye.
+struct LidMarks {
+    bool known = false;
+    Vec3 inner = Vec3::Zero(), outer = Vec3::Zero(), upper = Vec3::Zero(), lower = Vec3::Zero();
+};
+
+class PosedMarks {
+  public:
+    PosedMarks(const Scene& scene);
+
+    /// Closed lips have no gap, however the rest pose holds them.
+    MouthGap mouth_gap(const Pose& pose) const;
+    LidMarks lids(const Pose& pose, int eye) const;
+    /// How far the lids have closed since rest, 0..1.
+    double lids_closed(const Pose& pose, int eye) const;
+
+    /// 1 for a skin vertex inside the closed mouth, 0 outside, from its place and how little sky it sees.
+    std::vector<float> inside_mouth(const Scene& scene, const std::vector<float>& sky_seen) const;
+
+  private:
+    int stos_ = -1, stoi_ = -1, ch_l_ = -1, ch_r_ = -1;  ///< nearest skin vertices
+    double rest_gap_m_ = 0.0;
+    std::array<double, 2> rest_opening_{};  ///< height / width of the eyes
+    Vec3 mouth_rest_ = Vec3::Zero();        ///< fallback without lip landmarks
+    std::array<std::array<int, 4>, 2> lids_{{{-1, -1, -1, -1}, {-1, -1, -1, -1}}};
+};
+
+}  // namespace risorius::render

@@ -1,0 +1,56 @@
+// Where lips, redness, hairline and ears are on a head, derived from its landmarks. What a head does not mark is left out.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "risorius/render/scene.h"
+
+namespace risorius::render {
+
+/// A soft spot of another tint: albedo is multiplied by exp(log_tint) at its middle.
+struct SkinZone {
+    Vec3 centre;      ///< rest, m
+    double spread_m;  ///< standard deviation
+    Vec3 log_tint;
+    double oil;  ///< added gloss
+};
+
+/// What of the skin belongs to an ear: inside the box, its bowl, and what is farther out than a plane that leans outwards
+/// backwards and upwards, as the auricle does.
+struct EarRegion {
+    bool known = false;
+    Vec3 low, high;      ///< rest, m
+    double out_m = 0.0;  ///< |x| of the plane at the front of the box
+    double lean = 0.0;   ///< growth of that |x| per metre backwards and up
+    bool contains(const Vec3& p) const;
+};
+
+struct SkinPlan {
+    static constexpr int kHairlineSteps = 32;
+
+    std::vector<SkinZone> zones;
+    std::vector<Vec3> lip_outline;  ///< closed, rest, m; empty when not marked
+    double lip_back_m = 0.0;        ///< lips lie in front of this z
+    /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
+    std::array<double, kHairlineSteps> hairline;
+    std::vector<SkinZone> beard;  ///< soft spots (middle and spread) where a beard grows
+    std::array<EarRegion, 2> ears;
+    std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from the middle outwards, rest, m
+};
+
+SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
+
+/// How densely a beard grows at a place of the skin, 0..1.
+double beard_density(const SkinPlan& plan, const Vec3& rest);
+
+/// Tone of the hair at an age: grey from the middle of life on.
+Vec3 hair_tone_at(const Look& look);
+
+/// Radius at which hair starts in a direction on the map.
+double hairline_radius(const SkinPlan& plan, const Vec2& place);
+
+/// Points on a Catmull-Rom curve through `knots`, `steps` per span, ends included.
+std::vector<Vec3> smooth_curve(const std::vector<Vec3>& knots, int steps);
+
+}  // namespace risorius::render

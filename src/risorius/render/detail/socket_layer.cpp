@@ -1,0 +1,107 @@
+#include "risorius/render/detail/socket_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "risorius/render/detail/shaders.h"
+
+namespace risorius::render {
+namespace {
+
+constexpr unsigned kRings = 8, kAround = 24;  ///< from the rim to the pole behind
+// The rim lies on the eyeball, so that no view from aside shows it, a little before the corners of the eye; from there the bowl
+// widens, as shares of the eyeball's radius, over so much of its rings.
+constexpr double kBeforeCorners_m = 0.0035, kAtRim = 1.005, kWidest = 1.25, kWidens = 0.375;
+
+std::vector<unsigned> bowls(const std::array<int, 2>& vertex) {
+    std::vector<unsigned> indices;
+    unsigned first = 0;
+    for (const int v : vertex) {
+        if (v < 0) continue;
+        // Counter-clockwise from within
+        for (unsigned ring = 0; ring < kRings; ++ring)
+            for (unsigned k = 0; k < kAround; ++k) {
+                const unsigned next = (k + 1) % kAround, a = first + ring * kAround + k,
+                               b = first + ring * kAround + next, c = a + kAround, d = b + kAround;
+                indices.insert(indices.end(), {a, b, d, a, d, c});
+            }
+        first += (kRings + 1) * kAround;
+    }
+    return indices;
+}
+
+/// A vertex of each eyeball, where it has one and lids about it.
+std::array<int, 2> eye_vertices(const Scene& scene, const PosedMarks& marks) {
+    std::array<int, 2> vertex{-1, -1};
+    Pose rest;
+    rest.positions = scene.rest;
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kEye || surface.triangles.rows() == 0) continue;
+        const int eye = std::max(surface.eye, 0);
+        const auto side = static_cast<std::size_t>(eye);
+        if (scene.eyes[side].radius_m > 0 && marks.lids(rest, eye).known)
+            vertex[side] = surface.triangles(0, 0);
+    }
+    return vertex;
+}
+
+}  // namespace
+
+SocketLayer::SocketLayer(const Scene& scene, const PosedMarks& marks,
+                         const ShaderConstants& constants)
+    : SocketLayer(scene, eye_vertices(scene, marks), constants) {}
+
+SocketLayer::SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
+                         const ShaderConstants& constants)
+    : vertex_(vertex),
+      eyes_(scene.eyes),
+      program_("sockets", constants.in(socket_vertex_shader()), constants.in(socket_shader())),
+      triangles_(bowls(vertex), {3, 3, 1}) {  // place, normal, how open
+    for (std::size_t eye = 0; eye < 2; ++eye)
+        if (vertex_[eye] >= 0) rest_[eye] = scene.rest.row(vertex_[eye]).transpose();
+}
+
+void SocketLayer::upload(const Pose& pose, const PosedMarks& marks) {
+    std::vector<float> vertices = triangles_.take();
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        if (vertex_[eye] < 0) continue;
+        // The eyeball is rigid, so that any place on it tells where its middle is.
+        const Vec3 centre = pose.positions.row(vertex_[eye]).transpose() -
+                            pose.eye_rotation[eye] * (rest_[eye] - eyes_[eye].centre);
+        const LidMarks lids = marks.lids(pose, static_cast<int>(eye));
+        const double ball = eyes_[eye].radius_m;
+        const Vec3 across = (lids.outer - lids.inner).normalized();
+        const Vec3 middle = (lids.inner + lids.outer) / 2 - centre;
+        const Vec3 ahead = (middle - middle.dot(across) * across).normalized();
+        const Vec3 up = ahead.cross(across);
+        const double rim =
+            std::acos(std::clamp((middle.dot(ahead) + kBeforeCorners_m) / ball, -0.5, 0.9));
+        for (unsigned ring = 0; ring <= kRings; ++ring) {
+            const double share = static_cast<double>(ring) / kRings;
+            const double angle = rim + share * (std::numbers::pi - rim);
+            const double radius =
+                ball * (kAtRim + (kWidest - kAtRim) * std::min(share / kWidens, 1.0));
+            for (unsigned k = 0; k < kAround; ++k) {
+                const double turn = 2 * std::numbers::pi * k / kAround;
+                const Vec3 out = std::cos(angle) * ahead +
+                                 std::sin(angle) * (std::cos(turn) * across + std::sin(turn) * up);
+                const Vec3 p = centre + radius * out;
+                for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(p[i]));
+                for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(-out[i]));
+                vertices.push_back(static_cast<float>((1 - share) * (1 - share)));
+            }
+        }
+    }
+    triangles_.upload(std::move(vertices));
+}
+
+void SocketLayer::draw() const {
+    program_.use();
+    glBlendFuncSeparate(GL_ONE, GL_ZERO, GL_ONE, GL_ZERO);
+    glEnable(GL_CULL_FACE);  // of the outside nothing is seen
+    triangles_.draw();
+    glDisable(GL_CULL_FACE);
+}
+
+}  // namespace risorius::render

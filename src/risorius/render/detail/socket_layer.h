@@ -1,0 +1,37 @@
+// What lies behind the eyes: a bowl about each eyeball, open to the front, so that nobody sees through the head past an eye
+// whose lids stand off it, whatever a head has there or lacks.
+#pragma once
+
+#include <array>
+
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/posed_marks.h"
+#include "risorius/render/detail/shader_constants.h"
+#include "risorius/render/detail/streamed_triangles.h"
+
+namespace risorius::render {
+
+class SocketLayer {
+  public:
+    /// Nothing is drawn about eyes that are missing, or whose lids are not known; `constants` of Lights. The context must be current.
+    SocketLayer(const Scene& scene, const PosedMarks& marks, const ShaderConstants& constants);
+
+    void upload(const Pose& pose, const PosedMarks& marks);
+    /// Opaque, behind what is there; binds a vertex array of its own.
+    void draw() const;
+    void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
+        triangles_.mark(clip_from_world, cells);
+    }
+
+  private:
+    SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
+                const ShaderConstants& constants);
+
+    std::array<int, 2> vertex_;  ///< of each eyeball's surface, or -1 for no bowl
+    std::array<Vec3, 2> rest_;   ///< where it is at rest, m
+    std::array<Eye, 2> eyes_;
+    GlProgram program_;
+    StreamedTriangles triangles_;
+};
+
+}  // namespace risorius::render

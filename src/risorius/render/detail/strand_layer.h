@@ -1,0 +1,39 @@
+// Draws the hairs of a scene as ribbons that face the camera.
+#pragma once
+
+#include <vector>
+
+#include "risorius/render/detail/camera.h"
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/posed_marks.h"
+#include "risorius/render/detail/shader_constants.h"
+#include "risorius/render/detail/strands.h"
+#include "risorius/render/detail/streamed_triangles.h"
+
+namespace risorius::render {
+
+class StrandLayer {
+  public:
+    /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler; `constants` of Lights.
+    /// The context must be current.
+    StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
+                double sample_m, ShaderConstants constants);
+    void upload(const Pose& pose, const PosedMarks& marks);
+    /// Blended over what is there; binds a vertex array of its own.
+    void draw() const;
+    void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
+        triangles_.mark(clip_from_world, cells);
+    }
+
+  private:
+    std::vector<Strand> strands_;
+    std::array<Eye, 2> eyes_;
+    std::array<Vec3, 2> eye_point_;          ///< a vertex of each eye at rest
+    std::array<int, 2> eye_vertex_{-1, -1};  ///< and which
+    Vec3 camera_;
+    double sample_m_;
+    GlProgram program_;
+    StreamedTriangles triangles_;
+};
+
+}  // namespace risorius::render

@@ -1,0 +1,34 @@
+// The tears that stand along the lower lids: a concave line of water between lid and eye, which mirrors the lamps.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/posed_marks.h"
+#include "risorius/render/detail/shader_constants.h"
+#include "risorius/render/detail/strands.h"
+#include "risorius/render/detail/streamed_triangles.h"
+
+namespace risorius::render {
+
+class TearLayer {
+  public:
+    /// Without lids that can be found nothing is drawn; `constants` of Lights. The context must be current.
+    TearLayer(const Scene& scene, const ShaderConstants& constants);
+
+    void upload(const Pose& pose, const PosedMarks& marks);
+    /// Adds its light to what is there; binds a vertex array of its own.
+    void draw() const;
+    void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
+        triangles_.mark(clip_from_world, cells);
+    }
+
+  private:
+    std::array<std::vector<SkinPlace>, 2> lines_;  ///< of the left and the right eye
+    std::array<Eye, 2> eyes_;
+    GlProgram program_;
+    StreamedTriangles triangles_;
+};
+
+}  // namespace risorius::render

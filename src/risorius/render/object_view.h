@@ -1,0 +1,56 @@
+// Draws deformed objects off-screen as figures in papers show them: a transparent shaded surface, its grid as
+// wires that pale with distance, nodes that are held as balls. White background, z up, a
+// three-quarter view in mild perspective, framed so that every vertex is inside.
+//
+// Several objects stand in a row in the order given, at the same scale and height, so that they can be compared.
+// Deterministic: the same objects and options give the same bytes, for any number of threads.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "risorius/core/image.h"
+#include "risorius/core/types.h"
+
+namespace risorius::render {
+
+struct Object {
+    Points positions;   ///< V x 3, m, z up
+    Triangles surface;  ///< F x 3, all wound the same way; may have no rows
+    std::vector<std::array<int, 2>>
+        wires;                  ///< pairs of vertices; those inside of a solid are drawn finer
+    std::vector<int> fixed;     ///< vertices drawn as balls
+    std::vector<double> shade;  ///< empty, or per vertex: 0 blue, 0.5 pale, 1 orange; clamped
+    Points outline = {};  ///< 2S x 3, m: ends of thin pale lines, such as the undeformed outline
+};
+
+struct ObjectViewOptions {
+    int width_px = 1200;
+    int height_px = 900;
+    double azimuth_deg = -58;   ///< of the camera about z: 0 looks from +x, -90 from -y
+    double elevation_deg = 18;  ///< of the camera above the horizontal, -90..90
+    int supersampling = 3;      ///< samples per pixel side, 1..4
+    int threads = 0;            ///< as in ViewOptions
+};
+
+class ObjectView {
+  public:
+    /// Throws Error for no object, indices that name no vertex, positions that are not finite or options out of their
+    /// range, RunError when no GL context can be had.
+    ObjectView(const std::vector<Object>& objects, const ObjectViewOptions& options);
+    ~ObjectView();
+    ObjectView(const ObjectView&) = delete;
+    ObjectView& operator=(const ObjectView&) = delete;
+
+    Image draw();
+
+    /// Pixel position (x right, y down, from the top left corner) of a point of an object.
+    Vec2 project(std::size_t object, const Vec3& point) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace risorius::render

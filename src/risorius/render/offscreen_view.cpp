@@ -1,0 +1,547 @@
+#include "risorius/render/offscreen_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <map>
+#include <numbers>
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/render/detail/bone_layer.h"
+#include "risorius/render/detail/camera.h"
+#include "risorius/render/detail/cell_clear.h"
+#include "risorius/render/detail/colour_scale.h"
+#include "risorius/render/detail/framebuffer.h"
+#include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/lights.h"
+#include "risorius/render/detail/materials.h"
+#include "risorius/render/detail/muscle_layer.h"
+#include "risorius/render/detail/occlusion.h"
+#include "risorius/render/detail/own_textures.h"
+#include "risorius/render/detail/part_texture.h"
+#include "risorius/render/detail/posed_marks.h"
+#include "risorius/render/detail/resolve.h"
+#include "risorius/render/detail/scene_buffers.h"
+#include "risorius/render/detail/shaders.h"
+#include "risorius/render/detail/shell_layer.h"
+#include "risorius/render/detail/skin_layer.h"
+#include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/detail/skin_texture.h"
+#include "risorius/render/detail/socket_layer.h"
+#include "risorius/render/detail/strand_layer.h"
+#include "risorius/render/detail/tear_layer.h"
+#include "risorius/render/detail/texture_square.h"
+#include "risorius/render/value_colour.h"
+
+namespace risorius::render {
+namespace {
+
+// What drawn skin and eyes may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
+constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2,
+                 kCoarseMovedSamples = 0.2, kDraftSkin_m = 0.7e-3;
+
+ViewOptions checked(ViewOptions options) {
+    check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
+    check_range("height_px", options.height_px, kLeastSide_px, kMostSide_px);
+    check_range("supersampling", options.supersampling, 1, kMostSupersampling);
+    check_range("threads", options.threads, 0, 256);
+    return options;
+}
+
+/// For reports only.
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Box {
+    Vec3 min = Vec3::Constant(1e9), max = Vec3::Constant(-1e9);
+};
+
+Box skin_box(const Scene& scene) {
+    Box box;
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kSkin) continue;
+        for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
+            const int v = surface.triangles.data()[i];
+            if (v < 0 || v >= scene.rest.rows())
+                continue;  // reported with its place by SceneBuffers
+            box.min = box.min.cwiseMin(scene.rest.row(v).transpose());
+            box.max = box.max.cwiseMax(scene.rest.row(v).transpose());
+        }
+    }
+    if (box.min.x() > box.max.x()) throw Error("scene/surfaces", "a skin surface", "none");
+    return box;
+}
+
+/// Painted scalp hair would hide what lies below; the brows stay.
+Scene without_hair(Scene scene) {
+    scene.look.scalp_hair = scene.look.hair_length_mm = scene.look.beard_length_mm = 0;
+    return scene;
+}
+
+std::vector<float> colours_of(const SkinValues& values) {
+    std::vector<float> rgb;
+    rgb.reserve(3 * values.at.size());
+    for (const double value : values.at) {
+        const Vec3 colour =
+            std::isfinite(value) ? value_colour(value, values.from, values.to) : no_value_colour();
+        for (int k = 0; k < 3; ++k) rgb.push_back(static_cast<float>(colour[k]));
+    }
+    return rgb;
+}
+
+constexpr const char* kShowNames[] = {"skin",   "muscles", "skull",    "wire",
+                                      "strain", "error",   "landmarks"};  // in the order of Show
+
+}  // namespace
+
+const std::vector<std::string>& show_names() {
+    static const std::vector<std::string> names(std::begin(kShowNames), std::end(kShowNames));
+    return names;
+}
+
+Show show_named(const std::string& name, const std::string& place) {
+    return static_cast<Show>(index_of_name(place, name, show_names()));
+}
+
+/// What takes long to find out about a scene, and all views of it share.
+struct Baked {
+    std::vector<float> sky,
+        inside;  ///< how much sky each vertex sees, whether it is inside the mouth
+    std::optional<SkyAboutEyes> sky_about_eyes;
+    std::vector<Strand> hair;
+    bool mesh_lashes = true;
+    std::unique_ptr<OwnTextures> own;
+    GLuint paint_map = 0, pore_map = 0;
+    ~Baked() {  // in the context of the last view
+        glDeleteTextures(1, &paint_map);
+        glDeleteTextures(1, &pore_map);
+    }
+};
+
+struct OffscreenView::Impl {
+    Impl(const Scene& scene, const ViewOptions& view_options, const Impl* first)
+        : options(checked(view_options)),
+          look(scene.look),
+          box(skin_box(scene)),
+          camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
+                             static_cast<double>(options.width_px) / options.height_px,
+                             options.lens)),
+          views(lens_views(camera, scene.landmarks, options.lens)),
+          marks(scene),
+          picture(options.width_px, options.height_px, options.supersampling),
+          resolve(options.background),
+          vertex_count(scene.rest.rows()),
+          context(options.threads, first ? &first->context : nullptr) {
+        if (scene.fold_phase.rows() != 0 && scene.fold_phase.rows() != vertex_count)
+            throw Error("scene/fold_phase", std::to_string(vertex_count) + " rows, or none",
+                        std::to_string(scene.fold_phase.rows()));
+        if (scene.shut.rows() != 0 && scene.shut.rows() != vertex_count)
+            throw Error("scene/shut", std::to_string(vertex_count) + " rows, or none",
+                        std::to_string(scene.shut.rows()));
+        if (options.show == Show::kMuscles && options.lens.orthographic)
+            throw Error("projection", "\"perspective\" when muscles are shown", "\"orthographic\"");
+        const GlContext::Current current(context);
+        const Vec3 centre = paint_centre(scene, box.min, box.max);
+        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
+                                          options.draft);
+        const ShaderConstants lit = lights->constants();
+        if (options.show == Show::kMuscles)
+            muscles = std::make_unique<MuscleLayer>(
+                scene, camera, options.height_px * options.supersampling,
+                picture.tile_width_samples(), picture.tile_height_samples());
+        if (options.show == Show::kSkull) bones = std::make_unique<BoneLayer>(scene);
+        buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre, coarseness());
+
+        baked = first ? first->baked : bake(scene, centre);
+        sky_about_eyes = baked->sky_about_eyes;
+        buffers->set_occlusion(baked->sky, baked->inside);
+        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
+        hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
+        sockets = std::make_unique<SocketLayer>(scene, marks, lit);
+        tears = std::make_unique<TearLayer>(scene, lit);
+        buffers->bind();
+        shells = std::make_unique<ShellLayer>(muscles ? without_hair(scene) : scene, *buffers,
+                                              plan_skin(scene, centre), centre,
+                                              buffers->paintable_triangles(baked->inside), lit);
+
+        buffers->bind();
+        const int shaded = shaded_per_side();
+        if (shaded < options.supersampling) {
+            cell_clear = std::make_unique<CellClear>();
+            skin_layer =
+                std::make_unique<SkinLayer>(picture.tile_width_samples() / options.supersampling,
+                                            picture.tile_height_samples() / options.supersampling,
+                                            options.supersampling, shaded, lit);
+        }
+        const Materials::Skin skin = muscles      ? Materials::Skin::kVeil
+                                     : skin_layer ? Materials::Skin::kLayer
+                                                  : Materials::Skin::kPlain;
+        materials = std::make_unique<Materials>(
+            scene, *buffers, skin, options.draft,
+            camera.frame_height_m / (options.height_px * shaded), lit, muscles.get());
+        target = std::make_unique<Framebuffer>(
+            picture.tile_width_samples(), picture.tile_height_samples(),
+            options.deep ? Framebuffer::Colour::kLinearFloats : Framebuffer::Colour::kSrgbBytes);
+        glGenBuffers(1, &frame_buffer);
+        glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
+        glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameUniforms), nullptr, GL_STREAM_DRAW);
+        if (options.deep) picture.keep_deep(options.background);
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
+    }
+
+    /// Whether the skin lets something through.
+    bool looks_inside() const {
+        return options.show == Show::kMuscles || options.show == Show::kSkull;
+    }
+
+    /// Samples of skin that are shaded per pixel and side; as many as there are where one asks for more than 8 bits.
+    int shaded_per_side() const {
+        if (options.deep || looks_inside()) return options.supersampling;
+        return std::max(options.supersampling / 2, 1);
+    }
+
+    /// Of skin whose colours come from its shader, by the samples of the picture.
+    Coarseness coarseness() const {
+        if (options.deep || looks_inside()) return {};
+        const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
+        // A draft may lose more; how much of the form is told by its vertices, so large pictures lose no more than small ones.
+        const double enough = kDraftSkin_m / (kCoarseSamples * sample_m);
+        const double skin = options.draft ? std::clamp(enough, 1.5, 3.0) : 1,
+                     others = options.draft ? 2 : 1;
+        return {.seen_m = skin * kCoarseSamples * sample_m,
+                .shadow_m = others * kCoarseShadow_m,
+                .eyes_m = others * kCoarseEyeSamples * sample_m,
+                .moved_m = skin * kCoarseMovedSamples * sample_m,
+                .keeps_folds = !options.draft};
+    }
+
+    std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
+        auto out = std::make_shared<Baked>();
+        const double reach = 0.75 * camera.portrait_height_m;
+        const auto sky_over = [&](const Points& positions) {
+            return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
+        };
+        // The skin folds most finely, in nostrils and ears.
+        std::vector<unsigned> skin;
+        for (const Batch& batch : buffers->batches())
+            if (batch.material == Material::kSkin)
+                skin.insert(skin.end(), buffers->indices().begin() + batch.first_index,
+                            buffers->indices().begin() + batch.first_index + batch.index_count);
+        const auto smoothed = [&](const std::vector<float>& seen, const Points& positions) {
+            constexpr int kMoreOfSkin = 3;
+            return with_neighbours(
+                with_neighbours(seen, positions, buffers->normals(), buffers->indices(), 1),
+                positions, buffers->normals(), skin, kMoreOfSkin);
+        };
+        const std::vector<float> sky = sky_over(scene.rest);
+        out->sky = smoothed(sky, scene.rest);
+        out->inside = marks.inside_mouth(scene, sky);
+        if (scene.shut.rows() > 0) {
+            buffers->upload(scene.shut);
+            out->sky_about_eyes.emplace(scene, out->sky,
+                                        smoothed(sky_over(scene.shut), scene.shut));
+            buffers->upload(scene.rest);
+        }
+        const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
+        out->own = std::make_unique<OwnTextures>(scene, *buffers);
+        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *buffers,
+                                    *out->own, centre, buffers->paintable_triangles(out->inside),
+                                    paint_side(options.height_px / camera.frame_height_m));
+        out->pore_map = make_pores(scene.look.seed);
+        grow_hair(scene, centre, *out);
+        finish_drawing();  // other contexts may look at the maps from now on
+        return out;
+    }
+
+    /// Lashes of the mesh are only drawn where none of their own can be grown.
+    void grow_hair(const Scene& scene, const Vec3& centre, Baked& out) const {
+        if (!has_own_skin(scene))
+            out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
+                                  buffers->paintable_triangles(out.inside));
+        bool lashes = true;
+        for (const int eye : {0, 1}) {
+            const std::vector<Strand> some = plan_lashes(scene, eye);
+            lashes &= !some.empty();
+            out.hair.insert(out.hair.end(), some.begin(), some.end());
+        }
+        out.mesh_lashes = !lashes;
+    }
+
+    ~Impl() {
+        const GlContext::Current current(context);
+        glDeleteBuffers(1, &frame_buffer);
+        baked.reset();
+        skin_layer.reset();
+        cell_clear.reset();
+        target.reset();
+        lights.reset();
+        materials.reset();
+        hair.reset();
+        tears.reset();
+        sockets.reset();
+        shells.reset();
+        muscles.reset();
+        bones.reset();
+        buffers.reset();
+    }
+
+    /// The cells that need samples, with the skin in them from its layer.
+    void look_up_skin(const Tile& tile) {
+        target->bind_bytes();
+        cell_clear->clear(cells, tile.width, tile.height);
+        buffers->bind();
+        skin_layer->use();
+        for (const Batch& batch : buffers->batches())
+            if (batch.material == Material::kSkin) buffers->draw(batch);
+    }
+
+    /// Everything the face is seen by; `looked_up`: the skin is there already.
+    void draw_surfaces(const Pose& pose, bool looked_up) {
+        for (const Batch& batch : buffers->batches()) {
+            if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
+            if (batch.material == Material::kSkin && looked_up) continue;
+            if (batch.material == Material::kSkin && !pose.values) {
+                materials->draw_skin(batch, *buffers);
+            } else {
+                materials->use(batch, pose, marks);
+                baked->own->bind(batch);
+                buffers->draw(batch);
+            }
+        }
+        materials->done();
+        sockets->draw();
+        buffers->bind();
+        shells->draw();
+        tears->draw();
+        hair->draw();
+        buffers->bind();
+    }
+
+    void draw_tile(const Tile& tile, const Mat4& clip_from_world, const Pose& pose,
+                   FrameUniforms frame, Image& image) {
+        const Eigen::Matrix4f clip = (picture.crop(tile) * clip_from_world).cast<float>();
+        std::memcpy(frame.clip_from_world, clip.data(), sizeof frame.clip_from_world);
+        glBindBuffer(GL_UNIFORM_BUFFER, frame_buffer);
+        glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof frame, &frame);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer);
+
+        buffers->choose(clip, pose.values.has_value());
+        const bool looked_up = skin_layer && !pose.values;
+        if (looked_up) {
+            skin_layer->begin(tile.width, tile.height);
+            for (const Batch& batch : buffers->batches())
+                if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
+            cells.begin(tile.width, tile.height);
+            buffers->leave_out_unseen(*skin_layer, cells, [&](PictureCells& marked) {
+                if (!shells->empty()) marked.mark_all();
+                hair->mark(clip, marked);
+                tears->mark(clip, marked);
+                sockets->mark(clip, marked);
+            });
+        }
+        picture.set_viewport(tile);
+        if (muscles) {
+            muscles->draw();
+            buffers->bind();
+        }
+        glEnable(GL_DEPTH_TEST);
+        if (looked_up) look_up_skin(tile);
+        target->bind();
+        if (!looked_up) {
+            glClearColor(0, 0, 0, 0);
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        }
+        glEnable(GL_FRAMEBUFFER_SRGB);
+        if (bones) {
+            bones->draw(*buffers);
+        } else {
+            draw_surfaces(pose, looked_up);
+        }
+        glDisable(GL_FRAMEBUFFER_SRGB);
+        finish_drawing();  // which reading would wait for
+        const double drawn_s = processor_s();
+        if (looked_up)
+            picture.read_back(tile, resolve, cells, skin_layer->places(), skin_layer->shaded(),
+                              image);
+        else
+            picture.read_back(tile, resolve, image);
+        read_back_s += processor_s() - drawn_s;
+    }
+
+    ViewOptions options;
+    Look look;
+    Box box;
+    Camera camera;
+    std::vector<Mat4> views;  ///< through the places of the lens
+    PosedMarks marks;
+    TiledPicture picture;
+    Resolve resolve;
+    PictureCells cells;
+    Eigen::Index vertex_count;
+    GlContext context;
+    std::unique_ptr<SceneBuffers> buffers;
+    std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
+    std::unique_ptr<BoneLayer> bones;      ///< likewise
+    std::unique_ptr<Materials> materials;
+    std::unique_ptr<StrandLayer> hair;
+    std::unique_ptr<SocketLayer> sockets;
+    std::unique_ptr<TearLayer> tears;
+    std::unique_ptr<ShellLayer> shells;
+    std::unique_ptr<Lights> lights;
+    std::unique_ptr<CellClear> cell_clear;
+    std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
+    std::unique_ptr<Framebuffer> target;
+    std::shared_ptr<Baked> baked;
+    std::optional<SkyAboutEyes>
+        sky_about_eyes;  ///< a copy of its own, which keeps what was seen last
+    GLuint frame_buffer = 0;
+    double read_back_s = 0;
+};
+
+OffscreenView::OffscreenView(const Scene& scene, const ViewOptions& options)
+    : impl_(std::make_unique<Impl>(scene, options, nullptr)) {}
+
+OffscreenView::OffscreenView(const Scene& scene, const OffscreenView& first)
+    : impl_(std::make_unique<Impl>(scene, first.impl_->options, first.impl_.get())) {}
+
+OffscreenView::~OffscreenView() = default;
+
+Image OffscreenView::draw(const Pose& pose) {
+    Impl& view = *impl_;
+    if (pose.positions.rows() != view.vertex_count)
+        throw Error("pose/positions", std::to_string(view.vertex_count) + " rows",
+                    std::to_string(pose.positions.rows()));
+    if (pose.fold_depth.rows() != 0 && pose.fold_depth.rows() != view.vertex_count)
+        throw Error("pose/fold_depth", std::to_string(view.vertex_count) + " rows, or none",
+                    std::to_string(pose.fold_depth.rows()));
+    if (pose.values && static_cast<Eigen::Index>(pose.values->at.size()) != view.vertex_count)
+        throw Error("pose/values", std::to_string(view.vertex_count) + " values",
+                    std::to_string(pose.values->at.size()));
+    const GlContext::Current current(view.context);
+
+    // What moved
+    view.read_back_s = 0;
+    view.buffers->bind();
+    view.buffers->upload(pose.positions, pose.fold_depth);
+    if (auto& sky = view.sky_about_eyes)
+        view.buffers->set_occlusion(
+            sky->seen({view.marks.lids_closed(pose, 0), view.marks.lids_closed(pose, 1)}),
+            view.baked->inside);
+    if (pose.values) view.buffers->set_colours(colours_of(*pose.values));
+    if (view.muscles) view.muscles->upload(pose);
+    if (view.bones) view.bones->upload(pose);
+    view.hair->upload(pose, view.marks);
+    view.tears->upload(pose, view.marks);
+    view.sockets->upload(pose, view.marks);
+
+    // Shadow of the key light
+    FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
+    const Eigen::Matrix4f seen = view.views.front().cast<float>();
+    view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr);
+    glActiveTexture(GL_TEXTURE0 + kPaintUnit);
+    glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
+    glActiveTexture(GL_TEXTURE0 + kPoreUnit);
+    glBindTexture(GL_TEXTURE_2D, view.baked->pore_map);
+
+    // The picture, tile by tile
+    std::vector<Image> images;
+    for (const Mat4& clip_from_world : view.views) {
+        images.emplace_back(view.options.width_px, view.options.height_px);
+        for (const Tile& tile : view.picture.tiles())
+            view.draw_tile(tile, clip_from_world, pose, frame, images.back());
+    }
+    Image image = images.size() > 1 ? mean_of(images) : std::move(images.front());
+    if (pose.values)
+        draw_colour_scale(values_scale(*pose.values), view.options.background, image);
+    else if (view.muscles)
+        draw_colour_scale(activation_scale(view.look), view.options.background, image);
+    return image;
+}
+
+Image OffscreenView::skin_texture(const Scene& scene, int side_px) const {
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    bool laid_out = false;
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kSkin) continue;
+        laid_out = laid_out || surface.texcoords.rows() > 0;
+        for (long f = 0; f < surface.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k) {
+                const Vec3 p = scene.rest.row(surface.triangles(f, k)).transpose();
+                low = low.cwiseMin(p);
+                high = high.cwiseMax(p);
+            }
+    }
+    if (!laid_out) throw Error("skin", "texture coordinates", "none");
+    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
+    const GlContext::Current current(impl_->context);
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           impl_->baked->paint_map, 0);
+    const int map_side = paint_side(impl_->options.height_px / impl_->camera.frame_height_m);
+    std::vector<std::uint8_t> map(4 * static_cast<std::size_t>(map_side) *
+                                  static_cast<std::size_t>(map_side));
+    glReadPixels(0, 0, map_side, map_side, GL_RGBA, GL_UNSIGNED_BYTE, map.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    return unfold_paint(scene, paint_centre(scene, low, high), map, map_side,
+                        unfold_part(scene, *impl_->materials, Material::kMouth, side_px, {}));
+}
+
+Image OffscreenView::part_texture(const Scene& scene, Material part, int side_px,
+                                  const std::vector<double>& crown_height) const {
+    static const std::map<Material, const char*> kParts{{Material::kEye, "eyes"},
+                                                        {Material::kTeeth, "teeth"},
+                                                        {Material::kGums, "gums"},
+                                                        {Material::kTongue, "tongue"}};
+    const auto named = kParts.find(part);
+    if (named == kParts.end())
+        throw Error("part", "eyes, teeth, gums or tongue", std::to_string(static_cast<int>(part)));
+    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
+    if (!crown_height.empty() && static_cast<long>(crown_height.size()) != scene.rest.rows())
+        throw Error("crown_height", std::to_string(scene.rest.rows()) + " rows, or none",
+                    std::to_string(crown_height.size()));
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+            return surface.material == part && surface.texcoords.rows() > 0;
+        }))
+        throw Error(named->second, "texture coordinates", "none");
+    const GlContext::Current current(impl_->context);
+    Image image = unfold_part(scene, *impl_->materials, part, side_px, crown_height);
+    fill_uncovered(image, mean_colour(image));
+    return image;
+}
+
+Image OffscreenView::draw(const std::vector<Pose>& poses) {
+    if (poses.empty()) throw Error("poses", "at least one", "none");
+    if (poses.size() == 1) return draw(poses.front());
+    const auto same = [](const Points& a, const Points& b) {
+        return a.rows() == b.rows() && a == b;
+    };
+    const auto looks_as = [&](const Pose& a, const Pose& b) {
+        return same(a.positions, b.positions) && a.eye_rotation == b.eye_rotation &&
+               a.jaw_open == b.jaw_open && same(a.fold_depth, b.fold_depth) &&
+               same(a.muscle_positions, b.muscle_positions) &&
+               same(a.bone_positions, b.bone_positions) && a.activations == b.activations &&
+               !a.values && !b.values;
+    };
+    std::vector<Image> images;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        images.push_back(i > 0 && looks_as(poses[i], poses[i - 1]) ? images.back()
+                                                                   : draw(poses[i]));
+    return mean_of(images);
+}
+
+double OffscreenView::read_back_s() const { return impl_->read_back_s; }
+
+Vec2 OffscreenView::project(const Vec3& world) const {
+    const Eigen::Vector4d clip = impl_->camera.clip_from_world * world.homogeneous();
+    return {(clip.x() / clip.w() * 0.5 + 0.5) * impl_->options.width_px,
+            (0.5 - clip.y() / clip.w() * 0.5) * impl_->options.height_px};
+}
+
+Eigen::Matrix4d OffscreenView::clip_from_world() const { return impl_->camera.clip_from_world; }
+
+}  // namespace risorius::render

@@ -1,0 +1,38 @@
+// Wall time, and time on the core, since it was made, for reports only: nothing that is computed depends on it.
+#pragma once
+
+#include <time.h>
+
+#include <chrono>
+
+namespace risorius::report {
+
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// What this thread, or all threads of this process, have spent on cores: other programs do not count.
+template <clockid_t kClock>
+class ClockStopwatch {
+  public:
+    double seconds() const { return now() - begin_; }
+
+  private:
+    static double now() {
+        timespec time{};
+        ::clock_gettime(kClock, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    double begin_ = now();
+};
+using CoreStopwatch = ClockStopwatch<CLOCK_THREAD_CPUTIME_ID>;
+using ProcessStopwatch = ClockStopwatch<CLOCK_PROCESS_CPUTIME_ID>;
+
+}  // namespace risorius::report

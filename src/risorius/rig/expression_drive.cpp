@@ -1,0 +1,98 @@
+#include "risorius/rig/expression_drive.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace risorius::rig {
+
+namespace {
+
+// Of what has sides that side, of the rest half.
+track::Expansion one_side(track::Expansion whole, Side side, const track::ChannelTable& channels) {
+    for (const track::MuscleChannel& muscle : channels.muscles) {
+        const int left = channels.column(muscle.id, Side::kLeft),
+                  right = channels.column(muscle.id, Side::kRight);
+        if (left == right)
+            whole.excitation[left] *= 0.5;
+        else
+            whole.excitation[side == Side::kLeft ? right : left] = 0;
+    }
+    for (double& value : whole.kinematic) value *= 0.5;
+    return whole;
+}
+
+}  // namespace
+
+SidedShape split_shape(const std::string& name) {
+    for (const auto& [ending, side] : {std::pair{"_L", Side::kLeft},
+                                       {"_R", Side::kRight},
+                                       {"Left", Side::kLeft},
+                                       {"Right", Side::kRight}}) {
+        const std::string_view tail(ending);
+        if (name.size() > tail.size() && name.ends_with(tail))
+            return {name.substr(0, name.size() - tail.size()), side};
+    }
+    return {name, std::nullopt};
+}
+
+std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
+                                                const std::string& name) {
+    const track::ChannelTable channels = rig.channels();
+    track::Expansion out = track::Expansion::none(channels);
+    const SidedShape shape = split_shape(name);
+    const auto add_arkit = [&](const std::string& arkit) {
+        const track::ArkitShape* found = rig.facs.find_arkit(arkit);
+        if (found) out.add(track::expand(*found, rig.facs, channels), 1.0);
+        return found != nullptr;
+    };
+    if (add_arkit(name)) return out;
+    if (shape.side && add_arkit(shape.base + (*shape.side == Side::kLeft ? "Left" : "Right")))
+        return out;
+    if (shape.side && add_arkit(shape.base)) return one_side(out, *shape.side, channels);
+    if (add_arkit(name + "Left") && add_arkit(name + "Right")) return out;
+    const track::SidedName unit = track::split_side(name);
+    if (const track::ActionUnit* found = rig.facs.find(unit.id)) {
+        out.add(track::expand(*found, unit.side, channels), 1.0);
+        return out;
+    }
+    if (const track::Expression* found = rig.expressions.find(name)) {
+        for (const track::ExpressionUnit& part : found->units)
+            out.add(track::expand(*rig.facs.find(part.use.unit), part.use.side, channels),
+                    part.use.value);
+        return out;
+    }
+    if (channels.find(unit.id)) {
+        for (const Side side : {Side::kLeft, Side::kRight})
+            if (!unit.side || *unit.side == side)
+                out.excitation[channels.column(unit.id, side)] = 1;
+        return out;
+    }
+    return std::nullopt;
+}
+
+track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels) {
+    track::Drive drive;
+    drive.excitation = sum.excitation.cwiseMax(channels.column_min()).cwiseMin(1.0);
+    for (int k = 0; k < track::kKinematicCount; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const track::KinematicChannel& channel = track::kinematic_channels()[at];
+        drive.kinematic[at] = std::clamp(sum.kinematic[at], channel.min, channel.max);
+    }
+    return drive;
+}
+
+Json drive_json(const track::Drive& drive, const track::ChannelTable& channels) {
+    Json out = Json::object();
+    const std::vector<std::string> names = channels.column_names();
+    for (std::size_t c = 0; c < names.size(); ++c)
+        if (drive.excitation[static_cast<long>(c)] != 0)
+            out[names[c]] = drive.excitation[static_cast<long>(c)];
+    for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
+        if (drive.kinematic[k] != 0)
+            out[std::string(track::kinematic_channels()[k].name)] = drive.kinematic[k];
+    return out;
+}
+
+}  // namespace risorius::rig

@@ -1,0 +1,21 @@
+// Thin-plate-spline warp of space through landmark pairs (Bookstein 1989), kernel |r| in three dimensions.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/types.h"
+
+namespace risorius::rig {
+
+class LandmarkWarp {
+  public:
+    /// Maps `from` onto `to` (same rows); `smoothing` > 0 (m) lets close pairs disagree a little.
+    LandmarkWarp(const Points& from, const Points& to, double smoothing = 1e-4);
+    Vec3 operator()(const Vec3& p) const;
+
+  private:
+    Points from_;
+    Eigen::Matrix<double, Eigen::Dynamic, 3> weights_;  ///< rows: kernels, then 1, x, y, z
+};
+
+}  // namespace risorius::rig

@@ -1,0 +1,345 @@
+#include "risorius/rig/rig_description.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/existing_file.h"
+#include "risorius/rig/calibration.h"
+
+namespace risorius::rig {
+
+namespace {
+
+// One list of fields serves reading and writing, so that a key cannot exist in only one of them.
+template <typename Visit>
+void visit_fields(JawDescription& jaw, Visit visit) {
+    visit("hinge_mm", jaw.hinge_mm);
+    visit("open_deg", jaw.open_deg, Range{1, 60});
+    visit("open_slide_mm", jaw.open_slide_mm);
+    visit("forward_mm", jaw.forward_mm);
+    visit("side_mm", jaw.side_mm, Range{0, 30});
+}
+template <typename Visit>
+void visit_fields(EyesDescription& eyes, Visit visit) {
+    visit("gaze_limit_deg", eyes.gaze_limit_deg, Range{0, 90});
+    visit("iris_radius_mm", eyes.iris_radius_mm, Range{1, 20});
+    visit("pupil_radius_mm", eyes.pupil_radius_mm, Range{0.5, 10});
+    visit("upper_lid_per_gaze_down", eyes.upper_lid_per_gaze_down, Range{0, 2});
+    visit("upper_lid_per_gaze_up", eyes.upper_lid_per_gaze_up, Range{0, 2});
+    visit("lower_lid_per_gaze_down", eyes.lower_lid_per_gaze_down, Range{0, 2});
+    visit("lower_lid_per_gaze_up", eyes.lower_lid_per_gaze_up, Range{0, 2});
+    visit("lids_per_gaze_aside", eyes.lids_per_gaze_aside, Range{0, 1});
+    visit("wide_deg", eyes.wide_deg, Range{0, 45});
+    visit("lid_closed_share", eyes.lid_closed_share, Range{0.5, 1});
+}
+template <typename Visit>
+void visit_fields(ActivationDescription& activation, Visit visit) {
+    visit("law", activation.law, {"thelen2003", "smooth"});
+    visit("steepness", activation.steepness, Range{0.1, 1000});
+}
+template <typename Visit>
+void visit_fields(TissueDescription& tissue, Visit visit) {
+    visit("deep_shear_pa", tissue.deep_shear_pa, Range{1, 1e9});
+    visit("superficial_shear_pa", tissue.superficial_shear_pa, Range{1, 1e9});
+    visit("bulk_pa", tissue.bulk_pa, Range{1, 1e10});
+    visit("density_kg_m3", tissue.density_kg_m3, Range{1, 1e5});
+    visit("damping_s", tissue.damping_s, Range{0, 10});
+    visit("contact_pa_per_m", tissue.contact_pa_per_m, Range{0, 1e12});
+    visit("lid_shear_ratio", tissue.lid_shear_ratio, Range{1e-4, 100});
+    visit("lip_shear_ratio", tissue.lip_shear_ratio, Range{1e-4, 100});
+    visit("modiolus_shear_ratio", tissue.modiolus_shear_ratio, Range{1e-4, 100});
+    visit("crease_shear_ratio", tissue.crease_shear_ratio, Range{1e-4, 100});
+    visit("malar_shear_ratio", tissue.malar_shear_ratio, Range{1e-4, 100});
+    visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
+    visit("force_scale", tissue.force_scale, Range{0, 100});
+}
+template <typename Visit>
+void visit_fields(SkinDescription& skin, Visit visit) {
+    visit("membrane_n_per_m", skin.membrane_n_per_m, Range{0, 1e6});
+    visit("bending_n_m", skin.bending_n_m, Range{0, 1e3});
+    visit("lid_membrane_ratio", skin.lid_membrane_ratio, Range{1e-4, 100});
+    visit("wrinkles", skin.wrinkles, Range{0, 10});
+}
+template <typename Visit>
+void visit_fields(LipsDescription& lips, Visit visit) {
+    for (const auto& [key, ratio] : {std::pair{"upper_turn", &lips.upper_turn},
+                                     {"lower_turn", &lips.lower_turn},
+                                     {"upper_push", &lips.upper_push},
+                                     {"lower_push", &lips.lower_push},
+                                     {"puff", &lips.puff}})
+        visit(key, *ratio, Range{0.05, 4});
+}
+template <typename Visit>
+void visit_fields(LookDescription& look, Visit visit) {
+    static const std::vector<std::string_view> kTextures{"mesh", "generated"};
+    visit("textures", look.textures, kTextures);
+    visit("skin_tone", look.skin_tone);
+    visit("lip_tone", look.lip_tone);
+    visit("hair_tone", look.hair_tone);
+    visit("iris_tone", look.iris_tone);
+    visit("freckles", look.freckles, Range{0, 1});
+    visit("scalp_hair", look.scalp_hair, Range{0, 1});
+    visit("hairline_mm", look.hairline_mm, Range{-10, 40});
+    visit("temples_mm", look.temples_mm, Range{-10, 40});
+    visit("hair_length_mm", look.hair_length_mm, Range{0, 15});
+    visit("beard", look.beard, Range{0, 1});
+    visit("beard_length_mm", look.beard_length_mm, Range{0, 15});
+    visit("age", look.age, Range{0, 1});
+    visit("seed", look.seed);
+}
+
+struct FieldReader {
+    JsonCursor json;
+    void operator()(const char* key, double& value, Range range) const {
+        if (const auto found = json.find(key)) value = found->number(range);
+    }
+    void operator()(const char* key, Vec3& value) const {
+        if (const auto found = json.find(key)) value = found->vec3();
+    }
+    void operator()(const char* key, int& value) const {
+        if (const auto found = json.find(key))
+            value = found->integer(0, std::numeric_limits<int>::max());
+    }
+    void operator()(const char* key, std::string& value,
+                    const std::vector<std::string_view>& choices) const {
+        if (const auto found = json.find(key)) value = found->one_of(choices);
+    }
+};
+struct FieldKeys {
+    std::vector<std::string_view>& keys;
+    template <typename... Rest>
+    void operator()(const char* key, Rest&&...) const {
+        keys.push_back(key);
+    }
+    void operator()(const char* key, std::string&, const std::vector<std::string_view>&) const {
+        keys.push_back(key);
+    }
+};
+struct FieldWriter {
+    Json& json;
+    void operator()(const char* key, double& value, Range) const { json[key] = value; }
+    void operator()(const char* key, Vec3& value) const {
+        json[key] = {value.x(), value.y(), value.z()};
+    }
+    void operator()(const char* key, int& value) const { json[key] = value; }
+    void operator()(const char* key, std::string& value,
+                    const std::vector<std::string_view>&) const {
+        json[key] = value;
+    }
+};
+
+template <typename T>
+void read_fields(const JsonCursor& parent, const char* key, T& out) {
+    const auto found = parent.find(key);
+    if (!found) return;
+    const JsonCursor json = follow_table(*found);
+    std::vector<std::string_view> keys;
+    visit_fields(out, FieldKeys{keys});
+    json.allow_keys(keys);
+    visit_fields(out, FieldReader{json});
+}
+template <typename T>
+Json fields_of(const T& value) {
+    Json json = Json::object();
+    T copy = value;
+    visit_fields(copy, FieldWriter{json});
+    return json;
+}
+
+constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "muscle_bands",
+                                   "muscles"};
+constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json",
+                                       "attachments.json", "muscle_bands.json", "muscles.json"};
+
+}  // namespace
+
+const SolidMuscle* RigDescription::solid(const std::string& muscle) const {
+    for (const SolidMuscle& entry : solids)
+        if (entry.muscle == muscle) return &entry;
+    return nullptr;
+}
+
+const std::vector<std::string_view>& part_roles() {
+    static const std::vector<std::string_view> kRoles{
+        "skin",     "mouth",      "eye_socket", "eye_l",       "eye_r",
+        "cornea_l", "cornea_r",   "teeth",      "teeth_upper", "teeth_lower",
+        "gums",     "gums_upper", "gums_lower", "tongue",      "gums_tongue",
+        "lashes",   "lashes_l",   "lashes_r",   "hidden"};
+    return kRoles;
+}
+
+std::map<std::string, Landmark> read_landmark_table(JsonCursor table) {
+    std::map<std::string, Landmark> out;
+    for (const std::string& id : table.keys()) {
+        const JsonCursor item = table.at(id);
+        item.allow_keys({"vertex", "xyz", "distance_mm"});
+        Landmark landmark;
+        const auto vertex = item.find("vertex"), xyz = item.find("xyz");
+        if (vertex.has_value() == xyz.has_value()) item.fail("either \"vertex\" or \"xyz\"");
+        if (vertex) landmark.vertex = vertex->integer(0, std::numeric_limits<int>::max());
+        if (xyz) landmark.xyz = xyz->vec3();
+        out[id] = landmark;
+    }
+    return out;
+}
+
+std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.at("format").one_of({"risorius-landmarks"});
+    json.allow_keys({"format", "version", "landmarks", "mesh", "note", "mesh_units_per_metre"});
+    json.at("version").integer(1, 1);
+    return read_landmark_table(json.at("landmarks"));
+}
+
+RigDescription read_rig(const std::filesystem::path& file) {
+    const JsonCursor json = JsonCursor::read_file(file);
+    json.at("format").one_of({"risorius-rig"});
+    json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
+                     "facs", "expressions", "look", "calibrated_on"});
+    json.at("version").integer(1, 1);
+    RigDescription rig;
+    const auto table = [&](const JsonCursor& named) {
+        if (named.is_string()) rig.table_files.push_back(named.path());
+        return follow_table(named);
+    };
+    rig.name = json.at("name").string();
+
+    const JsonCursor mesh = json.at("mesh");
+    mesh.allow_keys({"file", "metres_per_unit", "parts"});
+    rig.mesh_file = existing_file(mesh.at("file"));
+    rig.metres_per_unit = mesh.at("metres_per_unit").number({1e-9, 1e3});
+    mesh.at("parts").allow_keys(part_roles());
+    for (const std::string& role : mesh.at("parts").keys())
+        for (const JsonCursor& group : mesh.at("parts").at(role).items())
+            rig.parts[role].push_back(group.string());
+
+    const JsonCursor landmarks = json.at("landmarks");
+    rig.landmarks = landmarks.is_string() ? read_landmarks(existing_file(landmarks))
+                                          : read_landmark_table(landmarks);
+    if (landmarks.is_string()) rig.table_files.push_back(landmarks.path());
+
+    const JsonCursor anatomy = table(json.at("anatomy"));
+    anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
+                        "strength", "solids", "lips", "jaw", "eyes", "activation"});
+    rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
+    rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
+    rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
+    rig.atlas.bands = read_muscle_bands(table(anatomy.at("muscle_bands")));
+    rig.muscles = read_muscle_table(table(anatomy.at("muscles")));
+    if (const auto solids = anatomy.find("solids"))
+        rig.solids = read_solid_muscles(table(*solids), rig.muscles);
+    if (const auto strength = anatomy.find("strength"))
+        for (const std::string& muscle : strength->keys()) {
+            bool known = false;
+            for (MuscleBand& band : rig.atlas.bands)
+                if (band.muscle == muscle) {
+                    band.strength = strength->at(muscle).number({0, 100});
+                    known = true;
+                }
+            if (!known)
+                strength->at(muscle).fail("a muscle of the muscle bands", "\"" + muscle + "\"");
+        }
+    for (const auto& [id, landmark] : rig.landmarks)
+        if (!rig.atlas.landmark(id)) {
+            std::vector<std::string_view> known;
+            for (const AtlasLandmark& l : rig.atlas.landmarks) known.push_back(l.id);
+            const std::string near = nearest_name(id, known);
+            throw Error(landmarks.place() + "/" + id,
+                        near.empty() ? "a landmark of the atlas"
+                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)",
+                        "\"" + id + "\"");
+        }
+
+    if (const auto calibrated = json.find("calibrated_on")) {
+        read_calibration(*calibrated);
+        if (calibrated->is_string()) rig.table_files.push_back(calibrated->path());
+    }
+
+    read_fields(anatomy, "lips", rig.lips);
+    read_fields(anatomy, "jaw", rig.jaw);
+    read_fields(anatomy, "eyes", rig.eyes);
+    read_fields(anatomy, "activation", rig.activation);
+    read_fields(json, "tissue", rig.tissue);
+    read_fields(json, "skin", rig.skin);
+    read_fields(json, "look", rig.look);
+    rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    for (track::ActionUnit& unit : rig.facs.units)
+        unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
+    rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
+    return rig;
+}
+
+void write_rig(const RigDescription& rig, const std::filesystem::path& file,
+               const RigWriteOptions& options) {
+    const std::filesystem::path folder =
+        file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    const auto relative = [&](const std::filesystem::path& path) {
+        return std::filesystem::proximate(std::filesystem::absolute(path),
+                                          std::filesystem::absolute(folder))
+            .generic_string();
+    };
+    const auto table = [&](const char* name) -> Json {
+        const std::filesystem::path source = options.standard_folder / name;
+        if (!options.inline_tables) return relative(source);
+        return JsonCursor::read_file(source).json();
+    };
+    Json json;
+    json["format"] = "risorius-rig";
+    json["version"] = 1;
+    json["name"] = rig.name;
+    json["mesh"]["file"] = relative(rig.mesh_file);
+    json["mesh"]["metres_per_unit"] = rig.metres_per_unit;
+    json["mesh"]["parts"] = Json::object();
+    for (std::string_view role : part_roles()) {
+        const auto found = rig.parts.find(std::string(role));
+        if (found != rig.parts.end()) json["mesh"]["parts"][std::string(role)] = found->second;
+    }
+    Json landmarks = Json::object();
+    for (const auto& [id, landmark] : rig.landmarks) {
+        if (landmark.vertex >= 0)
+            landmarks[id]["vertex"] = landmark.vertex;
+        else
+            landmarks[id]["xyz"] = {landmark.xyz.x(), landmark.xyz.y(), landmark.xyz.z()};
+    }
+    json["landmarks"] = landmarks;
+    Json anatomy;
+    for (std::size_t i = 0; i < std::size(kTables); ++i)
+        anatomy[kTables[i]] = table(kTableFiles[i]);
+    Json strength = Json::object();
+    for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
+    anatomy["strength"] = strength;
+    if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids);
+    anatomy["lips"] = fields_of(rig.lips);
+    anatomy["jaw"] = fields_of(rig.jaw);
+    anatomy["eyes"] = fields_of(rig.eyes);
+    if (rig.activation.law != ActivationDescription().law)
+        anatomy["activation"] = fields_of(rig.activation);
+    json["anatomy"] = anatomy;
+    json["tissue"] = fields_of(rig.tissue);
+    json["skin"] = fields_of(rig.skin);
+    json["facs"] = table("facs.json");
+    json["expressions"] = table("expressions.json");
+    json["look"] = fields_of(rig.look);
+    if (const auto source = options.standard_folder / kCalibrationFile;
+        std::filesystem::exists(source))
+        json["calibrated_on"] = options.inline_tables
+                                    ? Json(read_calibration(JsonCursor::read_file(source)))
+                                    : Json(relative(source));
+
+    const std::filesystem::path partial = file.string() + ".part";
+    {
+        std::ofstream stream(partial, std::ios::binary);
+        stream << json.dump(1, ' ') << "\n";
+        stream.flush();
+        if (!stream) {
+            std::error_code ignored;
+            std::filesystem::remove(partial, ignored);
+            throw RunError(file.string() + ": cannot be written");
+        }
+    }
+    std::filesystem::rename(partial, file);
+}
+
+}  // namespace risorius::rig

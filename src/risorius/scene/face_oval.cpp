@@ -1,0 +1,97 @@
+#include "risorius/scene/face_oval.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace risorius::scene {
+
+namespace {
+
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// Andrew's monotone chain.
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+    if (points.size() < 3) return {};
+    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
+        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    });
+    std::vector<Vec2> hull;
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::size_t begin = hull.size();
+        for (const Vec2& point : points) {
+            while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0)
+                hull.pop_back();
+            hull.push_back(point);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+/// A smooth curve through the corners (centripetal Catmull-Rom: no loops where two are close), as a hull.
+std::vector<Vec2> rounded(const std::vector<Vec2>& hull) {
+    constexpr int kPieces = 8;
+    const std::size_t n = hull.size();
+    std::vector<Vec2> curve;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 &a = hull[(i + n - 1) % n], &b = hull[i], &c = hull[(i + 1) % n],
+                   &d = hull[(i + 2) % n];
+        const double ab = std::sqrt((b - a).norm()), bc = std::sqrt((c - b).norm()),
+                     cd = std::sqrt((d - c).norm());
+        if (ab == 0 || bc == 0 || cd == 0) continue;
+        const Vec2 slope_b = bc * ((b - a) / ab - (c - a) / (ab + bc)) + (c - b),
+                   slope_c = bc * ((d - c) / cd - (d - b) / (bc + cd)) + (c - b);
+        for (int piece = 0; piece < kPieces; ++piece) {
+            const double t = static_cast<double>(piece) / kPieces, u = 1 - t;
+            curve.push_back(u * u * (1 + 2 * t) * b + t * t * (3 - 2 * t) * c +
+                            t * u * (u * slope_b - t * slope_c));
+        }
+    }
+    return hull_of(std::move(curve));
+}
+
+}  // namespace
+
+const std::vector<std::string>& FaceOval::landmarks() {
+    static const std::vector<std::string> ids{"tr",   "fml_l", "fml_r", "fht_l", "fht_r",
+                                              "ft_l", "ft_r",  "zy_l",  "zy_r",  "go_l",
+                                              "go_r", "mmb_l", "mmb_r", "gn",    "me"};
+    return ids;
+}
+
+FaceOval::FaceOval(std::vector<Vec2> points) : border_(rounded(hull_of(std::move(points)))) {}
+
+bool FaceOval::holds(const Vec2& point) const {
+    for (std::size_t i = 0; i < border_.size(); ++i)
+        if (turn(border_[i], border_[(i + 1) % border_.size()], point) < 0) return false;
+    return !border_.empty();
+}
+
+FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
+    // Every side of the border leaves what lies to one side of a place in the row, or all or nothing of it
+    double least = 0, most = width_px;
+    for (std::size_t i = 0; i < border_.size(); ++i) {
+        const Vec2 &a = border_[i], &b = border_[(i + 1) % border_.size()];
+        // turn(a, b, {x, y + 0.5}) = at_zero - x * rise
+        const double rise = b.y() - a.y(), at_zero = turn(a, b, {0.0, y + 0.5});
+        if (rise > 0)
+            most = std::min(most, at_zero / rise);
+        else if (rise < 0)
+            least = std::max(least, at_zero / rise);
+        else if (at_zero < 0)
+            return {};
+    }
+    // Where rounding decides, as holds() does
+    const auto pixel = [&](double x) {
+        return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(width_px)));
+    };
+    Span out{std::max(0, pixel(least) - 1), std::min(width_px, pixel(most) + 1)};
+    while (out.first < out.end && !holds({out.first + 0.5, y + 0.5})) ++out.first;
+    while (out.end > out.first && !holds({out.end - 0.5, y + 0.5})) --out.end;
+    return out;
+}
+
+}  // namespace risorius::scene

@@ -1,0 +1,22 @@
+// Numbers of a description that have to lie in a half-open range, and how many nodes it may have.
+#pragma once
+
+#include "risorius/core/json_cursor.h"
+
+namespace risorius::softbody::detail {
+
+inline constexpr int kMostNodesPerAxis = 1000;
+
+inline double positive(const JsonCursor& json) {
+    if (!json.is_number() || !(json.number() > 0)) json.fail("a number in (0, inf)");
+    return json.number();
+}
+
+inline double not_negative(const JsonCursor& json) { return json.number({0, kInfinity}); }
+
+inline double not_negative(const JsonCursor& json, std::string_view key, double otherwise) {
+    const auto found = json.find(key);
+    return found ? not_negative(*found) : otherwise;
+}
+
+}  // namespace risorius::softbody::detail

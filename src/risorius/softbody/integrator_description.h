@@ -1,0 +1,13 @@
+// How an experiment file asks for an integrator: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
+#pragma once
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/solve/integrator.h"
+
+namespace risorius::softbody {
+
+/// Keys are the fields of solve::IntegratorOptions except length_scale_m, which the body gives; "method" is required.
+/// Throws Error on anything out of range.
+solve::IntegratorOptions read_integrator(const JsonCursor& json);
+
+}  // namespace risorius::softbody

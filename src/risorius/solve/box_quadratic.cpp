@@ -1,0 +1,98 @@
+#include "risorius/solve/box_quadratic.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace risorius::solve {
+
+namespace {
+
+enum class Place { kLeast, kZero, kMost, kBelowZero, kAboveZero };
+
+Place place_of(const BoxQuadratic& problem, const Eigen::VectorXd& x, long i) {
+    if (x[i] == problem.least[i]) return Place::kLeast;
+    if (x[i] == problem.most[i]) return Place::kMost;
+    if (x[i] == 0 && problem.price[i] > 0) return Place::kZero;
+    return x[i] < 0 ? Place::kBelowZero : Place::kAboveZero;
+}
+
+// To the minimum over the unknowns that are free while the others stay; one that comes to a limit or to 0 on the way stays there.
+void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::VectorXd& x,
+          Eigen::VectorXd& slope) {
+    std::vector<long> free;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i] == Place::kBelowZero || places[i] == Place::kAboveZero)
+            free.push_back(static_cast<long>(i));
+    while (free.size() > 1) {  // of a single one a sweep does it
+        const auto count = static_cast<long>(free.size());
+        const auto unknown = [&](long k) { return free[static_cast<std::size_t>(k)]; };
+        Eigen::MatrixXd A(count, count);
+        Eigen::VectorXd down(count);
+        for (long k = 0; k < count; ++k) {
+            const long i = unknown(k);
+            for (long l = 0; l < count; ++l) A(k, l) = problem.A(i, unknown(l));
+            down[k] = -slope[i] - std::copysign(problem.price[i], x[i]);
+        }
+        const Eigen::LLT<Eigen::MatrixXd> factor(A);
+        if (factor.info() != Eigen::Success) return;
+        const Eigen::VectorXd step = factor.solve(down);
+        double way = 1, stop = 0;
+        long first = -1;
+        for (long k = 0; k < count; ++k) {
+            const long i = unknown(k);
+            const bool priced = problem.price[i] > 0;
+            double end = step[k] > 0 ? problem.most[i] : problem.least[i];
+            if (priced && x[i] * step[k] < 0 && x[i] * end < 0) end = 0;
+            if (!(std::abs(step[k]) * way > std::abs(end - x[i]))) continue;
+            way = (end - x[i]) / step[k];
+            stop = end;
+            first = k;
+        }
+        for (long k = 0; k < count; ++k) x[unknown(k)] += way * step[k];
+        if (first >= 0) x[unknown(first)] = stop;
+        slope = problem.A * x + problem.b;
+        if (first < 0) return;
+        free.erase(free.begin() + first);
+    }
+}
+
+}  // namespace
+
+int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance, int sweeps) {
+    x = x.cwiseMax(problem.least).cwiseMin(problem.most);
+    Eigen::VectorXd slope = problem.A * x + problem.b;  // without the price
+    std::vector<Place> places(static_cast<std::size_t>(x.size())), before;
+    bool jumped = false;  // from these places
+    for (int sweep = 1; sweep <= sweeps; ++sweep) {
+        double greatest = 0;
+        for (long i = 0; i < x.size(); ++i) {
+            const double curvature = problem.A(i, i);
+            if (!(curvature > 0)) continue;
+            // Without limits the minimum lies at `free`, drawn towards 0 by the price
+            const double free = x[i] - slope[i] / curvature;
+            const double drawn = std::max(0.0, std::abs(free) - problem.price[i] / curvature);
+            const double next =
+                std::clamp(std::copysign(drawn, free), problem.least[i], problem.most[i]);
+            const double change = next - x[i];
+            if (change == 0) continue;
+            slope += change * problem.A.col(i);
+            x[i] = next;
+            greatest = std::max(greatest, std::abs(change));
+        }
+        if (greatest <= tolerance) return sweep;
+        for (long i = 0; i < x.size(); ++i)
+            places[static_cast<std::size_t>(i)] = place_of(problem, x, i);
+        if (places != before) {
+            before = places;
+            jumped = false;
+        } else if (!jumped) {
+            jumped = true;
+            jump(problem, places, x, slope);
+        }
+    }
+    return sweeps;
+}
+
+}  // namespace risorius::solve

@@ -1,0 +1,18 @@
+// The classic Runge-Kutta step of order 4, also the start of the multi-step methods.
+#pragma once
+
+#include "risorius/solve/motion_system.h"
+
+namespace risorius::solve::detail {
+
+class RungeKutta4Step {
+  public:
+    /// Steps x and v by h; `a` is the acceleration at t. Three evaluations.
+    void apply(const MotionSystem& system, double t_s, double h, const Points& a, Points& x,
+               Points& v);
+
+  private:
+    Points stage_, v2_, v3_, v4_, a2_, a3_, a4_;
+};
+
+}  // namespace risorius::solve::detail

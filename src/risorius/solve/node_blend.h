@@ -1,0 +1,78 @@
+// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. What acts on p acts on the nodes by
+// the same weights, so that work and net force are kept.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <initializer_list>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/hessian_builder.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::solve {
+
+class NodeBlend {
+  public:
+    static constexpr int kMost = 12;  ///< two corners of cells and a triangle, with one to spare
+
+    NodeBlend() = default;
+    explicit NodeBlend(int node) { add(node, 1.0); }
+    NodeBlend(std::initializer_list<int> nodes, std::initializer_list<double> weights) {
+        assert(nodes.size() == weights.size());
+        const double* w = weights.begin();
+        for (const int node : nodes) add(node, *w++);
+    }
+
+    /// A node named again gets the sum of its weights; one of weight zero is left out.
+    void add(int node, double weight) {
+        if (weight == 0) return;
+        for (int i = 0; i < count_; ++i)
+            if (nodes_[i] == node) {
+                weights_[i] += weight;
+                return;
+            }
+        assert(count_ < kMost);
+        nodes_[count_] = node;
+        weights_[count_++] = weight;
+    }
+
+    int count() const { return count_; }
+    int node(int i) const { return nodes_[i]; }
+    double weight(int i) const { return weights_[i]; }
+    double weight_sum() const {
+        double sum = 0;
+        for (int i = 0; i < count_; ++i) sum += weights_[i];
+        return sum;
+    }
+
+    /// The point itself, or its velocity when given velocities.
+    Vec3 of(const Points& x) const {
+        Vec3 p = Vec3::Zero();
+        for (int i = 0; i < count_; ++i) p += weights_[i] * x.row(nodes_[i]).transpose();
+        return p;
+    }
+
+    /// A force (or gradient) on the point, shared by its nodes.
+    void scatter(const Vec3& force, Points& out) const {
+        for (int i = 0; i < count_; ++i) out.row(nodes_[i]) += weights_[i] * force.transpose();
+    }
+
+    /// The second derivative over the point, a symmetric matrix.
+    void scatter(const Mat3& block, HessianBuilder& out) const {
+        for (int i = 0; i < count_; ++i)
+            for (int j = 0; j <= i; ++j)
+                out.add(nodes_[i], nodes_[j], weights_[i] * weights_[j] * block);
+    }
+
+    void scatter(double stiffness, MetricBuilder& out) const {
+        out.add_outer(nodes_.data(), weights_.data(), count_, stiffness);
+    }
+
+  private:
+    int count_ = 0;
+    std::array<int, kMost> nodes_{};
+    std::array<double, kMost> weights_{};
+};
+
+}  // namespace risorius::solve

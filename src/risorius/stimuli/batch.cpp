@@ -1,0 +1,264 @@
+// From a design to a folder of stimuli.
+#include "risorius/stimuli/batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "risorius/core/error.h"
+#include "risorius/design/conditions.h"
+#include "risorius/report/stopwatch.h"
+#include "risorius/stimuli/detail/experiment_files.h"
+#include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/stimulus_set.h"
+#include "risorius/stimuli/detail/take.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kScene_s = 2;  // about, on two cores: face, scene and view built anew
+
+/// Calls make(i) for all i < count, on several threads when there are several workers.
+void for_each(std::size_t count, int workers,
+              const std::function<void(std::size_t i, animate::Studio&)>& make) {
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto work = [&] {
+        try {
+            animate::Studio studio;
+            for (std::size_t i; (i = next++) < count;) make(i, studio);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            next = count;
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 1; t < workers; ++t) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+/// Which films there are, and which takes are still needed when the clip itself is made.
+void share_takes(std::vector<ClipPlan>& clips) {
+    std::map<std::string, std::size_t> at;
+    std::size_t films = 0;
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        at[clips[i].condition.clip] = i;
+        if (!clips[i].is_control()) clips[i].film = films++;
+    }
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        ClipPlan& of = clips[at.at(clips[i].condition.of)];
+        if (clips[i].is_control() && clips[i].film_sha256 == of.film_sha256)
+            of.take_is_shared = true;
+    }
+}
+
+/// Clips that differ in their names alone: a factor that the script does not use.
+void note_twins(BatchPlan& plan) {
+    std::map<std::string, const ClipPlan*> first;
+    std::string example;
+    int twins = 0;
+    for (const ClipPlan& clip : plan.clips) {
+        if (clip.is_control()) continue;
+        const auto [like, is_new] = first.emplace(clip.film_sha256, &clip);
+        if (is_new) continue;
+        if (++twins == 1)
+            example = clip.condition.clip + " is " + like->second->condition.clip + " again";
+    }
+    if (twins > 0)
+        plan.notes.push_back(std::to_string(twins) +
+                             (twins == 1 ? " clip is the same film as another ("
+                                         : " clips are the same films as others (") +
+                             example + "): does the script use every factor?");
+}
+
+}  // namespace
+
+void check_batch_folder(const fs::path& out) {
+    if (!fs::exists(out)) return;
+    if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
+    if (!fs::is_empty(out) && !fs::exists(out / "dataset_description.json") &&
+        !fs::exists(out / "code") && !fs::exists(out / "stimuli"))
+        throw Error(out.string(), "an empty folder, or one that `batch` has begun",
+                    "a folder with other files");
+}
+
+double BatchPlan::seconds() const {
+    double sum = 0;
+    const ClipPlan* before = nullptr;
+    for (const ClipPlan& clip : clips) {
+        sum += clip.seconds();
+        if (!before || before->scene_sha256 != clip.scene_sha256) sum += kScene_s;
+        before = &clip;
+    }
+    return sum;
+}
+
+double BatchPlan::megabytes() const {
+    double sum = 0;
+    for (const ClipPlan& clip : clips) sum += clip.megabytes();
+    return sum;
+}
+
+BatchPlan plan_batch(const fs::path& file) {
+    const design::Design design = design::read_design(file);
+    BatchPlan plan;
+    plan.name = design.name;
+    plan.match = design.match;
+    plan.experiment = design.experiment;
+    for (const design::ConditionSet& set : design.sets)
+        if (!set.fraction.empty() || set.draw)
+            plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
+    RigDigests rigs;
+    SoundPlans sounds;
+    for (const design::Condition& condition : design::conditions_of(design))
+        plan.clips.push_back(plan_clip(condition, design, rigs, sounds));
+    share_takes(plan.clips);
+    check_experiment(plan);
+    note_twins(plan);
+    return plan;
+}
+
+Json BatchReport::json() const {
+    Json list = Json::array();
+    for (const auto& [clip, why] : failed) list.push_back({{"stim_id", clip}, {"why", why}});
+    return {{"format", "risorius-batch"},
+            {"version", 1},
+            {"name", name},
+            {"made", made},
+            {"kept", kept},
+            {"elsewhere", elsewhere},
+            {"unmeasured", unmeasured},
+            {"failed", list},
+            {"complete", complete},
+            {"seconds", seconds}};
+}
+
+namespace {
+
+/// What a run does to one clip after another, and how it tells.
+class BatchRun {
+  public:
+    BatchRun(const BatchOptions& options, const Watch& watch, BatchReport& report)
+        : options_(options), watch_(watch), report_(report) {}
+
+    bool is_mine(std::size_t index) const {
+        return static_cast<int>(index % static_cast<std::size_t>(options_.parts)) + 1 ==
+               options_.part;
+    }
+    void tell(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
+        if (options_.told) options_.told(clip.condition.clip, state, why);
+    }
+    using Work =
+        std::function<void(const ClipPlan&, const CoreShare&, const Watch&, animate::Studio&)>;
+    /// Of each clip in turn; those that failed are noted. How many were done.
+    int work(const std::vector<const ClipPlan*>& clips, const char* done, const Work& make) {
+        for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
+        const double all_s = left_s_;
+        int count = 0;
+        // One thread for each, so that a worker is one core of a cluster; more where there are too few clips
+        const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
+        const CoreShare share{.threads = options_.workers / at_once, .clips_at_once = at_once};
+        for_each(clips.size(), at_once, [&](std::size_t i, animate::Studio& studio) {
+            const ClipPlan& clip = *clips[i];
+            std::string why;
+            // Of its frames the batch tells nothing but that it goes on
+            const Watch frames{.progress = {}, .stopped = watch_.stopped};
+            try {
+                {
+                    const std::lock_guard lock(telling_);
+                    watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
+                }
+                make(clip, share, frames, studio);
+            } catch (const Error& error) {
+                why = error.what();
+            } catch (const RunError& error) {
+                why = error.what();
+            }
+            const std::lock_guard lock(telling_);
+            left_s_ -= clip.seconds();
+            if (why.empty())
+                ++count;
+            else
+                report_.failed.emplace_back(clip.condition.clip, why);
+            tell(clip, why.empty() ? done : "failed", why);
+        });
+        std::sort(report_.failed.begin(), report_.failed.end());
+        return count;
+    }
+
+  private:
+    const BatchOptions& options_;
+    const Watch& watch_;
+    BatchReport& report_;
+    std::mutex telling_;
+    double left_s_ = 0;  ///< about, of the work that is being done
+};
+
+}  // namespace
+
+BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
+    const report::Stopwatch time;
+    BatchPlan plan = plan_batch(options.design);
+    check_batch_folder(options.out);
+    BatchReport report;
+    report.name = plan.name;
+    BatchRun run(options, watch, report);
+
+    // Pictures are matched by what all of them are: first the films, then the clips
+    if (plan.match.luminance) {
+        std::vector<const ClipPlan*> films;
+        for (const std::size_t i : unmeasured(plan, options.out))
+            if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
+        run.work(
+            films, "filmed",
+            [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+                animate::Studio& studio) { make_take(clip, options.out, share, frames, studio); });
+        report.unmeasured =
+            static_cast<int>(unmeasured(plan, options.out).size() - report.failed.size());
+        if (!report.failed.empty() || report.unmeasured > 0) {
+            report.elsewhere = static_cast<int>(plan.clips.size() - report.failed.size());
+            report.seconds = time.seconds();
+            return report;
+        }
+        match_luminance(options.out, plan);
+    }
+
+    // What is there already, and what is not
+    std::vector<const ClipPlan*> wanted;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+        const ClipPlan& clip = plan.clips[i];
+        if (is_made(clip, options.out)) {
+            ++report.kept;
+            run.tell(clip, "kept");
+        } else if (!run.is_mine(i)) {
+            ++report.elsewhere;
+        } else {
+            wanted.push_back(&clip);
+        }
+    }
+    report.made = run.work(
+        wanted, "made",
+        [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+            animate::Studio& studio) { make_clip(clip, options.out, share, frames, studio); });
+
+    // What is told of all of them
+    if (report.failed.empty() && report.elsewhere == 0) {
+        watch.tell(1, "the files of the set");
+        write_set(plan, options.design, options.out);
+        report.complete = true;
+    }
+    report.seconds = time.seconds();
+    return report;
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,193 @@
+#include "risorius/stimuli/detail/clip_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "risorius/core/error.h"
+#include "risorius/media/sync_marks.h"
+#include "risorius/report/contact_sheet.h"
+
+namespace risorius::stimuli {
+
+using design::ControlKind;
+
+namespace {
+
+constexpr int kStrip = 5, kThumb_px = 120;
+constexpr int kPhotodiode_px = 64;
+
+/// What of a picture a window leaves, soft at its edge; the rest is background.
+struct Window {
+    double left = 0, top = 0, right = 0, bottom = 0;
+
+    void show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
+        const double soft = 0.08 * (right - left);
+        for (int y = 0; y < image.height_px; ++y)
+            for (int x = 0; x < image.width_px; ++x) {
+                const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
+                const double share =
+                    away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
+                std::uint8_t* pixel = image.pixel(x, y);
+                for (int k = 0; k < 3; ++k)
+                    pixel[k] = static_cast<std::uint8_t>(std::lround(
+                        share * pixel[k] + (1 - share) * outside[static_cast<std::size_t>(k)]));
+            }
+    }
+};
+
+/// Around the landmarks of eyes or mouth, wherever they are in any frame: a window that stands still.
+Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
+                     const std::string& place) {
+    const std::vector<std::string> ids =
+        kind == design::ControlKind::kEyesOnly
+            ? std::vector<std::string>{"en_l", "en_r", "ex_l", "ex_r",
+                                       "ps_l", "ps_r", "pi_l", "pi_r"}
+            : std::vector<std::string>{"ch_l", "ch_r", "ls", "li", "sto", "stos", "stoi"};
+    double width = 0;
+    Window out{1e9, 1e9, -1e9, -1e9};
+    for (const std::string& id : ids) {
+        const int u = rows.column(id + ".u_px"), v = rows.column(id + ".v_px");
+        if (u < 0 || v < 0) continue;
+        for (int r = 0; r < rows.rows(); ++r) {
+            out.left = std::min(out.left, rows.number(r, u));
+            out.right = std::max(out.right, rows.number(r, u));
+            out.top = std::min(out.top, rows.number(r, v));
+            out.bottom = std::max(out.bottom, rows.number(r, v));
+        }
+    }
+    width = out.right - out.left;
+    if (!(width > 0))
+        throw Error(place, "a rig with landmarks of eyes and mouth", "none to put a window around");
+    const double beside = 0.12 * width,
+                 above = (kind == design::ControlKind::kEyesOnly ? 0.16 : 0.2) * width;
+    return {out.left - beside, out.top - above, out.right + beside, out.bottom + above};
+}
+
+void turn_upside_down(Image& image) {
+    std::vector<std::uint8_t> turned(image.rgba.size());
+    const std::size_t pixels = image.rgba.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i)
+        std::copy_n(&image.rgba[4 * i], 4, &turned[4 * (pixels - 1 - i)]);
+    image.rgba = std::move(turned);
+}
+
+std::string decimal_text(double value, int decimals) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+/// What a column of the film's table is for the picture as it is shown, if it is of the picture.
+std::optional<std::string> shown(const std::string& column, const media::PictureMeasures& picture) {
+    if (column == "luminance_mean") return decimal_text(picture.luminance_mean, 6);
+    if (column == "luminance_sd") return decimal_text(picture.luminance_sd, 6);
+    if (column == "contrast_rms") return decimal_text(picture.contrast_rms, 6);
+    if (column == "motion_energy") return decimal_text(picture.motion_energy, 9);
+    return {};
+}
+
+}  // namespace
+
+bool shows_other_order(design::ControlKind kind) {
+    return kind == design::ControlKind::kReversed || kind == design::ControlKind::kScrambled ||
+           kind == design::ControlKind::kApex;
+}
+
+bool shows_part(design::ControlKind kind) {
+    return kind == design::ControlKind::kEyesOnly || kind == design::ControlKind::kMouthOnly;
+}
+
+ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
+    : plan_(plan),
+      kind_(plan.condition.control.kind),
+      video_(video),
+      later_(shows_other_order(kind_) || shows_part(kind_)),
+      measured_(plan.tone || plan.condition.control.shows_otherwise()) {
+    if (plan.tone) tone_.emplace(*plan.tone);
+    if (kind_ == design::ControlKind::kPhaseScrambled)
+        phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
+}
+
+void ClipPictures::take(Image image) {
+    if (tone_) tone_->apply(image);
+    if (later_)
+        held_.push_back(std::move(image));
+    else
+        write(std::move(image));
+}
+
+void ClipPictures::finish(const animate::FrameRows& rows, const std::vector<int>& order) {
+    if (!later_) return;
+    std::optional<Window> window;
+    if (shows_part(kind_)) window = window_around(rows, kind_, plan_.condition.clip);
+    for (const int frame : order) {
+        Image image = held_[static_cast<std::size_t>(frame)];
+        if (window) window->show(plan_.background, image);
+        write(std::move(image));
+    }
+}
+
+Image ClipPictures::strip() const {
+    const Image& first = thumbs_.front();
+    Image out(kStrip * first.width_px, first.height_px);
+    for (int i = 0; i < kStrip; ++i) {
+        const std::size_t at =
+            (2 * static_cast<std::size_t>(i) + 1) * thumbs_.size() / (2 * kStrip);
+        for (int y = 0; y < first.height_px; ++y)
+            std::copy_n(thumbs_[at].pixel(0, y), 4 * first.width_px,
+                        out.pixel(i * first.width_px, y));
+    }
+    return out;
+}
+
+void ClipPictures::write(Image image) {
+    if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);
+    if (phases_) phases_->scramble(image);
+    if (measured_) measures_.push_back(meter_.measure(image));
+    const int height = std::min(kThumb_px, image.height_px);
+    thumbs_.push_back(
+        report::shrunk(image, std::max(1, image.width_px * height / image.height_px), height));
+    if (plan_.clips.photodiode)
+        media::draw_photodiode(media::corner_named(*plan_.clips.photodiode, "photodiode"),
+                               std::min(kPhotodiode_px, image.width_px / 8), written_ % 2 == 0,
+                               image);
+    ++written_;
+    hash_.add(image.rgba.data(), image.rgba.size());
+    video_.append(image);
+}
+
+std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
+                         const std::vector<media::PictureMeasures>& measures,
+                         const ClipPlan& plan) {
+    std::string out = "onset\tduration\tframe\tsource_frame";
+    for (std::size_t c = 2; c < rows.names.size(); ++c) out += "\t" + rows.names[c];
+    if (plan.clips.photodiode) out += "\tphotodiode";
+    out += "\n";
+    const bool turned = plan.condition.control.kind == design::ControlKind::kUpsideDown;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const auto& cells = rows.cells[static_cast<std::size_t>(order[i])];
+        out += decimal_text(static_cast<double>(i) / plan.fps, 6) + "\t" +
+               decimal_text(1.0 / plan.fps, 6) + "\t" + std::to_string(i) + "\t" +
+               std::to_string(order[i]);
+        for (std::size_t c = 2; c < rows.names.size(); ++c) {
+            const std::string& name = rows.names[c];
+            const auto ends = [&](const char* end) {
+                return name.size() > 5 && name.compare(name.size() - 5, 5, end) == 0;
+            };
+            if (turned && (ends(".u_px") || ends(".v_px")))
+                out += "\t" + decimal_text((ends(".u_px") ? plan.width_px : plan.height_px) -
+                                               rows.number(order[i], static_cast<int>(c)),
+                                           3);
+            else if (const auto now = measures.empty() ? std::nullopt : shown(name, measures[i]))
+                out += "\t" + *now;
+            else
+                out += "\t" + cells[c];
+        }
+        if (plan.clips.photodiode) out += i % 2 == 0 ? "\t1" : "\t0";
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace risorius::stimuli

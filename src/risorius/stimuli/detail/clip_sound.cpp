@@ -1,0 +1,66 @@
+#include "risorius/stimuli/detail/clip_sound.h"
+
+#include <cmath>
+
+#include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/media/sha256.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kHighestPeak_dbtp = -1;  // EBU R 128
+
+}  // namespace
+
+ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
+                         std::optional<double> lufs, const std::string& place) {
+    const fs::path file = fs::weakly_canonical(*condition.audio);
+    const std::string key = file.string() + "\n" + format_number(condition.audio_start_s) + "\n" +
+                            format_number(duration_s);
+    if (const auto found = known_.find(key); found != known_.end()) return found->second;
+
+    const media::Sound recording = media::read_recording(*condition.audio);
+    ClipSound out;
+    out.file = *condition.audio;
+    out.sha256 = media::sha256_of_file(file);
+    const double length_s = static_cast<double>(recording.length()) / recording.rate_hz;
+    if (condition.audio_start_s >= duration_s || condition.audio_start_s + length_s <= 0)
+        throw Error(place, "an audio_start_s at which some of the recording is within the clip",
+                    format_number(condition.audio_start_s));
+    out.offset_samples = std::llround(condition.audio_start_s * recording.rate_hz);
+    out.loudness = media::loudness_of(
+        media::heard(recording, out.offset_samples, std::llround(duration_s * recording.rate_hz)));
+    if (lufs) {
+        if (!std::isfinite(out.loudness.integrated_lufs))
+            throw Error(place, "0.4 s of sound, to match its loudness",
+                        out.file.string() + ", of which less is heard");
+        out.gain_db = *lufs - out.loudness.integrated_lufs;
+        out.loudness.integrated_lufs += out.gain_db;
+        out.loudness.true_peak_dbtp += out.gain_db;
+        if (out.loudness.true_peak_dbtp > kHighestPeak_dbtp) {
+            const auto most =
+                std::floor(10 * (*lufs - (out.loudness.true_peak_dbtp - kHighestPeak_dbtp))) / 10;
+            throw Error(place,
+                        "a loudness that leaves the peaks of " + out.file.string() +
+                            " below -1 dBTP, " + format_number(most) + " LUFS at most",
+                        format_number(*lufs));
+        }
+    }
+    return known_.emplace(key, out).first->second;
+}
+
+std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound) {
+    return std::make_shared<media::Sound>(
+        media::amplified(media::read_recording(sound.file), sound.gain_db));
+}
+
+media::Sound heard_of(const ClipSound& sound, double duration_s) {
+    const std::shared_ptr<const media::Sound> whole = sound_of(sound);
+    return media::heard(*whole, sound.offset_samples, std::llround(duration_s * whole->rate_hz));
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,172 @@
+#include "risorius/stimuli/detail/experiment_files.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/error.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/stimuli/detail/experiment_programs.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_shown(const design::ExperimentOptions& experiment, const design::Condition& condition) {
+    const bool control = condition.control.kind != design::ControlKind::kNone;
+    return (experiment.controls || !control) &&
+           (experiment.sets.empty() || std::find(experiment.sets.begin(), experiment.sets.end(),
+                                                 condition.set) != experiment.sets.end());
+}
+
+/// As the first clip has it, so that nothing else is lighter or darker around it.
+std::string screen_colour(const BatchPlan& plan) {
+    for (const ClipPlan& clip : plan.clips)
+        if (is_shown(*plan.experiment, clip.condition)) {
+            char text[8];
+            std::snprintf(text, sizeof text, "#%02x%02x%02x", clip.background[0],
+                          clip.background[1], clip.background[2]);
+            return text;
+        }
+    return {};
+}
+
+std::string plain_text(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return format_number(value.get<double>());
+    return value.is_null() ? "" : value.dump();
+}
+
+/// The key of the answer that the clip's value is; empty where the design tells none.
+std::string correct_key(const design::ExperimentOptions& experiment,
+                        const design::Condition& condition) {
+    if (!experiment.correct) return {};
+    for (const auto& [name, value] : condition.values)
+        if (name == *experiment.correct)
+            for (const auto& [key, answer] : experiment.answers)
+                if (answer == plain_text(value)) return key;
+    return {};
+}
+
+/// As RFC 4180 has it.
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+}
+
+/// A row per clip, the same columns in all.
+std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>& records) {
+    std::vector<std::string> names;
+    for (const ClipPlan& clip : plan.clips)
+        if (is_shown(*plan.experiment, clip.condition))
+            for (const auto& [name, value] : clip.condition.values)
+                if (name != "set" && std::find(names.begin(), names.end(), name) == names.end())
+                    names.push_back(name);
+    std::vector<Json> out;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+        const ClipPlan& clip = plan.clips[i];
+        if (!is_shown(*plan.experiment, clip.condition)) continue;
+        Json row{{"stim_id", clip.condition.clip},
+                 {"stim_file", clip_files(clip).video.filename().generic_string()},
+                 {"set", clip.condition.set},
+                 {"control", clip.condition.control.name()},
+                 {"frames", records[i].at("frames")},
+                 {"fps", records[i].at("fps")},
+                 {"movement_onset_frame", records[i].at("movement_onset_frame")},
+                 {"apex_frame", records[i].at("apex_frame")},
+                 {"audio_file", clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav"
+                                           : std::string()},
+                 {"correct_key", correct_key(*plan.experiment, clip.condition)}};
+        for (const std::string& name : names) {
+            const auto value =
+                std::find_if(clip.condition.values.begin(), clip.condition.values.end(),
+                             [&](const auto& one) { return one.first == name; });
+            row["value_" + name] =
+                value == clip.condition.values.end() ? "" : plain_text(value->second);
+        }
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+std::string csv_table(const std::vector<Json>& rows) {
+    std::string out;
+    for (const auto& [name, value] : rows.front().items())
+        out += (out.empty() ? "" : ",") + csv_cell(name);
+    out += "\n";
+    for (const Json& row : rows) {
+        std::string line;
+        for (const auto& [name, value] : row.items())
+            line += (line.empty() ? "" : ",") + csv_cell(plain_text(value));
+        out += line + "\n";
+    }
+    return out;
+}
+
+}  // namespace
+
+void check_experiment(BatchPlan& plan) {
+    if (!plan.experiment) return;
+    const design::ExperimentOptions& experiment = *plan.experiment;
+    bool any = false, any_correct = false;
+    std::vector<std::string> without;
+    for (const ClipPlan& clip : plan.clips) {
+        if (!is_shown(experiment, clip.condition)) continue;
+        any = true;
+        if (!correct_key(experiment, clip.condition).empty())
+            any_correct = true;
+        else if (experiment.correct && !clip.is_control())
+            without.push_back(clip.condition.clip);
+        if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" &&
+            std::find(experiment.programs.begin(), experiment.programs.end(), "jspsych") !=
+                experiment.programs.end())
+            throw Error("clips/ending", "mp4 or webm, which browsers play, for jspsych",
+                        clip.clips.ending);
+    }
+    if (!any) throw Error("experiment", "a clip to be shown at least", "none");
+    if (experiment.correct && !any_correct)
+        throw Error("experiment/correct", "a parameter with values that are among the answers",
+                    risorius::quoted(*experiment.correct));
+    if (!without.empty())
+        plan.notes.push_back("experiment: none of the answers is correct for " +
+                             std::to_string(without.size()) + " of the clips shown, " +
+                             without.front() + (without.size() > 1 ? " the first" : ""));
+}
+
+std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
+                                       const fs::path& folder) {
+    const design::ExperimentOptions& experiment = *plan.experiment;
+    const std::vector<Json> rows = condition_rows(plan, records);
+    Json answers = Json::array();
+    for (const auto& [key, answer] : experiment.answers)
+        answers.push_back({{"key", key}, {"answer", answer}});
+    const Json settings{{"name", plan.name},
+                        {"clips", "../stimuli/"},
+                        {"question", experiment.question},
+                        {"answers", answers},
+                        {"repetitions", experiment.repetitions},
+                        {"fixation_s", experiment.fixation_s},
+                        {"background", screen_colour(plan)}};
+    std::vector<fs::path> files;
+    const auto write = [&](const char* name, const std::string& text) {
+        const fs::path file = fs::path("experiment") / name;
+        fs::create_directories((folder / file).parent_path());
+        report::write_text(folder / file, text);
+        files.push_back(file);
+    };
+    write("conditions.csv", csv_table(rows));
+    write("settings.json", settings.dump(2) + "\n");
+    for (const std::string& program : experiment.programs) {
+        if (program == "psychopy") write("experiment.py", psychopy_program());
+        if (program == "jspsych")
+            write("index.html", jspsych_page(plan.name, experiment.jspsych_from, settings.dump(1),
+                                             Json(rows).dump(1)));
+    }
+    return files;
+}
+
+}  // namespace risorius::stimuli

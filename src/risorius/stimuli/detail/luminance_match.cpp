@@ -1,0 +1,152 @@
+#include "risorius/stimuli/detail/luminance_match.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/error.h"
+#include "risorius/plot/write_chart.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/stimuli/detail/take.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+media::LuminanceSums before_of(const Json& record) {
+    return sums_of(record.at("luminance").at("before"));
+}
+
+media::LuminanceSums after_of(const Json& record) {
+    return sums_of(record.at("luminance").at("after"));
+}
+
+bool is_condition(const Json& record) { return record.at("control").get<std::string>().empty(); }
+
+struct Together {
+    media::LuminanceSums before, after;
+    double cut_off = 0;  ///< of the clip from which most is
+};
+
+/// Of the conditions: controls are left out, as they are of the measure.
+Together together(const std::vector<Json>& records) {
+    Together out;
+    for (const Json& record : records) {
+        if (!is_condition(record)) continue;
+        out.before.add(before_of(record));
+        out.after.add(after_of(record));
+        out.cut_off = std::max(out.cut_off, record.at("luminance").at("cut_off").get<double>());
+    }
+    return out;
+}
+
+std::string four_digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4f", value);
+    return text;
+}
+
+plot::Chart chart_of(const char* name, const char* label, const std::vector<Json>& records,
+                     double (media::LuminanceSums::*quantity)() const) {
+    plot::Chart chart;
+    chart.name = name;
+    chart.x.label = "clip";
+    chart.y.label = label;
+    plot::Series before{.label = "before", .mark = plot::Mark::kPoints};
+    plot::Series after{.label = "after", .mark = plot::Mark::kPoints};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto at = static_cast<double>(i + 1);
+        before.x.push_back(at);
+        before.y.push_back((before_of(records[i]).*quantity)());
+        after.x.push_back(at);
+        after.y.push_back((after_of(records[i]).*quantity)());
+    }
+    chart.series = {before, after};
+    return chart;
+}
+
+}  // namespace
+
+std::vector<std::size_t> unmeasured(const BatchPlan& plan, const fs::path& folder) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i)
+        if (plan.clips[i].luminance && !plan.clips[i].is_control() &&
+            !measured_luminance(plan.clips[i], folder))
+            out.push_back(i);
+    return out;
+}
+
+void match_luminance(const fs::path& folder, BatchPlan& plan) {
+    if (!plan.match.luminance) return;
+    const design::LuminanceMatch& match = *plan.match.luminance;
+    media::LuminanceSums all;
+    std::map<std::string, media::LuminanceSums> of;
+    for (const ClipPlan& clip : plan.clips) {
+        if (clip.is_control()) continue;
+        const auto measured = measured_luminance(clip, folder);
+        if (!measured) throw RunError(clip.condition.clip + ": its measure has gone");
+        all.add(of[clip.condition.clip] = *measured);
+    }
+    if (!(all.sd() > 0)) throw RunError("the pictures have no contrast that could be matched");
+    const double mean = match.mean.value_or(all.mean()), sd = match.sd.value_or(all.sd());
+    for (ClipPlan& clip : plan.clips)
+        clip.match(media::tone_between(match.per_clip ? of.at(clip.condition.of) : all, mean, sd));
+}
+
+std::vector<fs::path> write_luminance_report(const BatchPlan& plan,
+                                             const std::vector<Json>& records,
+                                             const fs::path& folder) {
+    const design::LuminanceMatch& match = *plan.match.luminance;
+    const fs::path below = "luminance";
+    fs::create_directories(folder / below);
+    std::string table =
+        "stim_id\tset\tcontrol\tmean_before\tsd_before\tmean_after\tsd_after\tgain\toffset\t"
+        "cut_off\n";
+    for (const Json& record : records) {
+        const media::LuminanceSums before = before_of(record), after = after_of(record);
+        const std::string control = record.at("control").get<std::string>();
+        table += record.at("stim_id").get<std::string>() + "\t" +
+                 record.at("set").get<std::string>() + "\t" + (control.empty() ? "n/a" : control);
+        for (const double value : {before.mean(), before.sd(), after.mean(), after.sd()})
+            table += "\t" + four_digits(value);
+        for (const char* key : {"gain", "offset", "cut_off"})
+            table += "\t" + format_number(record.at("luminance").at(key).get<double>());
+        table += "\n";
+    }
+    const Together of = together(records);
+    const auto described = [](const media::LuminanceSums& sums) {
+        return Json{{"mean", sums.mean()}, {"sd", sums.sd()}};
+    };
+    const auto wanted = [](const std::optional<double>& value) {
+        return value ? Json(*value) : Json();
+    };
+    const Json json{{"within", match.within_face ? "face" : "picture"},
+                    {"one_for", match.per_clip ? "clip" : "all"},
+                    {"wanted", {{"mean", wanted(match.mean)}, {"sd", wanted(match.sd)}}},
+                    {"before", described(of.before)},
+                    {"after", described(of.after)},
+                    {"greatest_cut_off", of.cut_off}};
+    report::write_text(folder / below / "luminance.tsv", table);
+    report::write_text(folder / below / "luminance.json", json.dump(2) + "\n");
+    std::vector<fs::path> files{below / "luminance.tsv", below / "luminance.json"};
+    for (const plot::Chart& chart :
+         {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),
+          chart_of("sd", "standard deviation of luminance", records, &media::LuminanceSums::sd)})
+        for (const std::string& name : plot::write_chart(chart, folder / below))
+            files.push_back(below / name);
+    return files;
+}
+
+std::string luminance_text(const std::vector<Json>& records) {
+    const Together of = together(records);
+    return "Luminance over all pixels that count: mean " + four_digits(of.before.mean()) +
+           " before, " + four_digits(of.after.mean()) + " after; standard deviation " +
+           four_digits(of.before.sd()) + " before, " + four_digits(of.after.sd()) +
+           " after. Of the clip that loses most, " + four_digits(100 * of.cut_off) +
+           " % of the values are cut off at black or white.";
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,35 @@
+// Pictures of a set made alike in luminance and contrast: all films are measured first, then every clip is shown through the
+// same map of linear light, or each through its own. The report is
+//
+//   luminance/luminance.tsv     of every clip: mean and standard deviation before and after, the map, what it cuts off
+//   luminance/luminance.json    of all conditions together, and what was asked for
+//   luminance/mean.svg, sd.svg  the clips in their order, before and after (and as .png, with what they are drawn from)
+//
+// Means and deviations are over all pixels of all frames that count: the picture, or the oval of the face.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/stimuli/batch.h"
+
+namespace risorius::stimuli {
+
+/// The conditions whose films are not measured yet, by their places in the plan.
+std::vector<std::size_t> unmeasured(const BatchPlan& plan, const std::filesystem::path& folder);
+
+/// Gives every clip its map; all conditions must be measured. Throws Error when the set cannot be matched as asked.
+void match_luminance(const std::filesystem::path& folder, BatchPlan& plan);
+
+/// The report of clips that are all made; the names of its files in `folder`.
+std::vector<std::filesystem::path> write_luminance_report(const BatchPlan& plan,
+                                                          const std::vector<Json>& records,
+                                                          const std::filesystem::path& folder);
+
+/// In a sentence or two.
+std::string luminance_text(const std::vector<Json>& records);
+
+}  // namespace risorius::stimuli

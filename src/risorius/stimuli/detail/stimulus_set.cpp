@@ -1,0 +1,249 @@
+#include "risorius/stimuli/detail/stimulus_set.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "risorius/core/version.h"
+#include "risorius/media/sha256.h"
+#include "risorius/report/html_writer.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/stimuli/detail/experiment_files.h"
+#include "risorius/stimuli/detail/luminance_match.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kMissing = "n/a";  // as BIDS writes it
+
+std::string cell(const Json& value) {
+    if (value.is_null()) return kMissing;
+    std::string text = value.is_string()   ? value.get<std::string>()
+                       : value.is_number() ? format_number(value.get<double>())
+                                           : value.dump();
+    for (char& c : text)
+        if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+    return text.empty() ? kMissing : text;
+}
+
+/// Of all clips, in the order in which they first come.
+std::vector<std::string> value_names(const std::vector<Json>& records) {
+    std::vector<std::string> out;
+    for (const Json& record : records)
+        for (const auto& [name, value] : record.at("values").items())
+            if (name != "set" && std::find(out.begin(), out.end(), name) == out.end())
+                out.push_back(name);
+    return out;
+}
+
+bool has_sound(const std::vector<ClipPlan>& clips) {
+    return std::any_of(clips.begin(), clips.end(),
+                       [](const ClipPlan& clip) { return clip.sound.has_value(); });
+}
+
+std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
+    const std::vector<std::string> names = value_names(records);
+    std::string out =
+        "stim_id\tstim_file\tset\tcontrol\tcontrol_of\tframes\tfps\tduration_s\t"
+        "movement_onset_s\tapex_s\tpictures_sha256";
+    const bool heard = has_sound(clips);
+    if (heard) out += "\tloudness_lufs\ttrue_peak_dbtp";
+    for (const std::string& name : names) out += "\t" + name;
+    out += "\n";
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const Json& one = records[i];
+        const double fps = one.at("fps").get<double>();
+        const std::string control = one.at("control").get<std::string>();
+        out += one.at("stim_id").get<std::string>() + "\t" +
+               clip_files(clips[i]).video.filename().string() + "\t" + cell(one.at("set")) + "\t" +
+               (control.empty() ? kMissing : control) + "\t" +
+               (control.empty() ? kMissing : one.at("of").get<std::string>()) + "\t" +
+               cell(one.at("frames")) + "\t" + cell(one.at("fps")) + "\t" +
+               cell(one.at("duration_s")) + "\t" +
+               format_number(one.at("movement_onset_frame").get<double>() / fps) + "\t" +
+               format_number(one.at("apex_frame").get<double>() / fps) + "\t" +
+               one.at("pictures_sha256").get<std::string>();
+        for (const char* key : {"loudness_lufs", "true_peak_dbtp"})
+            if (heard)
+                out += "\t" + (one.contains("audio") ? cell(one.at("audio").at(key)) : kMissing);
+        for (const std::string& name : names) {
+            const auto value = one.at("values").find(name);
+            out += "\t" + (value == one.at("values").end() ? kMissing : cell(*value));
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+Json catalogue_columns(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
+    Json out{
+        {"stim_id", {{"Description", "Name of the clip"}}},
+        {"stim_file", {{"Description", "The video, in this folder"}}},
+        {"set", {{"Description", "Set of conditions of the design"}}},
+        {"control", {{"Description", "What differs from the clip it is a control of"}}},
+        {"control_of", {{"Description", "stim_id of that clip"}}},
+        {"frames", {{"Description", "Number of frames"}}},
+        {"fps", {{"Description", "Frames per second, constant"}, {"Units", "Hz"}}},
+        {"duration_s", {{"Description", "Frames over frame rate"}, {"Units", "s"}}},
+        {"movement_onset_s",
+         {{"Description",
+           "Start of the first frame in which a landmark of the face has moved by 0.3 mm, or by "
+           "5 % of the farthest way of any landmark if that is less"},
+          {"Units", "s"}}},
+        {"apex_s",
+         {{"Description",
+           "Start of the frame in which a landmark is farthest from where it was in the first"},
+          {"Units", "s"}}},
+        {"pictures_sha256",
+         {{"Description", "Of the RGBA bytes of all frames before they were encoded"}}}};
+    if (has_sound(clips)) {
+        out["loudness_lufs"] = {
+            {"Description", "Integrated loudness of the clip's sound by EBU R 128"},
+            {"Units", "LUFS"}};
+        out["true_peak_dbtp"] = {{"Description", "Highest peak of the clip's sound by EBU R 128"},
+                                 {"Units", "dBTP"}};
+    }
+    for (const std::string& name : value_names(records))
+        out[name] = {{"Description", "Parameter of the design, see code/design.json"}};
+    return out;
+}
+
+/// 1 clip_on, 2 movement_onset, 3 apex, 4 clip_off.
+std::string triggers(const std::vector<Json>& records) {
+    std::string out = "stim_id\tevent\tcode\tframe\ttime_s\n";
+    for (const Json& one : records) {
+        const double fps = one.at("fps").get<double>();
+        const auto row = [&](const char* event, int code, int frame) {
+            out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
+                   std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
+                   format_number(frame / fps) + "\n";
+        };
+        row("clip_on", 1, 0);
+        row("movement_onset", 2, one.at("movement_onset_frame").get<int>());
+        row("apex", 3, one.at("apex_frame").get<int>());
+        row("clip_off", 4, one.at("frames").get<int>());
+    }
+    return out;
+}
+
+std::string overview(const std::string& name, const std::vector<Json>& records,
+                     const std::vector<ClipPlan>& clips) {
+    report::HtmlWriter html;
+    html.element("h1", name);
+    html.element("p",
+                 std::to_string(records.size()) +
+                     " clips. Faces are synthetic. Values, frames and times: "
+                     "stimuli/stimuli.tsv; triggers: triggers.tsv; ground truth of every frame "
+                     "beside each clip.");
+    if (clips.front().luminance) {
+        html.element("h2", "Luminance");
+        html.element("p", luminance_text(records));
+        for (const char* chart : {"luminance/mean.svg", "luminance/sd.svg"})
+            html.single("img", {{"src", chart}, {"alt", "Every clip before and after"}});
+    }
+    std::string set;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const Json& one = records[i];
+        if (one.at("set").get<std::string>() != set) {
+            set = one.at("set").get<std::string>();
+            html.element("h2", set);
+        }
+        html.open("figure");
+        const ClipFiles files = clip_files(clips[i]);
+        html.open("a", {{"href", files.video.generic_string()}});
+        html.single("img", {{"src", files.strip.generic_string()},
+                            {"loading", "lazy"},
+                            {"alt", "Five frames of " + clips[i].condition.clip}});
+        html.close();
+        std::string said = clips[i].condition.clip + ": ";
+        for (const auto& [key, value] : one.at("values").items())
+            if (key != "set") said += key + " " + cell(value) + ", ";
+        said += std::to_string(one.at("frames").get<int>()) + " frames at " + cell(one.at("fps")) +
+                " fps";
+        html.element("figcaption", said);
+        html.close();
+    }
+    return report::html_page(name, html);
+}
+
+/// What `batch` has written into the folder for this or an earlier design, as its checksums, sidecars and names tell.
+std::set<fs::path> written_before(const fs::path& folder) {
+    std::set<fs::path> files;
+    std::ifstream sums(folder / "SHA256SUMS");
+    for (std::string line; std::getline(sums, line);)
+        if (const std::size_t gap = line.find("  "); gap != std::string::npos) {
+            const fs::path file = fs::path(line.substr(gap + 2)).lexically_normal();
+            if (file.is_relative() && *file.begin() != "..") files.insert(file);
+        }
+    if (!fs::is_directory(folder / "stimuli")) return files;
+    for (const auto& entry : fs::directory_iterator(folder / "stimuli")) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("stim-")) continue;
+        files.insert(fs::path("stimuli") / name);
+        // Of a clip that was never finished only its files tell
+        const std::string clip = name.substr(5, name.find('_') - 5);
+        files.insert(fs::path("overview") / (clip + ".png"));
+        files.insert(fs::path("code/scripts") / (clip + ".json"));
+    }
+    return files;
+}
+
+/// Files that this set does not have but `batch` has written for an earlier design; no one else's.
+void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
+    for (const fs::path& file : written_before(folder))
+        if (kept.count(file) == 0 && fs::is_regular_file(folder / file)) fs::remove(folder / file);
+    fs::remove_all(folder / "takes");
+    for (const char* below : {"stimuli", "overview", "code/scripts", "luminance"})
+        if (fs::is_directory(folder / below) && fs::is_empty(folder / below))
+            fs::remove(folder / below);
+}
+
+}  // namespace
+
+void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& folder) {
+    std::set<fs::path> files;
+    std::vector<Json> records;
+    for (const ClipPlan& clip : plan.clips) {
+        const ClipFiles its = clip_files(clip);
+        files.insert(its.sidecar);
+        for (const fs::path& file : its.told()) files.insert(file);
+        records.push_back(clip_record(clip, folder));
+    }
+    const auto write = [&](const char* name, const std::string& text) {
+        fs::create_directories((folder / name).parent_path());
+        report::write_text(folder / name, text);
+        files.insert(name);
+    };
+    write(
+        "dataset_description.json",
+        Json{{"Name", plan.name},
+             {"BIDSVersion", "1.10.0"},
+             {"DatasetType", "derivative"},
+             {"GeneratedBy",
+              Json::array({{{"Name", "Risorius"},
+                            {"Version", kVersion},
+                            {"Description", "Simulated and rendered: every face is synthetic"}}})}}
+                .dump(2) +
+            "\n");
+    write("stimuli/stimuli.tsv", catalogue(records, plan.clips));
+    write("stimuli/stimuli.json", catalogue_columns(records, plan.clips).dump(2) + "\n");
+    write("triggers.tsv", triggers(records));
+    write("code/design.json", text_of_file(design));
+    write("index.html", overview(plan.name, records, plan.clips));
+    if (plan.match.luminance)
+        for (const fs::path& file : write_luminance_report(plan, records, folder))
+            files.insert(file);
+    if (plan.experiment)
+        for (const fs::path& file : write_experiment(plan, records, folder)) files.insert(file);
+    take_away_former(folder, files);
+    std::string sums;
+    for (const fs::path& file : files)
+        sums += media::sha256_of_file(folder / file) + "  " + file.generic_string() + "\n";
+    report::write_text(folder / "SHA256SUMS", sums);
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,213 @@
+#include "risorius/stimuli/slurm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "risorius/core/error.h"
+#include "risorius/report/run_program.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/stopwatch.h"
+#include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/stimulus_set.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The controller is asked no more often than its manual wants it
+constexpr auto kBetweenLooks = std::chrono::seconds(2);
+
+/// For a POSIX shell.
+std::string shell_quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
+    return out + "'";
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+report::ProgramResult slurm_program(const std::vector<std::string>& command) {
+    const report::ProgramResult result = report::run_program(command);
+    if (result.exit_code == 127)
+        throw RunError(command[0] + ": not found; --engine slurm needs Slurm's programs");
+    return result;
+}
+
+class Job {
+  public:
+    Job(const BatchOptions& batch, const SlurmOptions& slurm, const std::vector<int>& tasks,
+        int round) {
+        std::string array;
+        for (const int task : tasks) array += (array.empty() ? "" : ",") + std::to_string(task);
+        const fs::path code = fs::absolute(batch.out) / "code";
+        std::vector<std::string> command{
+            "sbatch",
+            "--parsable",
+            "--job-name=risorius",
+            "--array=" + array,
+            "--cpus-per-task=" + std::to_string(slurm.workers),
+            "--output=" + (code / ("slurm-" + std::to_string(round) + "-%a.log")).string()};
+        if (!slurm.account.empty()) command.push_back("--account=" + slurm.account);
+        if (!slurm.partition.empty()) command.push_back("--partition=" + slurm.partition);
+        if (!slurm.time.empty()) command.push_back("--time=" + slurm.time);
+        command.push_back((code / "slurm.sh").string());
+        const report::ProgramResult sent = slurm_program(command);
+        id_ = one_line(sent.output.substr(0, sent.output.find(';')));
+        if (sent.exit_code != 0 || id_.empty() ||
+            id_.find_first_not_of("0123456789") != std::string::npos)
+            throw RunError("sbatch: " + one_line(sent.output));
+    }
+    /// Whether any task waits or runs. A job that Slurm has forgotten has ended.
+    bool goes_on() const {
+        const report::ProgramResult seen = slurm_program({"squeue", "-h", "-j", id_, "-o", "%T"});
+        return seen.exit_code == 0 && !one_line(seen.output).empty();
+    }
+    void cancel() const { slurm_program({"scancel", id_}); }
+
+  private:
+    std::string id_;
+};
+
+/// What the tasks said of clips that failed.
+void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::string>>& failed) {
+    for (auto& [clip, why] : failed)
+        for (const auto& entry : fs::directory_iterator(code)) {
+            if (entry.path().extension() != ".log") continue;
+            std::ifstream in(entry.path());
+            for (std::string line; std::getline(in, line);) {
+                const Json event = Json::parse(line, nullptr, false);
+                if (event.is_object() && event.value("event", "") == "failed" &&
+                    event.value("stim_id", "") == clip)
+                    why = event.value("why", "");
+            }
+        }
+}
+
+}  // namespace
+
+std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks) {
+    return "#!/bin/sh\n# A part of a stimulus set, made by one task of a job array.\nexec " +
+           shell_quoted(slurm.program.string()) + " batch " +
+           shell_quoted(fs::absolute(batch.design).string()) + " --out " +
+           shell_quoted(fs::absolute(batch.out).string()) + " --workers " +
+           std::to_string(slurm.workers) + " --part \"$SLURM_ARRAY_TASK_ID/" +
+           std::to_string(tasks) + "\" --json\n";
+}
+
+namespace {
+
+/// Job arrays one after the other, until nothing is missing or nothing more is to be tried.
+class Rounds {
+  public:
+    /// What is missing of the plan's clips, by place.
+    using Look = std::function<std::vector<std::size_t>()>;
+
+    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks, const Watch& watch)
+        : batch_(batch), slurm_(slurm), tasks_(tasks), watch_(watch) {}
+
+    /// `number`: of a clip, by which the clips are dealt out.
+    std::vector<std::size_t> run(const char* what, const Look& look,
+                                 const std::function<std::size_t(std::size_t)>& number) {
+        std::vector<std::size_t> missing = look();
+        const auto all = static_cast<double>(missing.size());
+        for (int round = 0; round <= slurm_.retries && !missing.empty(); ++round) {
+            // As make_batch() deals them out
+            std::set<int> parts;
+            for (const std::size_t i : missing)
+                parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
+            const Job job(batch_, slurm_, {parts.begin(), parts.end()}, sent_++);
+            try {
+                while (job.goes_on()) {
+                    watch_.tell(1 - static_cast<double>(missing.size()) / all,
+                                std::to_string(missing.size()) + " " + what + " left");
+                    std::this_thread::sleep_for(kBetweenLooks);
+                    missing = look();
+                }
+            } catch (const Interrupted&) {
+                job.cancel();
+                throw;
+            }
+            missing = look();
+        }
+        return missing;
+    }
+
+  private:
+    const BatchOptions& batch_;
+    const SlurmOptions& slurm_;
+    int tasks_;
+    const Watch& watch_;
+    int sent_ = 0;
+};
+
+}  // namespace
+
+BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
+                                const Watch& watch) {
+    const report::Stopwatch time;
+    BatchPlan plan = plan_batch(batch.design);
+    check_batch_folder(batch.out);
+    BatchReport report;
+    report.name = plan.name;
+    const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
+    fs::create_directories(batch.out / "code");
+    report::write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
+    Rounds rounds(batch, slurm, tasks, watch);
+
+    // Pictures are matched by what all of them are: first the films. A task makes clips too when all films are there
+    std::vector<std::size_t> missing = rounds.run(
+        "films", [&] { return unmeasured(plan, batch.out); },
+        [&](std::size_t i) { return plan.clips[i].film; });
+    if (missing.empty()) {
+        match_luminance(batch.out, plan);
+        std::vector<char> made(plan.clips.size(), 0);
+        const char* state = "kept";
+        missing = rounds.run(
+            "clips",
+            [&] {
+                std::vector<std::size_t> out;
+                for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+                    if (made[i]) continue;
+                    if (!is_made(plan.clips[i], batch.out)) {
+                        out.push_back(i);
+                        continue;
+                    }
+                    made[i] = 1;
+                    ++(std::string(state) == "kept" ? report.kept : report.made);
+                    if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
+                }
+                state = "made";
+                return out;
+            },
+            [](std::size_t i) { return i; });
+    } else {
+        report.unmeasured = static_cast<int>(missing.size());
+    }
+
+    for (const std::size_t i : missing)
+        report.failed.emplace_back(plan.clips[i].condition.clip, "not made; see the logs in code/");
+    add_failures(batch.out / "code", report.failed);
+    if (batch.told)
+        for (const auto& [clip, why] : report.failed) batch.told(clip, "failed", why);
+    if (report.failed.empty()) {
+        for (const auto& entry : fs::directory_iterator(batch.out / "code"))
+            if (entry.path().filename().string().rfind("slurm", 0) == 0) fs::remove(entry.path());
+        write_set(plan, batch.design, batch.out);
+        report.complete = true;
+    }
+    report.seconds = time.seconds();
+    return report;
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,69 @@
+// Volume-preserving soft solid of trilinear cells: the metric term at 2 x 2 x 2 Gauss points and one exact volume
+// constraint per cell (mean dilatation), on uniform and refined meshes alike.
+//
+//   E = sum over cells [ sum_8 (h1 h2 h3 / 8) 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c / (h1 h2 h3) (V_c - V_c0)^2 ]
+//   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed
+//   damping: the same sum with omega_ij and the strain rate; over an implicit step the rate is (G - G_n) / h, so that a
+//   turn is not damped and the potential is one of x alone
+//
+// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with C = G0^-1 at every Gauss point; see cell_body.h.
+// Source of the continuum: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5. Mean dilatation:
+// Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "risorius/solve/force_term.h"
+#include "risorius/tissue/cell_body.h"
+
+namespace risorius::tissue {
+
+namespace detail {
+class CellKernel;
+struct CellMaterialLaw;
+}  // namespace detail
+
+class CellSolid : public solve::ForceTerm {
+  public:
+    /// Throws std::invalid_argument when a cell has no positive volume at rest or the arrays do not fit.
+    explicit CellSolid(CellBody body);
+    ~CellSolid() override;
+
+    const CellBody& body() const { return body_; }
+    const CellMesh& mesh() const { return body_.mesh; }
+
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
+    double energy(double t_s, const Points& x) const override;
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override;
+    void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const override;
+    void add_metric(double step_s, solve::MetricBuilder& metric) const override;
+    /// The metric term is K(x); the volume term is a force.
+    void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
+                    solve::MetricBuilder& K, solve::MetricBuilder& damping,
+                    Points& force) const override;
+
+    /// Positions of all vertices, hanging ones included, from those of the nodes.
+    Points vertices(const Points& x) const;
+    Eigen::VectorXd cell_volumes(const Points& x) const;  ///< m^3
+    double volume(const Points& x) const;                 ///< of the body, m^3
+    double rest_volume() const { return rest_volume_.sum(); }
+    int inverted_count(const Points& x) const;  ///< cells with V_c <= 0
+
+    /// Metric strain dG_ij = G_ij - G0_ij at the eight Gauss points of a cell, m^2; point g is corner g's.
+    void metric_strain(const Points& vertices, int cell, Mat3 (&strain)[8]) const;
+    /// C = G0^-1 at the middle of a cell, 1/m^2: turns metric strain into strain proper, C dG / 2.
+    Mat3 inverse_rest_metric(int cell) const;
+
+  private:
+    detail::CellMaterialLaw law(int cell) const;
+
+    CellBody body_;
+    Points rest_vertices_;
+    Eigen::VectorXd rest_volume_;
+    std::unique_ptr<detail::CellKernel> kernel_;
+};
+
+}  // namespace risorius::tissue

@@ -1,0 +1,65 @@
+// One cell at its Gauss points, in plain numbers: what is not an inner loop (stiffness, secant, metric, strain).
+//
+//   s_ij  stress on material coordinates: dE/dr_i = sum_j s_ij r_j at a point, weighed with it
+#pragma once
+
+#include "risorius/solve/force_term.h"
+#include "risorius/tissue/cell_body.h"
+
+namespace risorius::tissue::detail {
+
+using CellStiffness = Eigen::Matrix<double, 24, 24, Eigen::RowMajor>;
+using CellScalarMatrix = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
+
+struct CellCorners {
+    Eigen::Matrix<double, 3, 8> x;  ///< a column per corner
+
+    CellCorners() { x.setZero(); }
+    CellCorners(const CellMesh::Cell& cell, const Points& vertices) {
+        for (int c = 0; c < 8; ++c)
+            x.col(c) = vertices.row(cell.vertex[static_cast<std::size_t>(c)]).transpose();
+    }
+};
+
+/// Either the thesis' parameters or moduli of one cell.
+struct CellMaterialLaw {
+    explicit CellMaterialLaw(const CellParameters& p) : parameters(p) {}
+    explicit CellMaterialLaw(const CellModuli& m) : physical(true), moduli(m) {}
+
+    bool physical = false;
+    CellParameters parameters;
+    CellModuli moduli;
+};
+
+/// Where an implicit step started: strain rates are differences from there.
+struct RateReference {
+    double rate_hz = 0;
+    CellCorners start;
+};
+
+/// Derivatives of the eight shape functions by a at Gauss point g (the one next to corner g): 3 x 8.
+Eigen::Matrix<double, 3, 8> shape_derivatives(const Vec3& size, int g);
+Mat3 tangents_at(const CellCorners& corners, const Vec3& size, int g);  ///< [r_1 r_2 r_3]
+Mat3 metric_at(const CellCorners& corners, const Vec3& size, int g);    ///< G
+
+/// psi_c / (h1 h2 h3) of either law.
+double volume_stiffness(const CellMaterialLaw& law, const Vec3& size, double rest_volume);
+
+/// Second derivative of the cell's energy, and of h R when `rate` is given, 24 x 24.
+void cell_stiffness(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest,
+                    const CellCorners& now, const RateReference* rate, solve::Curvature curvature,
+                    CellStiffness& stiffness);
+
+/// Bound of it at rest, as one scalar matrix for x, y and z.
+CellScalarMatrix cell_metric(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest,
+                             double rate_hz);
+
+/// The metric term as -matrix x; the volume term, and damping unless lagged, as a force.
+struct CellSecant {
+    CellScalarMatrix matrix;
+    Eigen::Matrix<double, 8, 3> force;
+};
+CellSecant cell_secant(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest,
+                       const CellCorners& now, const CellCorners& speed, bool lag_rate);
+
+}  // namespace risorius::tissue::detail

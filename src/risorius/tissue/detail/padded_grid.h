@@ -1,0 +1,56 @@
+// Fields over a grid in one flat array of floats, worked on eight at a time: a neighbour is a fixed distance away, since
+// cells are numbered as the nodes at their lowest corners and zeros lie before and behind. The last layer of cells along
+// each axis does not exist; its values are zero.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "risorius/tissue/solid_material.h"
+
+namespace risorius::tissue::detail {
+
+typedef float Lanes8 __attribute__((vector_size(32)));
+
+inline Lanes8 load8(const float* from) {
+    Lanes8 lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+inline void store8(float* to, const Lanes8& lanes) { std::memcpy(to, &lanes, sizeof lanes); }
+
+struct PaddedGrid {
+    GridShape nodes;
+
+    int size() const { return (nodes.size() + 7) / 8 * 8; }  ///< loops run to here, by eights
+    int distance(int i, int j, int k) const { return (i * nodes.n + j) * nodes.o + k; }
+    int halo() const { return distance(1, 1, 1) + 8; }
+    /// Corner 4 b1 + 2 b2 + b3 of a cell.
+    int corner(int v) const { return distance(v >> 2 & 1, v >> 1 & 1, v & 1); }
+};
+
+class Field {
+  public:
+    Field() = default;
+    explicit Field(const PaddedGrid& grid)
+        : halo_(static_cast<std::size_t>(grid.halo())),
+          values_(static_cast<std::size_t>(grid.size()) + 2 * halo_, 0.0f) {}
+
+    float* data() { return values_.data() + halo_; }
+    const float* data() const { return values_.data() + halo_; }
+    float& operator[](int i) { return data()[i]; }
+    float operator[](int i) const { return data()[i]; }
+    void set_zero() { std::memset(values_.data(), 0, values_.size() * sizeof(float)); }
+
+  private:
+    std::size_t halo_ = 0;
+    std::vector<float> values_;
+};
+
+/// Thirteen of the 26 neighbours of a cell, those behind it in the numbering.
+constexpr int kBehind[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
+                                {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
+                                {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
+
+}  // namespace risorius::tissue::detail

@@ -1,0 +1,60 @@
+// Multigrid for the pressures of a uniform grid of cells: S q = t, a positive matrix that acts like Poisson's equation.
+//
+//   S          over cells; neighbours are the 26 cells with a node in common
+//   coarser    eight cells as one. Sums over them make pressures jump where they should slope, which is twice as stiff;
+//              hence half of the sum, but for the compliance and for what holds the border
+//   transfer   trilinear between the centres of cells, the same up and down
+//   smoother   Chebyshev polynomials of the fourth kind in D^-1 S, before and after alike: a cycle is symmetric, and
+//              nothing in it waits for its neighbour as Gauss-Seidel does
+//
+// Lottes 2023, Numer. Linear Algebra Appl. 30(6), section 4; the factor of two: Braess 1995, Computing 55.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "risorius/tissue/detail/padded_grid.h"
+
+namespace risorius::tissue::detail {
+
+class PressureMultigrid {
+  public:
+    PressureMultigrid(const GridShape& nodes, int coarsest_cells);
+
+    /// S without its compliance, to be filled before refresh.
+    Field& diagonal() { return levels_.front().diagonal; }
+    Field& behind(int neighbour) {
+        return levels_.front().behind[static_cast<std::size_t>(neighbour)];
+    }
+    /// Zero where there is no cell.
+    void refresh(const Field& compliance);
+
+    /// q = near S^-1 t by one cycle with polynomials of this degree, symmetric and positive.
+    void solve(const Field& t, int degree, Field& q);
+
+    int level_count() const { return static_cast<int>(levels_.size()); }
+
+  private:
+    struct Level {
+        explicit Level(const GridShape& nodes);
+        PaddedGrid grid;
+        Field diagonal, compliance,
+            inverse;  ///< inverse: of the diagonal with compliance, 0 beside the cells
+        std::array<Field, 13> behind;  ///< of S between a cell and those behind it
+        float largest = 1;             ///< bound of the eigenvalues of D^-1 S
+        Field b, x, z, r;
+        std::vector<float> along_k, along_jk;  ///< scratch of restrict and prolong
+    };
+    void coarsen(Level& from, Level& to) const;
+    void subtract_product(const Level& level, const Field& x, Field& r) const;
+    void smooth(Level& level, int degree, bool residual_after) const;
+    void restrict_residual(Level& from, Level& to) const;
+    void add_prolonged(Level& to, Level& from) const;
+    void cycle(std::size_t level, int degree);
+
+    std::vector<Level> levels_;
+    std::vector<int> coarsest_;  ///< cells of the last level
+    Eigen::LLT<Eigen::MatrixXf> direct_;
+};
+
+}  // namespace risorius::tissue::detail

@@ -1,0 +1,34 @@
+// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy in their frame.
+//
+//   F = U diag(sigma) V^T,  U and V rotations; where F is inverted one sigma is negative
+//
+// In that frame the second derivative of psi(sigma) falls apart: a 3 x 3 block A_ij of the stretches and, for each pair
+// (i, j), one number for their symmetric and one for their antisymmetric off-diagonal change:
+//   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
+// (Smith, De Goes & Kim 2019, "Analytic eigensystems for isotropic distortion energies", ACM TOG 38(1).) Clamping those at
+// zero takes away exactly the negative part.
+#pragma once
+
+#include "risorius/core/types.h"
+
+namespace risorius::tissue::detail {
+
+struct PrincipalStretches {
+    Mat3 u, v;
+    Vec3 sigma;
+};
+PrincipalStretches principal_stretches(const Mat3& f);
+
+struct StretchModes {
+    Mat3 along;          ///< A
+    Vec3 symmetric;      ///< of the pair opposite to axis k, that is of the other two axes
+    Vec3 antisymmetric;  ///< likewise
+};
+
+/// Takes away the negative part.
+void clamp(StretchModes& modes);
+
+/// The 3 x 3 block, in the frame U, between two points whose shape functions have the gradients a and b in the frame V.
+Mat3 stretch_block(const StretchModes& modes, const Vec3& a, const Vec3& b);
+
+}  // namespace risorius::tissue::detail

@@ -1,0 +1,73 @@
+// Forces of given course in time on any point of a body: box, triangle and sine pulses along a direction.
+//
+//   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p
+//
+// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/force_term.h"
+#include "risorius/solve/node_blend.h"
+
+namespace risorius::tissue {
+
+enum class PulseShape {
+    kBox,       ///< the amplitude throughout
+    kTriangle,  ///< rises to the amplitude half-way and falls again
+    kSine       ///< amplitude sin(2 pi frequency (t - start) + phase)
+};
+
+/// "box", "triangle", "sine".
+const std::vector<std::string_view>& pulse_shape_names();
+PulseShape pulse_shape_named(std::string_view name);  ///< throws std::invalid_argument
+
+/// Acts in [start, start + duration).
+struct Pulse {
+    PulseShape shape = PulseShape::kBox;
+    double amplitude_n = 1;
+    double start_s = 0;
+    double duration_s = std::numeric_limits<double>::infinity();  ///< > 0; finite for a triangle
+    double frequency_hz = 1;                                      ///< of the sine      (0, inf)
+    double phase_rad = 0;                                         ///< of the sine
+};
+
+double force_n(const Pulse& pulse, double t_s);
+/// Integral of the force from `from_s` to `to_s`, exact, N s.
+double impulse_ns(const Pulse& pulse, double from_s, double to_s);
+
+struct ForceGenerator {
+    solve::NodeBlend at;
+    Vec3 direction = Vec3::UnitZ();  ///< of any length but zero
+    Pulse pulse;
+};
+
+/// Throws Error with the field named below `place`.
+void check(const ForceGenerator& generator, const std::string& place);
+
+/// Explicit methods see the force at each time they ask for. An implicit step sees its mean over the step, so that the body
+/// receives the whole impulse however long the steps are and a short pulse is not stepped over; an equilibrium sees the
+/// force at its time.
+class ForceGenerators : public solve::ForceTerm {
+  public:
+    explicit ForceGenerators(std::vector<ForceGenerator> generators);
+
+    const std::vector<ForceGenerator>& list() const { return generators_; }
+
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
+    double energy(double t_s, const Points& x) const override;
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override;
+    void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
+                     solve::HessianBuilder&) const override {}
+    void add_metric(double, solve::MetricBuilder&) const override {}
+
+  private:
+    std::vector<ForceGenerator> generators_;  // directions of length 1
+};
+
+}  // namespace risorius::tissue

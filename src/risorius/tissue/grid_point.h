@@ -1,0 +1,14 @@
+// Any point of a grid body, named by its material coordinates and carried by the corners of the cell it lies in.
+//
+//   a   material coordinates, each in [0, 1]     weights: trilinear
+#pragma once
+
+#include "risorius/solve/node_blend.h"
+#include "risorius/tissue/solid_material.h"
+
+namespace risorius::tissue {
+
+/// Coordinates outside [0, 1] are taken to the nearest face.
+solve::NodeBlend point_of_grid(const GridShape& grid, const Vec3& a);
+
+}  // namespace risorius::tissue

@@ -1,0 +1,72 @@
+// Forces of a deformable surface by the thesis' finite differences over its grid; a tube by periodic ones along n.
+//
+//   D_i r   forward difference along a_i, absent at the upper border         G_ij = D_i r . D_j r
+//   D_11, D_22   central second difference, absent at borders     D_12   cross difference of a cell
+//   t_k, n  tangents by differences centred on the second difference where there are neighbours, n = t_1 x t_2 / |..|
+//
+//   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
+//   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
+//
+// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference
+// with the rest shape's as carried along by the surface: every rest shape is free of force, rigid motion costs nothing,
+// and where the rest shape is flat and evenly spaced (c = 0) what is left is the plain 1/2 zeta |D_ij r|^2. The other
+// forms tried on paper fall short: |D_ij r|^2 alone flattens a tube; |D_ij r - D_ij r0| resists rotation; Terzopoulos'
+// xi (n . D_ij r - B0_ij)^2 in the constitutive form of the 1987 paper has no linear stiffness where B0 = 0.
+#pragma once
+
+#include <vector>
+
+#include "risorius/solve/force_term.h"
+#include "risorius/tissue/detail/metric_elements.h"
+#include "risorius/tissue/surface_material.h"
+
+namespace risorius::tissue {
+
+/// Weight and drag are terms of their own.
+class GridSurfaceTerm : public solve::ForceTerm {
+  public:
+    /// `surface` has passed check().
+    explicit GridSurfaceTerm(const GridSurface& surface);
+
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
+    double energy(double t_s, const Points& x) const override {
+        (void)t_s;
+        return metric_.energy(x) + bending_energy(x);
+    }
+    double metric_energy(const Points& x) const { return metric_.energy(x); }  ///< J
+    double bending_energy(const Points& x) const;                              ///< J
+    /// With h R = sum 1/4 phi_ij ((G_ij - G_ij(x_n)) / h)^2 h.
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override;
+    /// kPositive: stresses keep their positive part, and bending the square of its first derivative.
+    void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const override;
+    void add_metric(double step_s, solve::MetricBuilder& metric) const override;
+    /// K has stresses and bending; what a curved rest shape adds to bending goes to `force`, and so does the damping
+    /// when its rate is not lagged.
+    void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
+                    solve::MetricBuilder& K, solve::MetricBuilder& damping,
+                    Points& force) const override;
+
+  private:
+    /// One second difference, over at most three nodes along one axis and two beside, or a cell.
+    struct Bending {
+        int count = 0;
+        int node[5] = {};
+        double second[5] = {};  ///< D_ij - c^k t_k
+        double t[2][5] = {};    ///< t_k
+        double normal = 0;      ///< c^n; 0 where the rest shape is flat
+        double zeta = 0;
+    };
+
+    void add_metric_elements(const GridSurface& surface);
+    void add_bending_elements(const GridSurface& surface);
+    void add_bending(const Points& rest, Bending element);
+    double add_bending_gradient(const Points& x, Points& gradient) const;
+
+    MetricElements metric_;
+    std::vector<Bending> bending_;
+    Points rest_;
+};
+
+}  // namespace risorius::tissue

@@ -1,0 +1,101 @@
+// Hookean springs from any point of a body to a fixed point in space, with a damper beside each, and the one spring a
+// person pulls at.
+//
+//   p  the point, m    o  where it is tied, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
+//   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which resists in all directions
+//
+// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/force_term.h"
+#include "risorius/solve/node_blend.h"
+
+namespace risorius::tissue {
+
+struct PointSpring {
+    solve::NodeBlend at;           ///< p
+    Vec3 tied_to = Vec3::Zero();   ///< o, m
+    double stiffness_n_per_m = 1;  ///< [0, inf)
+    double rest_length_m = 0;      ///< [0, inf)
+    double damping_ns_per_m = 0;   ///< [0, inf)
+};
+
+/// Throws Error with the field named below `place`.
+void check(const PointSpring& spring, const std::string& place);
+
+class PointSprings : public solve::ForceTerm {
+  public:
+    explicit PointSprings(std::vector<PointSpring> springs);
+
+    /// May be changed between steps.
+    std::vector<PointSpring>& list() { return springs_; }
+    const std::vector<PointSpring>& list() const { return springs_; }
+
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
+    double energy(double t_s, const Points& x) const override;
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override;
+    void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const override;
+    void add_metric(double step_s, solve::MetricBuilder& metric) const override;
+    void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
+                    solve::MetricBuilder& K, solve::MetricBuilder& damping,
+                    Points& force) const override;
+
+  private:
+    std::vector<PointSpring> springs_;
+};
+
+/// A spring of rest length zero whose free end a caller moves while the simulation runs.
+///
+/// attach, move and release may be called from any thread at any time; they wait for the next begin_step, so that within a
+/// step nothing changes and the same calls between the same steps give the same motion. All else belongs to the thread
+/// that steps the system.
+class InteractiveSpring : public solve::ForceTerm {
+  public:
+    /// Throws std::invalid_argument unless both are finite and not negative.
+    explicit InteractiveSpring(double stiffness_n_per_m, double damping_ns_per_m = 0);
+
+    void attach(const solve::NodeBlend& at, const Vec3& free_end);
+    void move(const Vec3& free_end);  ///< without effect while released
+    void release();
+
+    bool attached() const { return !now_.list().empty(); }  ///< in the current step
+    Vec3 free_end() const;  ///< of the current step; zero while released
+
+    void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;
+    void add_force(double t_s, const Points& x, const Points& v, Points& force) const override {
+        now_.add_force(t_s, x, v, force);
+    }
+    double energy(double t_s, const Points& x) const override { return now_.energy(t_s, x); }
+    double add_potential(const solve::ImplicitStep& step, const Points& x,
+                         Points& gradient) const override {
+        return now_.add_potential(step, x, gradient);
+    }
+    void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const override {
+        now_.add_hessian(step, x, curvature, hessian);
+    }
+    /// Of the spring as attached when asked: a metric built before attaching does not know it.
+    void add_metric(double step_s, solve::MetricBuilder& metric) const override {
+        now_.add_metric(step_s, metric);
+    }
+    void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
+                    solve::MetricBuilder& K, solve::MetricBuilder& damping,
+                    Points& force) const override {
+        now_.add_secant(t_s, x, v, lag_rate, K, damping, force);
+    }
+
+  private:
+    double stiffness_n_per_m_, damping_ns_per_m_;
+    std::mutex mutex_;                 // guards wanted_
+    std::vector<PointSpring> wanted_;  // none or one
+    PointSprings now_;
+};
+
+}  // namespace risorius::tissue

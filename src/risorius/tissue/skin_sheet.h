@@ -1,0 +1,117 @@
+// The skin: a membrane of triangles with bending at the edges between them.
+//
+//   F   3 x 2 deformation gradient     A   rest area, m^2     k   membrane stiffness, N/m     kB
+//   bending stiffness, N m membrane   A k/4 |F^T F - I|^2 bending    w/2 (s - S)^2,  s = |sum c_i
+//   x_i|,  S = s at rest,  w = 3 kB / (A_1 + A_2),  c the cotangent stencil of the
+//              four nodes of an edge (Bergou et al. 2006, "A quadratic bending model for
+//              inextensible surfaces")
+//
+// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2), so that its gradient exists
+// everywhere; at a flat rest shape S = 0 and the term is the plain quadratic w/2 |l|^2.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/lanes.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
+namespace risorius::tissue {
+
+/// One object serves one thread at a time: it keeps scratch arrays.
+class SkinSheet {
+  public:
+    /// Stiffnesses are one per triangle; a hinge takes the mean of its two. Edges with one
+    /// triangle, or more than two, do not bend. Throws std::invalid_argument when a triangle has no
+    /// area at rest.
+    SkinSheet(const Triangles& triangles, const Points& rest,
+              const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m);
+
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
+    /// order.
+    /// From displacements, so that rest is exact in float too: forces are then good to some 1e-6 of the stress.
+    double add_energy(const Points& x, Points& gradient,
+                      solve::Precision precision = solve::Precision::kDouble) const;
+
+    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
+    /// part, triangle by triangle and hinge by hinge.
+    void add_hessian(const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
+
+    /// sum 2 A k G G^T + w c c^T
+    void add_metric(solve::MetricBuilder& builder) const;
+
+    int triangle_count() const { return triangle_count_; }
+    int hinge_count() const { return hinge_count_; }
+
+  private:
+    /// As many triangles as there are lanes. The rest edges in the triangle's plane are (l, 0) and (ex, ey).
+    template <class Real>
+    struct alignas(64) TriangleGroup {
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        Lane b00, b01, b11;            ///< their inverse, upper triangular
+        Lane t[2][3];                  ///< axes of the plane
+        Lane stiffness;                ///< A k
+        std::int32_t node[3][kWidth];  ///< [corner][lane]
+    };
+    /// Hinges: the edge's ends, then the opposite corners.
+    template <class Real>
+    struct alignas(64) HingeGroup {
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        Lane c[4];
+        Lane rest[3];  ///< sum c_i X_i
+        Lane w;
+        Lane rest_length;              ///< S, rounded off like s
+        Lane squared_rounding;         ///< (0.1 S)^2
+        std::int32_t node[4][kWidth];  ///< [corner][lane]
+    };
+    template <class Real>
+    struct Work {
+        std::vector<TriangleGroup<Real>> triangles;
+        std::vector<HingeGroup<Real>> hinges;
+        solve::PaddedRows<Real> displacement, gradient;
+    };
+    struct Hinge {
+        int node[4]{};
+        double c[4]{};
+        double w = 0, squared_rounding = 0;
+        Vec3 rest = Vec3::Zero();
+    };
+    struct Triangle {
+        int node[3];
+        double b00, b01, b11, stiffness;
+        Vec3 t[2];
+    };
+    template <class Group>
+    int node_of(const Group& group, int corner, int lane) const {
+        return rows_[static_cast<std::size_t>(group.node[corner][lane])];
+    }
+    std::vector<Hinge> hinges_of(const Triangles& triangles,
+                                 const Eigen::VectorXd& bending_n_m) const;
+    template <class Real>
+    static void fill(const std::vector<Triangle>& triangles, const std::vector<Hinge>& hinges,
+                     Work<Real>& work);
+    template <class Real>
+    double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
+    template <class Real>
+    static double membrane_energy(Work<Real>& work);
+    template <class Real>
+    static double bending_energy(Work<Real>& work);
+
+    std::vector<int> rows_;  ///< nodes of the sheet; groups name them by their place here
+    Points rest_;            ///< of those
+    int triangle_count_ = 0;
+    int hinge_count_ = 0;
+    mutable Work<double> double_;
+    mutable Work<float> single_;
+};
+
+}  // namespace risorius::tissue

@@ -1,0 +1,322 @@
+#include "risorius/tissue/tet_solid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <string>
+
+namespace risorius::tissue {
+
+using solve::Lanes;
+
+namespace {
+
+Mat3 edges(const Points& x, const Tets& tets, int tet) {
+    Mat3 d;
+    for (int k = 0; k < 3; ++k)
+        d.col(k) = (x.row(tets(tet, k + 1)) - x.row(tets(tet, 0))).transpose();
+    return d;
+}
+
+}  // namespace
+
+TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
+                   const Eigen::VectorXd& bulk_pa)
+    : tets_(tets), rest_(rest), rest_volume_(tets.rows()), mu_(mu_pa), bulk_(bulk_pa) {
+    assert(mu_pa.size() == tets.rows() && bulk_pa.size() == tets.rows());
+    for (int tet = 0; tet < size(); ++tet) {
+        const Mat3 rest_edges = edges(rest_, tets_, tet);
+        rest_volume_[tet] = rest_edges.determinant() / 6.0;
+        if (!(rest_volume_[tet] > 0))
+            throw std::invalid_argument("TetSolid: tet " + std::to_string(tet) +
+                                        " has no positive volume at rest");
+        inverse_.push_back(rest_edges.inverse());
+    }
+    const TetFans found = find_fans(tets_);
+    fill(double_, found);
+    fill(single_, found);
+}
+
+template <class Real>
+void TetSolid::fill(Work<Real>& work, const TetFans& found) const {
+    fill(work.fans, found.fans);
+    std::vector<TetFan> alone;
+    for (int tet : found.alone)
+        alone.push_back({{tet}, {tets_(tet, 0), tets_(tet, 1), tets_(tet, 2), tets_(tet, 3)}});
+    fill(work.alone, alone);
+}
+
+template <class Real, int kTets>
+void TetSolid::fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans) const {
+    constexpr int kWidth = Group<Real, kTets>::kWidth;
+    const int count = static_cast<int>(fans.size());
+    groups.list.resize(static_cast<std::size_t>((count + kWidth - 1) / kWidth));
+    groups.start.resize(groups.list.size());
+    for (int slot = 0; slot < kWidth * static_cast<int>(groups.list.size()); ++slot) {
+        // The last group is filled up with copies of the last fan that have no stiffness.
+        const TetFan& fan = fans[static_cast<std::size_t>(std::min(slot, count - 1))];
+        Group<Real, kTets>& group = groups.list[static_cast<std::size_t>(slot / kWidth)];
+        const int lane = slot % kWidth;
+        for (int k = 0; k < kTets + 3; ++k) group.node[k][lane] = fan.nodes[k];
+        for (int i = 0; i < kTets; ++i) {
+            Mat3 d;
+            const auto along = [&](int node) -> Vec3 {
+                return (rest_.row(fan.nodes[node]) - rest_.row(fan.nodes[0])).transpose();
+            };
+            d << along(1), along(2 + i), along(3 + i);
+            const Mat3 b = d.inverse();
+            const double weight = slot < count ? rest_volume_[fan.tets[i]] : 0.0;
+            auto& tet = group.tet[i];
+            for (int k = 0; k < 3; ++k)
+                for (int j = 0; j < 3; ++j) tet.b[3 * k + j][lane] = static_cast<Real>(b(k, j));
+            tet.shear[lane] = static_cast<Real>(weight * mu_[fan.tets[i]]);
+            tet.bulk[lane] = static_cast<Real>(weight * bulk_[fan.tets[i]]);
+        }
+    }
+}
+
+namespace {
+
+// Coordinates of edges of displacement from node a: [node but a][coordinate]
+template <class Real, class Group, int kEdges>
+[[gnu::always_inline]] inline void gather(const solve::PaddedRows<Real>& u, const Group& g,
+                                          typename Group::Lane (&edge)[kEdges][3]) {
+    using Point = typename solve::LanesOf<Real>::Point;
+    Point origin[Group::kWidth], r[Group::kWidth];
+    for (int lane = 0; lane < Group::kWidth; ++lane) origin[lane] = u[g.node[0][lane]];
+    for (int k = 0; k < kEdges; ++k) {
+        for (int lane = 0; lane < Group::kWidth; ++lane)
+            r[lane] = u[g.node[k + 1][lane]] - origin[lane];
+        solve::rows_to_lanes(r, edge[k][0], edge[k][1], edge[k][2]);
+    }
+}
+
+// Forces on the ends of the edges; a bears the opposite of all of them
+template <class Real, class Group, int kEdges>
+[[gnu::always_inline]] inline void scatter(const typename Group::Lane (&force)[kEdges][3],
+                                           const Group& g, solve::PaddedRows<Real>& out) {
+    using Point = typename solve::LanesOf<Real>::Point;
+    Point sum[Group::kWidth]{}, r[Group::kWidth];
+    for (int k = 0; k < kEdges; ++k) {
+        solve::lanes_to_rows(force[k][0], force[k][1], force[k][2], r);
+        for (int lane = 0; lane < Group::kWidth; ++lane) {
+            out[g.node[k + 1][lane]] += r[lane];
+            sum[lane] += r[lane];
+        }
+    }
+    for (int lane = 0; lane < Group::kWidth; ++lane) out[g.node[0][lane]] -= sum[lane];
+}
+
+template <class Lane>
+Lane dot(const Lane& a0, const Lane& b0, const Lane& a1, const Lane& b1, const Lane& a2,
+         const Lane& b2) {
+    return solve::fused(a2, b2, solve::fused(a1, b1, a0 * b0));
+}
+
+// H = D B, D the edges of displacement as columns
+template <class Lane>
+[[gnu::always_inline]] inline void gradient_of(const Lane (&d0)[3], const Lane (&d1)[3],
+                                               const Lane (&d2)[3], const Lane (&b)[9],
+                                               Lane (&h)[3][3]) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) h[i][j] = dot(d0[i], b[j], d1[i], b[3 + j], d2[i], b[6 + j]);
+}
+
+// Energy of a tet, and its first Piola-Kirchhoff stress P, both times V:
+//   P = mu F C + K (J - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
+// F - I, C and J - 1 are worked out from H = F - I, so that they are exact near rest.
+template <class Real, class Lane>
+[[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& shear,
+                                             const Lane& bulk, Lane (&p)[3][3]) {
+    constexpr Real kHalf = Real(0.5);
+    constexpr Real kSpare = Real(1 - TetSolid::kCrushed), kMore = Real(TetSolid::kHardens);
+    // C = H + H^T + H^T H
+    Lane c[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) {
+            c[i][j] = h[i][j] + h[j][i];
+            for (int k = 0; k < 3; ++k) c[i][j] = solve::fused(h[k][i], h[k][j], c[i][j]);
+        }
+
+    // cof F = (1 + tr H) I - H^T + cof H,   J - 1 = tr H + tr cof H + det H
+    Lane cof[3][3];
+    for (int i = 0; i < 3; ++i) {
+        const int m = (i + 1) % 3, n = (i + 2) % 3;
+        for (int j = 0; j < 3; ++j) {
+            const int q = (j + 1) % 3, r = (j + 2) % 3;
+            cof[i][j] = solve::fused(h[m][q], h[n][r], -(h[m][r] * h[n][q]));
+        }
+    }
+    const Lane trace = h[0][0] + h[1][1] + h[2][2];
+    const Lane j_minus_1 = trace + (cof[0][0] + cof[1][1] + cof[2][2]) +
+                           dot(h[0][0], cof[0][0], h[0][1], cof[0][1], h[0][2], cof[0][2]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            cof[i][j] = i == j ? cof[i][j] + (trace - h[i][i] + Real(1)) : cof[i][j] - h[j][i];
+
+    const Lane spare = j_minus_1 + kSpare;
+    const Lane crushed = kMore * (spare < Real(0) ? spare : Lane{});
+    const Lane pressure = bulk * (j_minus_1 + crushed);
+
+    const Lane off_diagonal = dot(c[0][1], c[0][1], c[0][2], c[0][2], c[1][2], c[1][2]);
+    const Lane squares =
+        dot(c[0][0], c[0][0], c[1][1], c[1][1], c[2][2], c[2][2]) + off_diagonal + off_diagonal;
+    const Lane twice =
+        solve::fused(shear * kHalf, squares,
+                     bulk * solve::fused(j_minus_1, j_minus_1, (1 / kMore) * crushed * crushed));
+
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) c[j][i] = c[i][j] = shear * c[i][j];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            p[i][j] = solve::fused(pressure, cof[i][j], c[i][j]);
+            for (int k = 0; k < 3; ++k) p[i][j] = solve::fused(h[i][k], c[k][j], p[i][j]);
+        }
+    return kHalf * twice;
+}
+
+}  // namespace
+
+double TetSolid::add_energy(const Points& x, Points& gradient, solve::Precision precision) const {
+    assert(gradient.rows() == x.rows());
+    return precision == solve::Precision::kSingle
+               ? add_energy_in<float, false>(single_, x, gradient)
+               : add_energy_in<double, false>(double_, x, gradient);
+}
+
+void TetSolid::begin_step(const Points& start, double viscosity, solve::Precision precision) {
+    viscosity_ = viscosity;
+    if (precision == solve::Precision::kSingle)
+        begin_step_in(single_, start);
+    else
+        begin_step_in(double_, start);
+}
+
+double TetSolid::add_step_energy(const Points& x, Points& gradient,
+                                 solve::Precision precision) const {
+    assert(gradient.rows() == x.rows());
+    return precision == solve::Precision::kSingle
+               ? add_energy_in<float, true>(single_, x, gradient)
+               : add_energy_in<double, true>(double_, x, gradient);
+}
+
+template <class Real>
+void TetSolid::begin_step_in(Work<Real>& work, const Points& start) const {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    solve::PaddedRows<Real>& u = work.displacement;
+    u.copy_difference(start, rest_);
+    const auto note = [&]<int kTets>(Groups<Real, kTets>& groups) {
+        for (std::size_t n = 0; n < groups.list.size(); ++n) {
+            const Group<Real, kTets>& g = groups.list[n];
+            Lane edge[kTets + 2][3], h[3][3];
+            gather(u, g, edge);
+            for (int t = 0; t < kTets; ++t) {
+                gradient_of(edge[0], edge[1 + t], edge[2 + t], g.tet[t].b, h);
+                for (int k = 0; k < 9; ++k) groups.start[n][t][k] = h[k / 3][k % 3];
+            }
+        }
+    };
+    note(work.fans);
+    note(work.alone);
+}
+
+template <class Real, bool kInStep>
+double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const {
+    using Lane = typename solve::LanesOf<Real>::Lane;
+    const Real viscosity = static_cast<Real>(viscosity_);
+    solve::PaddedRows<Real>& u = work.displacement;
+    solve::PaddedRows<Real>& out = work.gradient;
+    u.copy_difference(x, rest_);
+    out.set_zero(rest_.rows());
+    Lanes energy{};
+    const auto add = [&]<int kTets>(const Groups<Real, kTets>& groups) {
+        for (std::size_t n = 0; n < groups.list.size(); ++n) {
+            const Group<Real, kTets>& g = groups.list[n];
+            Lane edge[kTets + 2][3], force[kTets + 2][3]{};
+            gather(u, g, edge);
+            Lane of_fan{};
+            for (int t = 0; t < kTets; ++t) {
+                const auto& tet = g.tet[t];
+                Lane h[3][3], p[3][3];
+                gradient_of(edge[0], edge[1 + t], edge[2 + t], tet.b, h);
+                of_fan += stress_of<Real>(h, tet.shear, tet.bulk, p);
+                if constexpr (kInStep) {
+                    Lane squares{};
+                    const Lane damping = viscosity * tet.shear;
+                    for (int k = 0; k < 9; ++k) {
+                        const Lane flown = h[k / 3][k % 3] - groups.start[n][t][k];
+                        squares = solve::fused(flown, flown, squares);
+                        p[k / 3][k % 3] = solve::fused(damping, flown, p[k / 3][k % 3]);
+                    }
+                    of_fan = solve::fused(Real(0.5) * damping, squares, of_fan);
+                }
+                // P B^T: a column per edge
+                Lane* const ends[3] = {force[0], force[1 + t], force[2 + t]};
+                for (int k = 0; k < 3; ++k)
+                    for (int i = 0; i < 3; ++i)
+                        for (int j = 0; j < 3; ++j)
+                            ends[k][i] = solve::fused(p[i][j], tet.b[3 * k + j], ends[k][i]);
+            }
+            solve::add_lanes(energy, of_fan);
+            scatter(force, g, out);
+        }
+    };
+    add(work.fans);
+    add(work.alone);
+    out.add_to(gradient);
+    return solve::sum_lanes(energy);
+}
+
+void TetSolid::add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const {
+    for (int tet = 0; tet < size(); ++tet) {
+        // Row v of G is the gradient of the shape function of corner v.
+        Eigen::Matrix<double, 4, 3> g;
+        g.bottomRows<3>() = inverse_[static_cast<std::size_t>(tet)];
+        g.row(0) = -(g.row(1) + g.row(2) + g.row(3));
+        const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> block =
+            weight[tet] * (g * g.transpose());
+        builder.add_block(&tets_(tet, 0), block.data(), 4);
+    }
+}
+
+void TetSolid::add_metric(solve::MetricBuilder& builder) const {
+    add_gradients(builder, rest_volume_.cwiseProduct(2.0 * mu_ + bulk_));
+}
+
+void TetSolid::add_laplacian(solve::MetricBuilder& builder, double scale) const {
+    add_gradients(builder, scale * rest_volume_.cwiseProduct(mu_));
+}
+
+double TetSolid::signed_volume(const Points& x, int tet) const {
+    return edges(x, tets_, tet).determinant() / 6.0;
+}
+
+int TetSolid::inverted_count(const Points& x) const {
+    int count = 0;
+    for (int tet = 0; tet < size(); ++tet)
+        if (!(signed_volume(x, tet) > 0)) ++count;
+    return count;
+}
+
+double TetSolid::volume(const Points& x) const {
+    double sum = 0;
+    for (int tet = 0; tet < size(); ++tet) sum += signed_volume(x, tet);
+    return sum;
+}
+
+double TetSolid::min_relative_volume(const Points& x) const {
+    double least = size() == 0 ? 1.0 : signed_volume(x, 0) / rest_volume_[0];
+    for (int tet = 1; tet < size(); ++tet)
+        least = std::min(least, signed_volume(x, tet) / rest_volume_[tet]);
+    return least;
+}
+
+Eigen::VectorXd TetSolid::lumped_mass(double density_kg_per_m3, int nodes) const {
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(nodes);
+    for (int tet = 0; tet < size(); ++tet)
+        for (int k = 0; k < 4; ++k)
+            mass[tets_(tet, k)] += 0.25 * density_kg_per_m3 * rest_volume_[tet];
+    return mass;
+}
+
+}  // namespace risorius::tissue

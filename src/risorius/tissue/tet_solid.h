@@ -1,0 +1,118 @@
+// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible
+// solid.
+//
+//   F   deformation gradient     J = det F     V   rest volume, m^3     mu, K   shear and bulk
+//   modulus, Pa E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
+//
+// J is signed, so an inverted element is not a second zero of the energy. Below J_c tissue is as good as crushed and hardens, so that
+// what presses on it runs out of force before an element turns over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/lanes.h"
+#include "risorius/solve/metric_builder.h"
+#include "risorius/tissue/detail/tet_fans.h"
+
+namespace risorius::solve {
+enum class Curvature;
+class HessianBuilder;
+}  // namespace risorius::solve
+
+namespace risorius::tissue {
+
+/// One object serves one thread at a time: it keeps scratch arrays.
+class TetSolid {
+  public:
+    static constexpr double kCrushed = 0.2;  ///< J_c
+    static constexpr double kHardens = 4;    ///< c
+
+    /// Moduli are one per tet. Throws std::invalid_argument when a tet has no positive volume at
+    /// rest.
+    TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
+             const Eigen::VectorXd& bulk_pa);
+
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
+    /// order.
+    /// In float from displacements, so that rest is exact: forces are good to some 1e-6 of the stress in the tet.
+    double add_energy(const Points& x, Points& gradient,
+                      solve::Precision precision = solve::Precision::kDouble) const;
+
+    /// From here on steps from `start`: add_step_energy() adds to the energy that of damping in proportion to the shear modulus,
+    ///   c/2 sum V mu |F - F_start|^2,   c = `viscosity`: the time constant of the damping over the step's length.
+    void begin_step(const Points& start, double viscosity, solve::Precision precision);
+    double add_step_energy(const Points& x, Points& gradient, solve::Precision precision) const;
+
+    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
+    /// part, tet by tet.
+    void add_hessian(const Points& x, solve::Curvature curvature,
+                     solve::HessianBuilder& hessian) const;
+
+    /// sum V (2 mu + K) G G^T: the stiffness at rest seen by one coordinate, a bound good enough to
+    /// precondition with.
+    void add_metric(solve::MetricBuilder& builder) const;
+
+    /// scale * sum V mu G G^T: the second derivative of that damping.
+    void add_laplacian(solve::MetricBuilder& builder, double scale) const;
+
+    const Tets& tets() const { return tets_; }
+    const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< per tet
+    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< likewise
+    int size() const { return static_cast<int>(tets_.rows()); }
+    int inverted_count(const Points& x) const;          ///< tets with J <= 0
+    double volume(const Points& x) const;               ///< signed, m^3
+    double min_relative_volume(const Points& x) const;  ///< the least J, 1 when there are no tets
+    Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
+
+  private:
+    /// As many fans of tets (tet_fans.h) as there are lanes; a fan of one is a tet.
+    template <class Real, int kTets>
+    struct alignas(64) Group {
+        using Lane = typename solve::LanesOf<Real>::Lane;
+        static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
+        struct Tet {
+            Lane b[9];   ///< inverse of the rest edges a-b, a-r_i, a-r_i+1, a row each
+            Lane shear;  ///< V mu
+            Lane bulk;   ///< V K
+        };
+        Tet tet[kTets];
+        std::int32_t node[kTets + 3][kWidth];  ///< a, b, r_0 .. ; [corner][lane]
+    };
+    /// Gradient of the displacement where a step began, per tet of a group.
+    template <class Real, int kTets>
+    using Gradients = std::array<std::array<typename solve::LanesOf<Real>::Lane, 9>, kTets>;
+    template <class Real, int kTets>
+    struct Groups {
+        std::vector<Group<Real, kTets>> list;
+        std::vector<Gradients<Real, kTets>> start;
+    };
+    template <class Real>
+    struct Work {
+        Groups<Real, kFanTets> fans;
+        Groups<Real, 1> alone;
+        solve::PaddedRows<Real> displacement, gradient;
+    };
+    template <class Real>
+    void fill(Work<Real>& work, const TetFans& found) const;
+    template <class Real, int kTets>
+    void fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans) const;
+    template <class Real>
+    void begin_step_in(Work<Real>& work, const Points& start) const;
+    template <class Real, bool kInStep>
+    double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
+    double signed_volume(const Points& x, int tet) const;
+    void add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const;
+
+    Tets tets_;
+    Points rest_;
+    Eigen::VectorXd rest_volume_, mu_, bulk_;
+    std::vector<Mat3> inverse_;  ///< of the rest edges x_k+1 - x_0, rows
+    double viscosity_ = 0;       ///< of the step, as begin_step() was told
+    mutable Work<double> double_;
+    mutable Work<float> single_;
+};
+
+}  // namespace risorius::tissue

@@ -1,0 +1,47 @@
+// Attachment of tissue to what lies under it: single nodes held to targets, firmly along a normal
+// and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may
+// be moved between steps.
+//
+//   E = 1/2 [ kn ((x - t).n)^2 + kt |x - t - ((x - t).n) n|^2 ]
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::solve {
+class HessianBuilder;
+}
+
+namespace risorius::tissue {
+
+class Tethers {
+  public:
+    struct Tether {
+        int node = 0;
+        Vec3 target = Vec3::Zero();   ///< t, m
+        Vec3 normal = Vec3::UnitZ();  ///< n, length 1
+        double kn_n_per_m = 0;        ///< along n     [0, inf)
+        double kt_n_per_m = 0;        ///< across n    [0, inf)
+    };
+
+    explicit Tethers(std::vector<Tether> tethers);
+
+    std::vector<Tether>& list() { return tethers_; }
+    const std::vector<Tether>& list() const { return tethers_; }
+
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
+    double add_energy(const Points& x, Points& gradient) const;
+
+    /// Adds the second derivative, which has no negative part.
+    void add_hessian(solve::HessianBuilder& hessian) const;
+
+    /// max(kn, kt) on the diagonal: a bound whichever way the normal turns.
+    void add_metric(solve::MetricBuilder& builder) const;
+
+  private:
+    std::vector<Tether> tethers_;
+};
+
+}  // namespace risorius::tissue

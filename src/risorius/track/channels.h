@@ -1,0 +1,97 @@
+// What a script may drive: the muscles of a rig, action units, and kinematic channels; and the values at one moment.
+//
+// Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "risorius/core/types.h"
+
+namespace risorius::track {
+
+struct MuscleChannel {
+    std::string id;  ///< as in the rig's muscle table
+    bool paired = true;
+    double min = 0.0;  ///< -1 for muscles with tonic drive that can be removed (levator palpebrae)
+};
+
+/// Channels that no muscle drives. The order is the order of Drive::kinematic.
+enum class Kinematic {
+    // Ratio of the rig's range; side > 0 is the subject's left
+    kJawOpen,
+    kJawForward,
+    kJawSide,
+    // deg; yaw > 0 looks to the subject's left, pitch > 0 up
+    kGazeYawLeft,
+    kGazeYawRight,
+    kGazePitchLeft,
+    kGazePitchRight,
+    // deg; yaw > 0 turns to the subject's left, pitch > 0 up, roll > 0 tilts to the subject's left shoulder
+    kHeadYaw,
+    kHeadPitch,
+    kHeadRoll,
+    // mm; side > 0 is the subject's left
+    kHeadForward,
+    kHeadUp,
+    kHeadSide,
+    // Pa in the oral cavity, > 0 puffs the cheeks
+    kMouthPressure,
+    // Ratio of the rig's protrusion range
+    kTongueOut,
+    // Ratio of the curl of its tip, up or down
+    kTongueUp,
+    kCount
+};
+inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
+using KinematicValues = std::array<double, kKinematicCount>;
+
+/// How a script names a kinematic channel and how far it goes. Limits of gaze and head: adult norms.
+struct KinematicChannel {
+    std::string_view name;  ///< with its side, "gaze_yaw_deg.l"
+    double min;
+    double max;
+};
+
+/// In the order of Kinematic.
+const std::array<KinematicChannel, kKinematicCount>& kinematic_channels();
+
+/// The channels a script's name stands for: one, or both eyes when a gaze channel has no side; empty when unknown.
+std::vector<Kinematic> kinematic_named(std::string_view name);
+
+/// "zygomaticus_major.l" -> "zygomaticus_major" and left; without suffix no side.
+struct SidedName {
+    std::string id;
+    std::optional<Side> side;
+};
+SidedName split_side(std::string_view name);
+
+struct ChannelTable {
+    std::vector<MuscleChannel> muscles;
+
+    int column_count() const;
+    /// Column of a muscle, -1 when unknown. For an unpaired muscle both sides give its one column.
+    int column(const std::string& id, Side side) const;
+    /// Null when unknown.
+    const MuscleChannel* find(const std::string& id) const;
+    /// Lower limit of the excitation of each column.
+    Eigen::VectorXd column_min() const;
+    /// "zygomaticus_major.l", "zygomaticus_major.r", "orbicularis_oris_upper_marginal", ...
+    std::vector<std::string> column_names() const;
+};
+
+/// What moves the jaw: the channels jaw_open, jaw_forward and jaw_side place it, or muscles pull it, which those channels then ask to.
+enum class JawDrive { kChannels, kMuscles };
+
+/// Everything that drives a face at one moment.
+struct Drive {
+    Eigen::VectorXd excitation;  ///< per column, ratio of maximal neural drive, [min, 1]
+    Eigen::VectorXd activation;  ///< per column, activation set directly; NaN where dynamics decide
+    KinematicValues kinematic{};
+    double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }
+};
+
+}  // namespace risorius::track

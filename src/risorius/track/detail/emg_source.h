@@ -1,0 +1,24 @@
+// Electromyograms as a source of excitation: the "emg" of a script.
+//
+//   {"file": "emg.csv", "rate_hz": 1000, "channels": {"zygomaticus_major.l": "ZYG_L"}}
+//
+// Each channel is filtered (signal/emg_envelope.h), counted from its rest, divided by its maximum, and held within 0 and 1:
+//
+//   e = (envelope - rest) / (maximum - rest)      u = e; of a muscle with resting tone that can be taken away, which is
+//                                                 silent at u = min: min + (1 - min) e
+//
+// Where several channels, or other sources of the script, drive one muscle, they add up.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/track/channels.h"
+#include "risorius/track/script.h"
+
+namespace risorius::track {
+
+/// Keys, ranges and defaults are in the README. Throws Error naming the script, or file, line and column of the recording.
+std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& channels);
+
+}  // namespace risorius::track

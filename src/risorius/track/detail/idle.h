@@ -1,0 +1,68 @@
+// What a face does when nothing is asked of it: blinks, small saccades, a head that sways and breathes. Seeded.
+//
+// Blinks come at intervals drawn from a lognormal law, SD 0.6 of the mean, never within 0.3 s. Between saccades the gaze rests;
+// a saccade takes 22 ms + 2.3 ms per degree along a minimum-jerk curve, its size is exponential, its direction that of
+// conversation, horizontal and vertical before oblique; both eyes turn alike. The head's sway is a sum of sines between 0.05
+// and 1.5 Hz whose power falls as f^-1.5. Sway and breathing fade in and out over a second.
+// Sources: Doughty 2002 and Bentivoglio et al. 1997 (rates and intervals of blinks); Bahill, Clark & Stark 1975 (main sequence); Lee,
+// Badler & Badler 2002, ACM Trans. Graph. 21(3) (sizes and directions of saccades). Sizes of the sway are estimates.
+#pragma once
+
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/track/channels.h"
+
+namespace risorius::track {
+
+/// Field names are the keys of "idle" in a script. 0 turns a part off.
+struct IdleOptions {
+    double blinks_per_minute = 17;  ///< [0, 60]
+    double partial_blinks = 0;      ///< share that does not close the lids, [0, 1]
+    double saccade_deg = 2;         ///< how far from straight ahead gaze wanders, [0, 25]
+    double fixation_s = 0.4;  ///< mean; each lasts half to one and a half times as long, [0.1, 20]
+    double sway = 1;  ///< ratio of 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, SD, [0, 5]
+    double breaths_per_minute = 14;  ///< [0, 60]
+};
+
+struct IdleEvent {
+    double start_s = 0, end_s = 0;
+    IdleOptions options;
+    int seed = 1;    ///< of the script
+    int number = 0;  ///< of the event among its like, so that two do not move alike
+};
+
+IdleOptions read_idle_options(const JsonCursor& json);
+
+struct IdleBlink {
+    double start_s;
+    double intensity;
+};
+/// Those that come within the event.
+std::vector<IdleBlink> idle_blinks(const IdleEvent& event);
+
+struct IdleSaccade {
+    double start_s, duration_s;
+    Vec2 from_deg, to_deg;  ///< yaw, pitch
+};
+
+class IdleMotion {
+  public:
+    explicit IdleMotion(const IdleEvent& event);
+
+    /// What gaze and head get at t; nothing outside of the event.
+    KinematicValues at(double t_s) const;
+    const std::vector<IdleSaccade>& saccades() const { return saccades_; }
+
+  private:
+    struct Sine {
+        double hz, amplitude, phase;
+    };
+    Vec2 gaze(double t_s) const;
+
+    IdleEvent event_;
+    std::vector<IdleSaccade> saccades_;
+    std::vector<std::vector<Sine>> sway_;  // yaw, pitch, roll, side, up, forward
+};
+
+}  // namespace risorius::track

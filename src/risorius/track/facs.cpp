@@ -1,0 +1,306 @@
+#include "risorius/track/facs.h"
+
+namespace risorius::track {
+
+namespace {
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string_view>& known) {
+    const std::string near = nearest_name(name, known);
+    return near.empty() ? "" : " (did you mean " + quoted(near) + "?)";
+}
+
+double& value(KinematicValues& values, Kinematic k) { return values[static_cast<std::size_t>(k)]; }
+
+MuscleShare read_share(const JsonCursor& json, const std::string& name,
+                       const ChannelTable& channels) {
+    MuscleShare share = muscle_named(json, name, channels);
+    share.weight = json.number({channels.find(share.muscle)->min, 1.0});
+    return share;
+}
+
+std::vector<MuscleShare> read_shares(const JsonCursor& json, const ChannelTable& channels) {
+    std::vector<MuscleShare> shares;
+    for (const std::string& name : json.keys())
+        shares.push_back(read_share(json.at(name), name, channels));
+    return shares;
+}
+
+JawShare read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
+    json.allow_keys({"open", "protrude_mm", "lateral_mm"});
+    JawShare jaw;
+    if (const auto v = json.find("open")) jaw.open = v->number({0, 1});
+    if (const auto v = json.find("protrude_mm"))
+        jaw.protrude_mm = v->number({0, ranges.jaw_forward_mm});
+    if (const auto v = json.find("lateral_mm"))
+        jaw.lateral_mm = v->number({-ranges.jaw_side_mm, ranges.jaw_side_mm});
+    return jaw;
+}
+
+void apply_jaw(const JawShare& jaw, const FacsRanges& ranges, KinematicValues& values) {
+    if (jaw.open) value(values, Kinematic::kJawOpen) = *jaw.open;
+    if (jaw.protrude_mm)
+        value(values, Kinematic::kJawForward) = *jaw.protrude_mm / ranges.jaw_forward_mm;
+    if (jaw.lateral_mm) value(values, Kinematic::kJawSide) = *jaw.lateral_mm / ranges.jaw_side_mm;
+}
+
+double read_within(const JsonCursor& json, Kinematic k) {
+    const KinematicChannel& channel = kinematic_channels()[static_cast<std::size_t>(k)];
+    return json.number({channel.min, channel.max});
+}
+
+void read_head(const JsonCursor& json, KinematicValues& values) {
+    json.allow_keys({"yaw_deg", "pitch_deg", "roll_deg", "forward_mm"});
+    const std::pair<std::string_view, Kinematic> fields[] = {
+        {"yaw_deg", Kinematic::kHeadYaw},
+        {"pitch_deg", Kinematic::kHeadPitch},
+        {"roll_deg", Kinematic::kHeadRoll},
+        {"forward_mm", Kinematic::kHeadForward}};
+    for (const auto& [key, k] : fields)
+        if (const auto v = json.find(key)) value(values, k) = read_within(*v, k);
+}
+
+void read_eyes(const JsonCursor& json, KinematicValues& values) {
+    json.allow_keys({"yaw_deg", "pitch_deg", "converge_deg", "diverge_deg"});
+    double yaw = 0, pitch = 0, vergence = 0;
+    if (const auto v = json.find("yaw_deg")) yaw = read_within(*v, Kinematic::kGazeYawLeft);
+    if (const auto v = json.find("pitch_deg")) pitch = read_within(*v, Kinematic::kGazePitchLeft);
+    if (const auto v = json.find("converge_deg")) vergence += v->number({0, 60});
+    if (const auto v = json.find("diverge_deg")) vergence -= v->number({0, 20});
+    // Vergence is the angle between the two lines of sight; the left eye turns to the subject's right.
+    value(values, Kinematic::kGazeYawLeft) = yaw - vergence / 2;
+    value(values, Kinematic::kGazeYawRight) = yaw + vergence / 2;
+    value(values, Kinematic::kGazePitchLeft) = pitch;
+    value(values, Kinematic::kGazePitchRight) = pitch;
+}
+
+ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRanges& ranges,
+                     const ChannelTable& channels) {
+    json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
+                     "head", "eyes", "unsupported", "landmark_targets_mm"});
+    ActionUnit unit;
+    unit.id = id;
+    unit.name = json.at("name").string();
+    unit.sided = json.at("sided").boolean();
+    if (unit.sided && split_side(id).side)
+        json.at("sided").fail("false for a unit that names its side");
+    if (const auto v = json.find("muscles")) unit.muscles = read_shares(*v, channels);
+    if (const auto v = json.find("jaw")) apply_jaw(read_jaw(*v, ranges), ranges, unit.kinematic);
+    if (const auto v = json.find("mouth_pressure_pa"))
+        value(unit.kinematic, Kinematic::kMouthPressure) =
+            read_within(*v, Kinematic::kMouthPressure);
+    if (const auto v = json.find("tongue_protrusion_mm"))
+        value(unit.kinematic, Kinematic::kTongueOut) =
+            v->number({0, ranges.tongue_out_mm}) / ranges.tongue_out_mm;
+    if (const auto v = json.find("head")) read_head(*v, unit.kinematic);
+    if (const auto v = json.find("eyes")) read_eyes(*v, unit.kinematic);
+    if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
+    if (const auto v = json.find("landmark_targets_mm"))
+        for (const std::string& landmark : v->keys())
+            unit.landmark_targets_mm.emplace_back(landmark, v->at(landmark).vec3());
+    return unit;
+}
+
+ArkitShape read_arkit_shape(const JsonCursor& json, const std::string& name, const FacsTable& facs,
+                            const ChannelTable& channels) {
+    json.allow_keys({"units", "muscles", "jaw", "tongue"});
+    ArkitShape shape;
+    shape.name = name;
+    if (const auto units = json.find("units"))
+        for (const std::string& unit : units->keys()) {
+            UnitUse use = unit_named(units->at(unit), unit, facs);
+            use.value = units->at(unit).number({0, 1});
+            shape.units.push_back(std::move(use));
+        }
+    if (const auto v = json.find("muscles")) shape.muscles = read_shares(*v, channels);
+    if (const auto v = json.find("jaw")) shape.jaw = read_jaw(*v, facs.ranges);
+    if (const auto v = json.find("tongue")) {
+        v->allow_keys({"out_mm", "up"});
+        if (const auto out = v->find("out_mm"))
+            shape.tongue_out_mm = out->number({0, facs.ranges.tongue_out_mm});
+        if (const auto up = v->find("up")) shape.tongue_up = read_within(*up, Kinematic::kTongueUp);
+    }
+    return shape;
+}
+
+bool is_left_eye(Kinematic k) {
+    return k == Kinematic::kGazeYawLeft || k == Kinematic::kGazePitchLeft;
+}
+bool is_right_eye(Kinematic k) {
+    return k == Kinematic::kGazeYawRight || k == Kinematic::kGazePitchRight;
+}
+
+}  // namespace
+
+const ActionUnit* FacsTable::find(const std::string& id) const {
+    for (const ActionUnit& unit : units)
+        if (unit.id == id) return &unit;
+    return nullptr;
+}
+
+const ArkitShape* FacsTable::find_arkit(const std::string& name) const {
+    for (const ArkitShape& shape : arkit)
+        if (shape.name == name) return &shape;
+    return nullptr;
+}
+
+const Expression* Expressions::find(const std::string& name) const {
+    for (const Expression& expression : list)
+        if (expression.name == name) return &expression;
+    return nullptr;
+}
+
+MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
+                         const ChannelTable& channels) {
+    const SidedName sided = split_side(name);
+    const MuscleChannel* muscle = channels.find(sided.id);
+    if (!muscle) {
+        std::vector<std::string_view> known;
+        for (const MuscleChannel& m : channels.muscles) known.push_back(m.id);
+        place.fail("a muscle of the rig" + did_you_mean(sided.id, known), quoted(name));
+    }
+    if (sided.side && !muscle->paired)
+        place.fail(quoted(sided.id) + ", which has no sides", quoted(name));
+    return {sided.id, sided.side, 1.0};
+}
+
+bool is_unit_number(std::string_view name) {
+    return name.size() > 2 && name.starts_with("AU") &&
+           name.find_first_not_of("0123456789", 2) == std::string_view::npos;
+}
+
+UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsTable& facs) {
+    std::optional<Side> side;
+    const ActionUnit* unit = facs.find(name);
+    if (!unit) {
+        const SidedName sided = split_side(name);
+        unit = facs.find(sided.id);
+        side = sided.side;
+    }
+    if (!unit) {
+        // "AU30" alone: the units that name their side are the nearest thing to what was meant.
+        if (facs.find(name + ".l") && facs.find(name + ".r"))
+            place.fail(quoted(name + ".l") + " or " + quoted(name + ".r"), quoted(name));
+        // A number near another number is no likely slip.
+        std::vector<std::string_view> known;
+        if (!is_unit_number(split_side(name).id))
+            for (const ActionUnit& u : facs.units) known.push_back(u.id);
+        place.fail("an action unit of the rig's FACS table" + did_you_mean(name, known),
+                   quoted(name));
+    }
+    if (side && !unit->sided) place.fail(quoted(unit->id) + ", which has no sides", quoted(name));
+    if (!unit->unsupported.empty())
+        place.fail("an action unit a rig can move",
+                   quoted(name) + ", which needs " + unit->unsupported);
+    return {unit->id, side, 1.0};
+}
+
+FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
+    json.allow_keys({"source", "ranges", "action_units", "arkit", "visemes"});
+    FacsTable facs;
+    if (const auto ranges = json.find("ranges")) {
+        ranges->allow_keys({"jaw_forward_mm", "jaw_side_mm", "tongue_out_mm"});
+        const auto read = [&](std::string_view key, double& range) {
+            if (const auto v = ranges->find(key)) range = v->number({0.1, 1000});
+        };
+        read("jaw_forward_mm", facs.ranges.jaw_forward_mm);
+        read("jaw_side_mm", facs.ranges.jaw_side_mm);
+        read("tongue_out_mm", facs.ranges.tongue_out_mm);
+    }
+    const JsonCursor units = json.at("action_units");
+    for (const std::string& id : units.keys())
+        facs.units.push_back(read_unit(units.at(id), id, facs.ranges, channels));
+    if (const auto arkit = json.find("arkit"))
+        for (const std::string& name : arkit->keys())
+            facs.arkit.push_back(read_arkit_shape(arkit->at(name), name, facs, channels));
+    if (const auto visemes = json.find("visemes"))
+        for (const std::string& name : visemes->keys())
+            facs.visemes.push_back(read_arkit_shape(visemes->at(name), name, facs, channels));
+    return facs;
+}
+
+Expressions read_expressions(const JsonCursor& json, const FacsTable& facs) {
+    json.allow_keys({"source", "expressions"});
+    const JsonCursor table = json.at("expressions");
+    Expressions expressions;
+    for (const std::string& name : table.keys()) {
+        const JsonCursor entry = table.at(name);
+        entry.allow_keys({"onset_s", "hold_s", "offset_s", "units"});
+        Expression expression;
+        expression.name = name;
+        expression.onset_s = entry.at("onset_s").number({0, 60});
+        expression.hold_s = entry.at("hold_s").number({0, 3600});
+        expression.offset_s = entry.at("offset_s").number({0, 60});
+        const JsonCursor units = entry.at("units");
+        for (const std::string& unit : units.keys()) {
+            const JsonCursor part = units.at(unit);
+            part.allow_keys({"value", "delay"});
+            ExpressionUnit use{unit_named(part, unit, facs), 0};
+            use.use.value = part.at("value").number({0, 1});
+            // A delay of the whole onset would leave no time to move.
+            if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
+            expression.units.push_back(std::move(use));
+        }
+        expressions.list.push_back(std::move(expression));
+    }
+    return expressions;
+}
+
+Expansion Expansion::none(const ChannelTable& channels) {
+    Expansion expansion;
+    expansion.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    return expansion;
+}
+
+void Expansion::add(const Expansion& part, double weight) {
+    excitation += weight * part.excitation;
+    for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
+}
+
+Expansion expand(const MuscleShare& share, const ChannelTable& channels) {
+    Expansion expansion = Expansion::none(channels);
+    for (Side side : {Side::kLeft, Side::kRight})
+        if (!share.side || *share.side == side)
+            expansion.excitation[channels.column(share.muscle, side)] = share.weight;
+    return expansion;
+}
+
+Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels) {
+    Expansion expansion = Expansion::none(channels);
+    for (const MuscleShare& muscle : unit.muscles) {
+        MuscleShare share = muscle;
+        const bool paired = channels.find(muscle.muscle)->paired;
+        if (side && !paired) share.weight /= 2;
+        if (side && paired && !share.side) share.side = side;
+        expansion.add(expand(share, channels), 1.0);
+    }
+    for (int i = 0; i < kKinematicCount; ++i) {
+        const auto k = static_cast<Kinematic>(i);
+        double share = 1.0;
+        if (side && (is_left_eye(k) || is_right_eye(k)))
+            share = is_left_eye(k) == (*side == Side::kLeft) ? 1.0 : 0.0;
+        else if (side)
+            share = 0.5;
+        value(expansion.kinematic, k) = share * unit.kinematic[static_cast<std::size_t>(i)];
+    }
+    return expansion;
+}
+
+Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels) {
+    Expansion expansion = Expansion::none(channels);
+    for (const UnitUse& use : shape.units)
+        expansion.add(expand(*facs.find(use.unit), use.side, channels), use.value);
+    for (const MuscleShare& share : shape.muscles)
+        for (Side side : {Side::kLeft, Side::kRight})
+            if (!share.side || *share.side == side)
+                expansion.excitation[channels.column(share.muscle, side)] = share.weight;
+    apply_jaw(shape.jaw, facs.ranges, expansion.kinematic);
+    if (shape.tongue_out_mm)
+        value(expansion.kinematic, Kinematic::kTongueOut) =
+            *shape.tongue_out_mm / facs.ranges.tongue_out_mm;
+    if (shape.tongue_up) value(expansion.kinematic, Kinematic::kTongueUp) = *shape.tongue_up;
+    // Units that overlap add up to more than a muscle can do.
+    expansion.excitation = expansion.excitation.cwiseMax(channels.column_min()).cwiseMin(1.0);
+    return expansion;
+}
+
+}  // namespace risorius::track

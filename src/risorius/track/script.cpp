@@ -1,0 +1,437 @@
+#include "risorius/track/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "risorius/core/existing_file.h"
+#include "risorius/core/known_names.h"
+#include "risorius/track/detail/emg_source.h"
+#include "risorius/track/timeline.h"
+
+namespace risorius::track {
+
+namespace {
+
+constexpr double kLongest_s = 3600;
+constexpr double kGreatestGravity_m_s2 = 50;
+constexpr double kMostAsymmetry = 0.5;
+constexpr double kLatestSide_s =
+    0.040;  // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart
+constexpr double kBlinkApart_s = 0.3;  // of idle blinks from those a script writes
+
+ScriptLight read_light(const JsonCursor& json) {
+    ScriptLight light;
+    const auto preset = [&](const JsonCursor& name) {
+        light.preset = name.one_of({"studio", "soft", "dramatic", "outdoor", "even"});
+    };
+    if (json.is_string()) {
+        preset(json);
+        return light;
+    }
+    json.allow_keys({"preset", "file", "turn_deg", "exposure_ev"});
+    if (const auto v = json.find("preset")) preset(*v);
+    if (const auto v = json.find("file")) light.file = existing_file(*v);
+    if (const auto v = json.find("turn_deg")) light.turn_deg = v->number({-360, 360});
+    if (const auto v = json.find("exposure_ev")) light.exposure_ev = v->number({-10, 10});
+    return light;
+}
+
+ScriptView read_view(const JsonCursor& json) {
+    json.allow_keys({"width_px", "height_px", "camera", "show", "background", "light", "projection",
+                     "distance_m", "view_angle_deg", "aperture_mm", "shutter_deg", "antialiasing"});
+    ScriptView view;
+    if (const auto v = json.find("light")) view.light = read_light(*v);
+    if (const auto v = json.find("projection"))
+        view.orthographic = v->one_of({"perspective", "orthographic"}) == "orthographic";
+    if (const auto v = json.find("distance_m")) view.distance_m = v->number({0.2, 100});
+    if (const auto v = json.find("view_angle_deg")) view.view_angle_deg = v->number({0.5, 90});
+    if (const auto v = json.find("aperture_mm")) view.aperture_mm = v->number({0, 100});
+    if (const auto v = json.find("shutter_deg")) view.shutter_deg = v->number({0, 360});
+    if (const auto v = json.find("antialiasing")) view.antialiasing = v->integer(1, 4);
+    if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
+    if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
+    if (const auto v = json.find("camera"))
+        view.camera = v->one_of({"front", "three_quarter", "three_quarter_right", "profile",
+                                 "profile_right", "top", "eye", "nose", "mouth", "ear"});
+    if (const auto v = json.find("show"))
+        view.show = v->one_of({"skin", "muscles", "skull", "wire", "strain", "landmarks"});
+    if (const auto v = json.find("background")) {
+        const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
+        if (!v->is_string()) v->fail(expected);
+        const std::string colour = v->string();
+        if (colour == "transparent") {
+            view.transparent = true;
+        } else {
+            if (colour.size() != 7 || colour[0] != '#' ||
+                colour.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+                v->fail(expected);
+            for (std::size_t i = 0; i < 3; ++i)
+                view.background_rgb[i] =
+                    std::stoi(colour.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+        }
+    }
+    return view;
+}
+
+std::optional<Vec3> read_gravity(const JsonCursor& json) {
+    if (json.is_array()) {
+        const Vec3 gravity = json.vec3();
+        if (!(gravity.norm() <= kGreatestGravity_m_s2))
+            json.fail("an acceleration of at most " + format_number(kGreatestGravity_m_s2) +
+                      " m/s^2");
+        return gravity;
+    }
+    if (!json.json().is_boolean()) json.fail("true, false or [x, y, z] in m/s^2");
+    return json.boolean() ? ScriptHeader{}.gravity_m_s2 : std::nullopt;
+}
+
+ScriptHeader read_header(const JsonCursor& json) {
+    json.at("format").one_of({"risorius-script"});
+    const JsonCursor version = json.at("version");
+    if (version.json() != 1) version.fail("1, the version of the format this program reads");
+    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
+                     "gravity", "channels", "emg", "events", "view", "weakness", "late_s"});
+    ScriptHeader header;
+    header.rig = json.at("rig").string();
+    if (header.rig.empty()) json.at("rig").fail("the path of a rig file");
+    header.rig_file = json.at("rig").path();
+    if (const auto v = json.find("fps")) header.fps = v->integer(1, 240);
+    const JsonCursor duration = json.at("duration_s");
+    header.duration_s = duration.number();
+    if (!(header.duration_s > 0 && header.duration_s <= kLongest_s))
+        duration.fail("(0, " + format_number(kLongest_s) + "]");
+    if (header.frame_count() < 1)
+        duration.fail("at least one frame at " + std::to_string(header.fps) + " fps");
+    if (const auto v = json.find("seed")) header.seed = v->integer(0, 2147483647);
+    if (const auto v = json.find("jaw"))
+        header.jaw = v->one_of({"channels", "muscles"}) == "muscles" ? JawDrive::kMuscles
+                                                                     : JawDrive::kChannels;
+    if (const auto v = json.find("motion"))
+        header.motion = v->one_of({"dynamic", "quasi_static"}) == "dynamic" ? Motion::kDynamic
+                                                                            : Motion::kQuasiStatic;
+    if (const auto v = json.find("gravity")) header.gravity_m_s2 = read_gravity(*v);
+    if (const auto v = json.find("view")) header.view = read_view(*v);
+    return header;
+}
+
+/// Resolves the names of one script against one rig.
+class Reader {
+  public:
+    Reader(const ChannelTable& channels, const FacsTable& facs, const Expressions& expressions)
+        : channels_(channels), facs_(facs), expressions_(expressions) {}
+
+    ChannelTrack channel(const JsonCursor& json, const std::string& name) const {
+        json.allow_keys({"keys", "interpolation", "activation"});
+        ChannelTrack track;
+        track.name = name;
+        Range range{0, 1};
+        bool is_muscle = false;
+        track.drives = resolve(json, name, range, is_muscle);
+
+        if (const auto v = json.find("activation")) {
+            track.activation = v->boolean();
+            if (track.activation && !is_muscle)
+                v->fail("\"activation\" on the channel of a muscle only");
+        }
+        if (const auto v = json.find("interpolation")) {
+            const std::string text = v->one_of({"step", "linear", "smooth"});
+            track.interpolation = text == "step"     ? Interpolation::kStep
+                                  : text == "linear" ? Interpolation::kLinear
+                                                     : Interpolation::kSmooth;
+        }
+        track.keys = read_keys(json.at("keys"), range);
+        return track;
+    }
+
+    ExpressionEvent expression(const JsonCursor& json, const ScriptHeader& header,
+                               int number) const {
+        const double duration_s = header.duration_s;
+        json.allow_keys({"expression", "intensity", "start_s", "onset_s", "hold_s", "offset_s",
+                         "side", "asymmetry"});
+        const JsonCursor name = json.at("expression");
+        const Expression* usual = expressions_.find(name.string());
+        if (!usual) {
+            std::vector<std::string_view> known;
+            for (const Expression& e : expressions_.list) known.push_back(e.name);
+            const std::string near = nearest_name(name.string(), known);
+            std::string expected = near.empty() ? "one of"
+                                                : "an expression of the rig (did you mean " +
+                                                      risorius::quoted(near) + "?)";
+            if (near.empty())
+                for (std::string_view k : known) expected += " " + quoted(std::string(k));
+            name.fail(expected);
+        }
+        ExpressionEvent event;
+        event.expression = usual->name;
+        event.intensity = optional_number(json, "intensity", 1, {0, 1});
+        event.start_s = json.at("start_s").number({0, duration_s});
+        event.onset_s = optional_number(json, "onset_s", usual->onset_s, {0, 60});
+        event.hold_s = optional_number(json, "hold_s", usual->hold_s, {0, kLongest_s});
+        event.offset_s = optional_number(json, "offset_s", usual->offset_s, {0, 60});
+        event.side = read_side(json);
+        event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMostAsymmetry});
+        // Chance is drawn the same way by every standard library
+        std::seed_seq seed{header.seed, number};
+        std::mt19937 random(seed);
+        const Side weaker = random() % 2 ? Side::kLeft : Side::kRight;
+        const double chance = (random() >> 8) * 0x1p-24;
+        const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
+        for (const ExpressionUnit& part : usual->units) {
+            // A unit that is one-sided in the table moves over to the side the event asks for.
+            const std::optional<Side> side = event.side ? event.side : part.use.side;
+            const ActionUnit& unit = *facs_.find(part.use.unit);
+            const auto add = [&](std::optional<Side> on, double share, double delay) {
+                Expansion drives = Expansion::none(channels_);
+                const double value = share * part.use.value * event.intensity;
+                drives.add(expand(unit, on, channels_), value);
+                event.parts.push_back(
+                    {std::move(drives), std::min(delay, 0.9), {part.use.unit, on, value}});
+            };
+            if (event.asymmetry == 0 || side || !unit.sided) {
+                add(side, 1, part.delay);
+                continue;
+            }
+            for (const Side one : {Side::kLeft, Side::kRight})
+                if (one == weaker)
+                    add(one, 1 - event.asymmetry * (0.5 + 0.5 * chance), part.delay + lag);
+                else
+                    add(one, 1, part.delay);
+        }
+        return event;
+    }
+
+    BlinkEvent blink(const JsonCursor& json, double duration_s) const {
+        json.allow_keys({"blink", "start_s"});
+        const JsonCursor options = json.at("blink");
+        options.allow_keys({"duration_s", "intensity", "side"});
+        BlinkEvent event;
+        event.start_s = json.at("start_s").number({0, duration_s});
+        event.duration_s =
+            optional_number(options, "duration_s", event.duration_s, {kShortestBlink_s, 2});
+        event.intensity = optional_number(options, "intensity", 1, {0, 1});
+        event.side = read_side(options);
+        close_lids(json.at("blink"), event);
+        return event;
+    }
+
+    IdleEvent idle(const JsonCursor& json, const ScriptHeader& header, int number) const {
+        json.allow_keys({"idle", "start_s", "end_s", "duration_s"});
+        IdleEvent event;
+        event.options = read_idle_options(json.at("idle"));
+        event.seed = header.seed;
+        event.number = number;
+        event.start_s = optional_number(json, "start_s", 0, {0, header.duration_s});
+        event.end_s = header.duration_s;
+        if (json.has("end_s") && json.has("duration_s"))
+            json.fail("either \"end_s\" or \"duration_s\"", "both");
+        if (const auto v = json.find("end_s")) event.end_s = v->number({event.start_s, kLongest_s});
+        if (const auto v = json.find("duration_s"))
+            event.end_s = event.start_s + v->number({0, kLongest_s});
+        return event;
+    }
+
+    /// Of an idle face, but for those that fall together with what a script writes.
+    void add_idle_blinks(const JsonCursor& json, const IdleEvent& idle,
+                         std::vector<BlinkEvent>& blinks) const {
+        const std::vector<BlinkEvent> written = blinks;
+        for (const IdleBlink& blink : idle_blinks(idle)) {
+            BlinkEvent event;
+            event.start_s = blink.start_s;
+            event.intensity = blink.intensity;
+            const double end_s = event.start_s + event.duration_s;
+            if (std::any_of(written.begin(), written.end(), [&](const BlinkEvent& other) {
+                    return other.start_s < end_s + kBlinkApart_s &&
+                           event.start_s < other.start_s + other.duration_s + kBlinkApart_s;
+                }))
+                continue;
+            close_lids(json.at("idle"), event);
+            blinks.push_back(std::move(event));
+        }
+    }
+
+  private:
+    void close_lids(const JsonCursor& place, BlinkEvent& event) const {
+        const ActionUnit* unit = facs_.find("AU45");
+        if (!unit) place.fail("a rig whose facs table has AU45", "none");
+        event.drives = Expansion::none(channels_);
+        event.drives.add(expand(*unit, event.side, channels_), event.intensity);
+    }
+
+    /// Also gives the range of the channel's values and whether it is a muscle.
+    Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
+                      bool& is_muscle) const {
+        const std::vector<Kinematic> kinematic = kinematic_named(name);
+        if (!kinematic.empty()) {
+            Expansion drives = Expansion::none(channels_);
+            for (Kinematic k : kinematic) {
+                drives.kinematic[static_cast<std::size_t>(k)] = 1;
+                const KinematicChannel& channel = kinematic_channels()[static_cast<std::size_t>(k)];
+                range = {channel.min, channel.max};
+            }
+            return drives;
+        }
+        const std::string id = split_side(name).id;
+        if (const MuscleChannel* muscle = channels_.find(id)) {
+            is_muscle = true;
+            range = {muscle->min, 1};
+            return expand(muscle_named(json, name, channels_), channels_);
+        }
+        if (facs_.find(id) || facs_.find(name) || facs_.find(id + ".l") || is_unit_number(id)) {
+            const UnitUse use = unit_named(json, name, facs_);
+            return expand(*facs_.find(use.unit), use.side, channels_);
+        }
+        std::vector<std::string_view> known;
+        for (const MuscleChannel& muscle : channels_.muscles) known.push_back(muscle.id);
+        for (const ActionUnit& unit : facs_.units) known.push_back(unit.id);
+        for (const KinematicChannel& channel : kinematic_channels())
+            known.push_back(channel.name.ends_with(".l") || channel.name.ends_with(".r")
+                                ? channel.name.substr(0, channel.name.size() - 2)
+                                : channel.name);
+        std::string near = nearest_name(id, known);
+        for (const std::string side : {".left", ".right"})
+            if (name.ends_with(side))
+                if (const std::string whole = name.substr(0, name.size() - side.size());
+                    channels_.find(whole) || facs_.find(whole))
+                    near = whole + side.substr(0, 2);
+        json.fail("a muscle, action unit or kinematic channel of the rig" +
+                      (near.empty() ? " (`risorius info` lists them)"
+                                    : " (did you mean " + risorius::quoted(near) + "?)"),
+                  quoted(name));
+    }
+
+    static std::vector<Key> read_keys(const JsonCursor& json, Range range) {
+        std::vector<Key> keys;
+        for (const JsonCursor& item : json.items()) {
+            if (!item.is_array() || item.json().size() != 2) item.fail("a key [time_s, value]");
+            const std::vector<JsonCursor> pair = item.items();
+            const double time_s = pair[0].number({0, kLongest_s});
+            if (!keys.empty() && time_s <= keys.back().time_s)
+                pair[0].fail("a time after " + format_number(keys.back().time_s) + " s");
+            keys.push_back({time_s, pair[1].number(range)});
+        }
+        if (keys.empty()) json.fail("at least one key [time_s, value]");
+        return keys;
+    }
+
+    static double optional_number(const JsonCursor& json, std::string_view key, double otherwise,
+                                  Range range) {
+        const auto value = json.find(key);
+        return value ? value->number(range) : otherwise;
+    }
+
+    static std::optional<Side> read_side(const JsonCursor& json) {
+        const auto side = json.find("side");
+        if (!side) return std::nullopt;
+        return side->one_of({"l", "r"}) == "l" ? Side::kLeft : Side::kRight;
+    }
+
+    const ChannelTable& channels_;
+    const FacsTable& facs_;
+    const Expressions& expressions_;
+};
+
+}  // namespace
+
+int frame_count(double duration_s, int fps) {
+    return static_cast<int>(std::lround(duration_s * fps));
+}
+
+int ScriptHeader::frame_count() const { return track::frame_count(duration_s, fps); }
+
+ScriptHeader read_script_header(const std::filesystem::path& file) {
+    return read_header(JsonCursor::read_file(file));
+}
+
+ScriptHeader read_script_header(const JsonCursor& script) { return read_header(script); }
+
+ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions) {
+    return read_script(JsonCursor::read_file(file), channels, facs, expressions);
+}
+
+namespace {
+
+constexpr const char* kSideNames[] = {"left", "right"};
+
+// "left", "right", or a muscle with or without a side
+void read_weakness(const JsonCursor& json, const std::string& name, const ChannelTable& channels,
+                   Eigen::VectorXd& weakness) {
+    const double value = json.number({0, 1});
+    const auto set = [&](const std::string& id, Side side) {
+        double& one = weakness[channels.column(id, side)];
+        one = std::max(one, value);
+    };
+    for (const Side side : {Side::kLeft, Side::kRight})
+        if (name == kSideNames[side == Side::kLeft ? 0 : 1]) {
+            for (const MuscleChannel& muscle : channels.muscles)
+                if (channels.column(muscle.id, Side::kLeft) !=
+                    channels.column(muscle.id, Side::kRight))
+                    set(muscle.id, side);
+            return;
+        }
+    const SidedName sided = split_side(name);
+    if (!channels.find(sided.id)) {
+        std::vector<std::string> known{"left", "right"};
+        for (const MuscleChannel& muscle : channels.muscles) known.push_back(muscle.id);
+        json.fail("a muscle of the rig, with or without .l or .r, \"left\" or \"right\"" +
+                      risorius::did_you_mean(sided.id, known),
+                  quoted(name));
+    }
+    for (const Side side : {Side::kLeft, Side::kRight})
+        if (!sided.side || *sided.side == side) set(sided.id, side);
+}
+
+}  // namespace
+
+ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions) {
+    ScriptDescription script;
+    script.header = read_header(json);
+    if (const auto weakness = json.find("weakness")) {
+        script.weakness = Eigen::VectorXd::Zero(channels.column_count());
+        for (const std::string& name : weakness->keys())
+            read_weakness(weakness->at(name), name, channels, script.weakness);
+    }
+    if (const auto late = json.find("late_s")) {
+        late->allow_keys({kSideNames[0], kSideNames[1]});
+        for (std::size_t side = 0; side < 2; ++side)
+            if (const auto v = late->find(kSideNames[side]))
+                script.late_s[side] = v->number({0, 10});
+    }
+    const Reader reader(channels, facs, expressions);
+    if (const auto table = json.find("channels"))
+        for (const std::string& name : table->keys())
+            script.channels.push_back(reader.channel(table->at(name), name));
+    if (const auto emg = json.find("emg")) {
+        script.emg = read_emg(*emg, channels);
+        script.recordings.push_back(existing_file(emg->at("file")));
+    }
+    if (const auto events = json.find("events")) {
+        std::vector<JsonCursor> idle;
+        for (const JsonCursor& event : events->items()) {
+            const int kinds = event.has("expression") + event.has("blink") + event.has("idle");
+            if (kinds != 1)
+                event.fail("an event with one of \"expression\", \"blink\" and \"idle\"",
+                           kinds == 0   ? "none"
+                           : kinds == 2 ? "two"
+                                        : "three");
+            if (event.has("expression"))
+                script.expressions.push_back(reader.expression(
+                    event, script.header, static_cast<int>(script.expressions.size())));
+            else if (event.has("blink"))
+                script.blinks.push_back(reader.blink(event, script.header.duration_s));
+            else
+                idle.push_back(event);
+        }
+        for (const JsonCursor& event : idle) {
+            script.idle.push_back(
+                reader.idle(event, script.header, static_cast<int>(script.idle.size())));
+            reader.add_idle_blinks(event, script.idle.back(), script.blinks);
+        }
+    }
+    return script;
+}
+
+}  // namespace risorius::track

@@ -1,0 +1,129 @@
+// A script as read: which rig, how long, what every channel does over time, expressions and blinks, and how it is seen.
+// JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/track/channels.h"
+#include "risorius/track/detail/curve.h"
+#include "risorius/track/detail/idle.h"
+#include "risorius/track/facs.h"
+
+namespace risorius::track {
+
+/// "light" of a view; see render::LightOptions.
+struct ScriptLight {
+    std::string preset = "studio";
+    std::filesystem::path
+        file;  ///< Radiance .hdr of the surroundings, in place of the preset; empty: none
+    double turn_deg = 0;     ///< [-360, 360]
+    double exposure_ev = 0;  ///< [-10, 10]
+};
+
+struct ScriptView {
+    int width_px = 1024;  ///< 16..8192
+    int height_px = 1024;
+    std::string camera = "front";                      ///< a name of render::camera_names()
+    std::string show = "skin";                         ///< a name of render::show_names()
+    bool orthographic = false;                         ///< "projection"
+    std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
+    double aperture_mm = 0;
+    double shutter_deg = 0;  ///< 0..360 of a frame that the shutter is open, around its time
+    int antialiasing = 2;    ///< 1..4 samples per pixel and side
+    ScriptLight light;
+    bool transparent = false;  ///< background "transparent"
+    std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
+};
+
+/// Through inertia and damping, or every frame in equilibrium with its drive.
+enum class Motion { kDynamic, kQuasiStatic };
+
+/// What can be known before the rig is.
+struct ScriptHeader {
+    std::string rig;                 ///< as written
+    std::filesystem::path rig_file;  ///< relative paths start at the script's folder
+    int fps = 60;                    ///< 1..240
+    double duration_s = 0;           ///< (0, 3600], at least one frame
+    int seed = 1;
+    JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
+    Motion motion = Motion::kDynamic;    ///< "dynamic" or "quasi_static"
+    /// true: 9.81 m/s^2 downwards; false, none here: however the head is held it hangs as upright; or a vector
+    std::optional<Vec3> gravity_m_s2{Vec3(0, -9.81, 0)};
+    ScriptView view;
+
+    int frame_count() const;
+};
+
+/// Frame n shows time n / fps.
+int frame_count(double duration_s, int fps);
+
+struct ChannelTrack {
+    std::string name;  ///< "AU6.l"
+    std::vector<Key> keys;
+    Interpolation interpolation = Interpolation::kSmooth;
+    bool activation = false;  ///< sets activation directly, without activation dynamics
+    Expansion drives;         ///< what the channel at 1 adds
+};
+
+/// Rises along a minimum-jerk curve, is held, falls again. Every unit has its own delay within the onset.
+struct ExpressionEvent {
+    struct Part {
+        Expansion drives;  ///< at the intensity of the event
+        double delay = 0;  ///< ratio of the onset
+        UnitUse use;       ///< the same as a unit, its value that in the event
+    };
+    std::string expression;
+    std::optional<Side> side;  ///< none: as the table says
+    double intensity = 1;      ///< [0, 1]
+    double asymmetry =
+        0;  ///< how much weaker one side may be, by chance; it is up to 40 ms late, [0, 0.5]
+    double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
+    std::vector<Part> parts;
+};
+
+struct BlinkEvent {
+    double start_s = 0;
+    double duration_s = 0.22;  ///< from the first drive until the lids are open again
+    double intensity = 1;      ///< below about 0.8 the lids do not meet
+    std::optional<Side> side;
+    Expansion drives;  ///< of AU45 at this intensity
+};
+
+/// Excitation from a recorded electromyogram, [min of the muscle, 1].
+struct EmgTrack {
+    std::string muscle;  ///< "zygomaticus_major.l"
+    SampledCurve excitation;
+    Expansion drives;  ///< what it at 1 adds
+};
+
+struct ScriptDescription {
+    ScriptHeader header;
+    std::vector<ChannelTrack> channels;
+    std::vector<EmgTrack> emg;
+    std::vector<ExpressionEvent> expressions;
+    std::vector<BlinkEvent> blinks;  ///< those of idle events too
+    std::vector<IdleEvent> idle;
+    Eigen::VectorXd
+        weakness;  ///< per column, of a muscle's strength that is missing, [0, 1]; empty: none is
+    std::array<double, 2> late_s{
+        0, 0};  ///< how much later the muscles of a side hear of it all, [0, 10]
+    std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
+};
+
+/// Reads the header and leaves channels and events for later. Throws Error.
+ScriptHeader read_script_header(const std::filesystem::path& file);
+ScriptHeader read_script_header(const JsonCursor& script);
+
+/// Everything, checked against the rig. Throws Error naming file, place, expected and found.
+ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions);
+
+/// For scripts already in memory.
+ScriptDescription read_script(const JsonCursor& script, const ChannelTable& channels,
+                              const FacsTable& facs, const Expressions& expressions);
+
+}  // namespace risorius::track

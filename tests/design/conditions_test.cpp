@@ -1,0 +1,415 @@
+// From a design file to the clips it asks for.
+#include "risorius/design/conditions.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "message_of.h"
+#include "risorius/design/detail/arithmetic.h"
+#include "temporary_folder.h"
+
+namespace risorius::design {
+namespace {
+
+const char* const kScript = R"({"format": "risorius-script", "version": 1, "rig": "rig.json",
+    "duration_s": "= onset_s + hold_s", "fps": "${fps}",
+    "events": [{"expression": "${expression}", "intensity": "${intensity}", "start_s": 0.1,
+                "onset_s": "= onset_s * intensity", "hold_s": "${hold_s}"}]})";
+
+class Designs : public testing::Test {
+  protected:
+    /// A design of one set, `more` put over its keys.
+    Json design(const std::string& more = "{}") const {
+        Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "test",
+            "parameters": {"fps": 30, "onset_s": 0.4, "hold_s": "= onset_s / 2"},
+            "sets": [{"name": "faces", "clip": "${expression}_${intensity}",
+                      "factors": {"expression": ["happiness", "fear"],
+                                  "intensity": {"from": 0.5, "to": 1, "steps": 3}}}]})");
+        json["sets"][0]["script"] = Json::parse(kScript);
+        json["sets"][0].update(Json::parse(more));
+        return json;
+    }
+    std::vector<Condition> conditions(const Json& json) const { return conditions_of(read(json)); }
+    Design read(const Json& json) const {
+        write("design.json", json.dump());
+        return read_design(folder_.path() / "design.json");
+    }
+    std::string complaint(const Json& json) const {
+        std::string text = message_of([&] { conditions(json); });
+        const std::string here = folder_.path().string() + "/";
+        for (std::size_t at; (at = text.find(here)) != std::string::npos;)
+            text.erase(at, here.size());
+        return text;
+    }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_.path() / name) << text;
+    }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+std::vector<std::string> clips(const std::vector<Condition>& conditions) {
+    std::vector<std::string> out;
+    for (const Condition& one : conditions) out.push_back(one.clip);
+    return out;
+}
+
+TEST_F(Designs, CrossEveryLevelWithEveryOther) {
+    const std::vector<Condition> all = conditions(design());
+    EXPECT_EQ(clips(all), (std::vector<std::string>{"happiness0p5", "happiness0p75", "happiness1",
+                                                    "fear0p5", "fear0p75", "fear1"}));
+    const Json& script = all[1].script;
+    EXPECT_EQ(script.at("fps"), 30);
+    EXPECT_TRUE(script.at("fps").is_number_integer());
+    EXPECT_NEAR(script.at("duration_s").get<double>(), 0.6, 1e-15);
+    EXPECT_EQ(script.at("events")[0].at("expression"), "happiness");
+    EXPECT_EQ(script.at("events")[0].at("intensity"), 0.75);
+    EXPECT_NEAR(script.at("events")[0].at("onset_s").get<double>(), 0.3, 1e-15);
+    EXPECT_EQ(all[1].of, all[1].clip);
+}
+
+TEST_F(Designs, RowsOfATableAreCrossedWithFactors) {
+    write("people.tsv", "expression\tside\tnote\nhappiness\tl\t\"says \"\"hm\"\"\"\n\nfear\t\tx\n");
+    const std::vector<Condition> all = conditions(design(
+        R"({"conditions": "people.tsv", "factors": {"intensity": [0.2, 1]}, "parameters": {"side": "both"},
+            "clip": "${expression}-${side}-${intensity}"})"));
+    EXPECT_EQ(clips(all), (std::vector<std::string>{"happinessL0p2", "happinessL1", "fearBoth0p2",
+                                                    "fearBoth1"}));
+    for (const auto& [name, value] : all[0].values)
+        if (name == "note") {
+            EXPECT_EQ(value, "says \"hm\"");
+        }
+    write("people.tsv", "expression\tside\nhappiness\n");
+    EXPECT_EQ(complaint(design(R"({"conditions": "people.tsv"})")),
+              "people.tsv:2: expected 2 cells, as in the first row, found 1");
+}
+
+TEST_F(Designs, DrawTheSameWhateverElseThereIs) {
+    const auto values = [](const std::vector<Condition>& all) {
+        std::set<double> out;
+        for (const Condition& one : all)
+            out.insert(one.script.at("events")[0].at("intensity").get<double>());
+        return out;
+    };
+    Json json = design(
+        R"({"factors": {"intensity": {"draw": [0.3, 0.9], "count": 20}, "expression": ["fear"]}})");
+    const std::set<double> once = values(conditions(json));
+    EXPECT_EQ(once.size(), 20u);
+    EXPECT_GE(*once.begin(), 0.3);
+    EXPECT_LT(*once.rbegin(), 0.9);
+    EXPECT_GT(*once.rbegin() - *once.begin(), 0.3);
+    json["sets"][0]["factors"]["expression"].push_back("anger");
+    EXPECT_EQ(values(conditions(json)), once);
+    json["seed"] = 2;
+    EXPECT_NE(values(conditions(json)), once);
+    // Part of a crossing
+    const std::vector<Condition> some = conditions(design(R"({"draw": 4})"));
+    EXPECT_EQ(some.size(), 4u);
+    EXPECT_EQ(clips(some), clips(conditions(design(R"({"draw": 4})"))));
+}
+
+TEST_F(Designs, OverridesHoldForTheirConditionsOnly) {
+    const std::vector<Condition> all = conditions(design(
+        R"({"overrides": [{"when": {"expression": "fear", "intensity": 1}, "set": {"onset_s": 0.2}}]})"));
+    EXPECT_NEAR(all[5].script.at("duration_s").get<double>(), 0.3, 1e-15);
+    EXPECT_NEAR(all[4].script.at("duration_s").get<double>(), 0.6, 1e-15);
+}
+
+TEST_F(Designs, ControlsComeBesideTheirConditions) {
+    const std::vector<Condition> all = conditions(design(
+        R"({"factors": {"expression": ["happiness", "fear"]}, "parameters": {"intensity": 1}, "clip": "${expression}",
+            "controls": ["reversed", {"control": "knock_out", "muscle": "zygomaticus_major.l"},
+                         {"control": "palsy", "side": "right", "weakness": 0.8},
+                         {"control": "neutral", "when": {"expression": "fear"}}]})"));
+    EXPECT_EQ(clips(all), (std::vector<std::string>{
+                              "happiness", "happinessReversed", "happinessWithoutZygomaticusMajorL",
+                              "happinessPalsyRight", "fear", "fearReversed",
+                              "fearWithoutZygomaticusMajorL", "fearPalsyRight", "fearNeutral"}));
+    EXPECT_EQ(all[1].script, all[0].script);
+    EXPECT_EQ(all[1].of, "happiness");
+    EXPECT_EQ(all[2].script.at("weakness"), Json({{"zygomaticus_major.l", 1}}));
+    EXPECT_EQ(all[3].script.at("weakness"), Json({{"right", 0.8}}));
+    EXPECT_FALSE(all[8].script.contains("events"));
+}
+
+TEST_F(Designs, RefuseWhatCannotBeMeant) {
+    Json json = design();
+    json["parameters"]["onset_s"] = "= hold_s * 2";
+    EXPECT_EQ(
+        complaint(json),
+        "design.json:/parameters/hold_s: expected a value that does not hang on itself, found "
+        "hold_s -> onset_s -> hold_s");
+    EXPECT_EQ(
+        complaint(design(R"({"clip": "${expression}"})")),
+        "design.json:/sets/0, condition 2 (happiness): expected a name that no other clip has; "
+        "put what differs into \"clip\", found \"happiness\", as in design.json:/sets/0, "
+        "condition 1 (happiness)");
+    EXPECT_EQ(complaint(design(R"({"clip": "${expresion}"})")),
+              "design.json:/sets/0/clip: expected a parameter of the design (did you mean "
+              "\"expression\"?), found \"expresion\"");
+    EXPECT_EQ(
+        complaint(design(R"({"clip": "../../..", "factors": {"expression": ["fear"],
+                                   "intensity": [1]}})")),
+        "design.json:/sets/0/clip: expected a name with letters or digits, found \"../../..\"");
+    EXPECT_EQ(complaint(design(R"({"factors": {"intensity": {"from": 0, "to": 1, "steps": 100000},
+                                   "gaze": {"from": 0, "to": 1, "steps": 10000}}})")),
+              "design.json:/sets/0/factors: expected 100000 conditions at most, found more");
+    EXPECT_EQ(complaint(design(R"({"controls": ["reverse"]})")).substr(0, 44),
+              "design.json:/sets/0/controls/0: expected one");
+    EXPECT_EQ(complaint(design(R"({"factors": {"intensity": []}})")),
+              "design.json:/sets/0/factors/intensity: expected a value at least, found none");
+    EXPECT_EQ(complaint(design(R"({"factor": {}})")).substr(0, 24), "design.json:/sets/0/fact");
+}
+
+/// Levels a, b, c ... of so many factors x, y, z ..., each with as many levels.
+Json crossed(int factors, int levels, const char* fraction) {
+    Json set =
+        Json::parse(R"({"factors": {}, "clip": "", "script": {"format": "risorius-script"}})");
+    for (int f = 0; f < factors; ++f) {
+        const std::string name(1, static_cast<char>('p' + f));
+        set["clip"] = set["clip"].get<std::string>() + "${" + name + "}";
+        for (int l = 0; l < levels; ++l)
+            set["factors"][name].push_back(std::string(1, static_cast<char>('a' + l)));
+    }
+    set["fraction"] = Json::parse(fraction);
+    return set;
+}
+
+TEST_F(Designs, FractionsAreLatinSquaresAndOrthogonalArrays) {
+    // Three factors of three levels: a Latin square, every two levels meet once
+    const Json square = design(crossed(3, 3, R"([{"sum": ["p", "q", "r"], "modulo": 3}])").dump());
+    EXPECT_EQ(
+        clips(conditions(square)),
+        (std::vector<std::string>{"aAA", "aBC", "aCB", "bAC", "bBB", "bCA", "cAB", "cBA", "cCC"}));
+    Balance balance = balance_of(read(square).sets[0], 1);
+    EXPECT_EQ(balance.strength, 2);
+    EXPECT_EQ(
+        balance.text(),
+        "9 of 27 conditions; every level of p 3 times, of q 3 times, of r 3 times; two levels "
+        "meet 1 times; orthogonal array of strength 2");
+    // 2^(5-2) of resolution III: D = AB, E = AC (Box, Hunter, Hunter, Statistics for Experimenters, table 12.15)
+    balance = balance_of(
+        read(design(crossed(5, 2, R"([{"sum": ["p", "q", "s"], "modulo": 2, "remainder": 1},
+                                      {"sum": ["p", "r", "t"], "modulo": 2, "remainder": 1}])")
+                        .dump()))
+            .sets[0],
+        1);
+    EXPECT_EQ(balance.wanted, 8);
+    EXPECT_EQ(balance.strength, 2);
+    // 2^(4-1) of resolution IV: every three factors in all combinations
+    balance = balance_of(
+        read(design(crossed(4, 2, R"([{"sum": ["p", "q", "r", "s"], "modulo": 2}])").dump()))
+            .sets[0],
+        1);
+    EXPECT_EQ(balance.strength, 3);
+    // Two orthogonal Latin squares: four factors, one ninth
+    balance = balance_of(read(design(crossed(4, 3, R"([{"sum": ["p", "q", "r"], "modulo": 3},
+                                      {"sum": {"p": 1, "q": 2, "s": 1}, "modulo": 3}])")
+                                         .dump()))
+                             .sets[0],
+                         1);
+    EXPECT_EQ(balance.wanted, 9);
+    EXPECT_EQ(balance.strength, 2);
+    // By chance they are not even
+    Json drawn = design(crossed(3, 3, R"([{"sum": ["p", "q"], "modulo": 3}])").dump());
+    drawn["sets"][0].erase("fraction");
+    drawn["sets"][0]["draw"] = 9;
+    EXPECT_EQ(balance_of(read(drawn).sets[0], 1).strength, 0);
+}
+
+TEST_F(Designs, FractionsAreRefusedWithTheirPlace) {
+    const auto complains = [&](const char* fraction) {
+        return complaint(design(crossed(3, 3, fraction).dump()));
+    };
+    const std::string place = "design.json:/sets/0/fraction/0";
+    EXPECT_EQ(complains(R"([{"sum": ["p", "z"], "modulo": 3}])").substr(0, place.size() + 6),
+              place + "/sum/1");
+    EXPECT_EQ(complains(R"([{"sum": ["p", "p"], "modulo": 3}])"),
+              place + "/sum/1: expected every factor once, found \"p\" again");
+    EXPECT_EQ(complains(R"([{"sum": ["p"], "modulo": 3}])").substr(0, 60),
+              (place + "/sum: expected two factors at least").substr(0, 60));
+    EXPECT_EQ(complains(R"([{"sum": ["p", "q"], "modulo": 1}])").substr(0, place.size() + 8),
+              place + "/modulo:");
+    EXPECT_EQ(complains(R"([{"sum": ["p", "q"], "modulo": 100, "remainder": 99}])"),
+              "design.json:/sets/0/fraction: expected a condition at least, found none");
+}
+
+TEST_F(Designs, SoundIsOfTheCondition) {
+    const std::vector<Condition> all =
+        conditions(design(R"({"parameters": {"word": "ba"}, "audio": "voices/${word}.wav",
+                   "audio_start_s": "= onset_s / 2", "overrides": [
+                       {"when": {"expression": "fear"}, "set": {"word": "da"}},
+                       {"when": {"expression": "fear", "intensity": 1}, "set": {"word": null}}]})"));
+    EXPECT_EQ(all[0].audio->filename(), "ba.wav");
+    EXPECT_EQ(all[0].audio->parent_path().filename(), "voices");
+    EXPECT_EQ(all[0].audio_start_s, 0.2);
+    EXPECT_EQ(all[3].audio->filename(), "da.wav");
+    EXPECT_EQ(all[5].audio->filename(), "none.wav");
+    EXPECT_EQ(
+        conditions(design(R"({"parameters": {"voice": null}, "audio": "${voice}"})"))[0].audio,
+        std::nullopt);
+    EXPECT_EQ(complaint(design(R"({"audio": "${intensity}"})")),
+              "design.json:/sets/0/audio: expected the name of a file, found 0.5");
+    EXPECT_EQ(complaint(design(R"({"audio_start_s": 1})")),
+              "design.json:/sets/0/audio_start_s: expected \"audio\" beside it, found none");
+}
+
+TEST_F(Designs, MatchingNeedsSomethingToMatchTo) {
+    Json json = design();
+    const auto with = [&](const char* match) {
+        json["match"] = Json::parse(match);
+        return complaint(json);
+    };
+    EXPECT_EQ(with(R"({"luminance": {"within": "face", "mean": 0.3}, "loudness": {}})"),
+              "no error");
+    EXPECT_EQ(read(json).match.loudness_lufs, -23);
+    EXPECT_EQ(with(R"({"luminance": {"one_for": "clip"}})"), "no error");
+    EXPECT_EQ(with(R"({"luminance": {"within": "face"}})"),
+              "design.json:/match/luminance: expected \"mean\" or \"sd\" to match all clips to, or "
+              "\"one_for\": \"clip\", found none of them");
+    EXPECT_NE(with(R"({"luminance": {"mean": 1.5}})").find("/match/luminance/mean: expected"),
+              std::string::npos);
+    EXPECT_NE(with(R"({"luminance": {"within": "eyes", "mean": 0.3}})").find("/within: expected"),
+              std::string::npos);
+    EXPECT_NE(with(R"({"contrast": {}})").find("/match/contrast: "), std::string::npos);
+}
+
+TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {
+    Json json = design();
+    const auto with = [&](const char* more) {
+        json["experiment"] =
+            Json::parse(R"({"programs": ["jspsych"], "answers": {"h": "happiness"}})");
+        json["experiment"].update(Json::parse(more));
+        return complaint(json);
+    };
+    EXPECT_EQ(with("{}"), "no error");
+    EXPECT_EQ(with(R"({"answers": {"escape": "nothing"}})"),
+              "design.json:/experiment/answers/escape: expected a key from a to z or 0 to 9, found "
+              "\"escape\"");
+    EXPECT_EQ(
+        with(R"({"answers": {}})"),
+        "design.json:/experiment/answers: expected a key to answer with at least, found none");
+    EXPECT_EQ(with(R"({"sets": ["fases"]})").substr(0, 32), "design.json:/experiment/sets/0: ");
+    EXPECT_NE(with(R"({"programs": ["e-prime"]})").find("/experiment/programs/0: expected one of"),
+              std::string::npos);
+}
+
+TEST_F(Designs, HostileOnesAreRefusedInTheirPlace) {
+    // A thousand million conditions, in any way
+    EXPECT_EQ(complaint(design(R"({"factors": {"a": {"from": 0, "to": 1, "steps": 100000},
+                                              "b": {"from": 0, "to": 1, "steps": 10000}},
+                                   "fraction": [{"sum": ["a", "b"], "modulo": 1000}]})")),
+              "design.json:/sets/0/factors: expected 100000 conditions at most, found more");
+    EXPECT_NE(complaint(design(R"({"factors": {"a": {"from": 0, "to": 1, "steps": 1000000000}}})"))
+                  .find("/sets/0/factors/a/steps: expected"),
+              std::string::npos);
+    EXPECT_NE(complaint(design(R"({"factors": {"a": {"draw": [0, 1], "count": 1000000000}}})"))
+                  .find("/sets/0/factors/a/count: expected"),
+              std::string::npos);
+    EXPECT_NE(complaint(design(R"({"draw": 1000000000})")).find("/sets/0/draw: expected"),
+              std::string::npos);
+    Json many =
+        design(R"({"clip": "${i}", "factors": {"i": {"from": 1, "to": 60000, "steps": 60000}}})");
+    many["sets"].push_back(many["sets"][0]);
+    many["sets"][1]["name"] = "again";
+    EXPECT_EQ(complaint(many), "design.json:/sets: expected 100000 clips at most, found more");
+    // Circles, the shortest and one through a row of the table
+    EXPECT_NE(complaint(design(R"({"parameters": {"hold_s": "= hold_s + 1"}})"))
+                  .find("/sets/0/parameters/hold_s: expected a value that does not hang on itself, "
+                        "found hold_s -> hold_s"),
+              std::string::npos);
+    write("people.tsv", "expression\tside\nfear\t${expression2}\n");
+    EXPECT_NE(
+        complaint(design(R"({"conditions": "people.tsv", "factors": {"expression2": ["${side}"]},
+                                   "clip": "x"})"))
+            .find("expression2 -> side -> expression2"),
+        std::string::npos);
+    // Columns that the script needs and the table does not have, or has twice
+    write("people.tsv", "side\nl\n");
+    EXPECT_NE(
+        complaint(design(R"({"conditions": "people.tsv", "factors": {}, "clip": "${side}"})"))
+            .find("design.json:/sets/0/script/events/0/expression: expected a parameter of the "
+                  "design, found \"expression\""),
+        std::string::npos);
+    write("people.tsv", "side\tside\nl\tr\n");
+    EXPECT_NE(complaint(design(R"({"conditions": "people.tsv"})")).find("people.tsv:1: expected"),
+              std::string::npos);
+    write("people.tsv", "");
+    EXPECT_NE(complaint(design(R"({"conditions": "people.tsv"})")).find("people.tsv"),
+              std::string::npos);
+    // Names that are the same where file names know no case, or where signs are left out
+    EXPECT_NE(
+        complaint(design(R"({"factors": {"expression": ["Fear", "fEAR"]}, "clip": "${expression}",
+                                   "parameters": {"intensity": 1}})"))
+            .find("expected a name that no other clip has"),
+        std::string::npos);
+    EXPECT_NE(
+        complaint(design(R"({"factors": {"expression": ["a/b", "a.b"]}, "clip": "${expression}",
+                                   "parameters": {"intensity": 1}})"))
+            .find("expected a name that no other clip has"),
+        std::string::npos);
+    // Names that would lead out of the folder, or are none
+    for (const Condition& one :
+         conditions(design(R"({"clip": "../../${expression}/../x${intensity}"})")))
+        EXPECT_EQ(one.clip.find_first_of("/.\\"), std::string::npos) << one.clip;
+    EXPECT_NE(complaint(design(R"({"name": "../.."})")).find("/sets/0/name: expected"),
+              std::string::npos);
+    EXPECT_NE(complaint(design(R"({"clip": "${expression}__________", "factors": {
+                  "expression": [")" +
+                               std::string(300, 'a') + R"("], "intensity": [1]}})"))
+                  .find("expected a name of 100 letters at most"),
+              std::string::npos);
+}
+
+TEST(ClipWord, HasLettersAndDigitsOnly) {
+    EXPECT_EQ(clip_word("zygomaticus_major.l"), "zygomaticusMajorL");
+    EXPECT_EQ(clip_word("0.25"), "0p25");
+    EXPECT_EQ(clip_word("-3.5"), "m3p5");
+    EXPECT_EQ(clip_word("../etc/passwd"), "etcPasswd");
+    EXPECT_EQ(clip_word("happy face 2"), "happyFace2");
+    EXPECT_EQ(clip_word("über"), "ber");
+}
+
+TEST(FrameOrder, IsThatOfTheControl) {
+    const auto order = [](ControlKind kind, unsigned seed = 1) {
+        Control control;
+        control.kind = kind;
+        return frame_order(control, 6, 4, seed);
+    };
+    using Order = std::vector<int>;
+    EXPECT_EQ(order(ControlKind::kNone), (Order{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(order(ControlKind::kReversed), (Order{5, 4, 3, 2, 1, 0}));
+    EXPECT_EQ(order(ControlKind::kApex), (Order{4, 4, 4, 4, 4, 4}));
+    Order scrambled = order(ControlKind::kScrambled);
+    EXPECT_NE(scrambled, order(ControlKind::kNone));
+    EXPECT_NE(scrambled, order(ControlKind::kScrambled, 2));
+    std::sort(scrambled.begin(), scrambled.end());
+    EXPECT_EQ(scrambled, order(ControlKind::kNone));
+}
+
+TEST(Arithmetic, IsThatOfSchool) {
+    const auto value = [](const std::string& text) {
+        return arithmetic(text, "here", [](const std::string& name) -> double {
+            if (name == "a") return 3;
+            throw Error("here", "a", name);
+        });
+    };
+    EXPECT_EQ(value("1 + 2 * a"), 7);
+    EXPECT_EQ(value("-(a - 1) / 4 - -2"), 1.5);
+    EXPECT_EQ(value("max(a, min(2.5e1, 7)) * .5"), 3.5);
+    const auto complaint = [&](const std::string& text) {
+        return message_of([&] { value(text); });
+    };
+    EXPECT_EQ(complaint("1 +"),
+              "here: expected a number, a parameter or a bracket in \"1 +\", found its end");
+    EXPECT_EQ(complaint("(1"), "here: expected \")\" in \"(1\", found its end");
+    EXPECT_EQ(complaint("1 a"), "here: expected an operator in \"1 a\", found \"a\"");
+    EXPECT_EQ(complaint("1 / 0"), "here: expected a finite value of \"1 / 0\", found none");
+    EXPECT_EQ(complaint(std::string(100, '(')).substr(0, 30), "here: expected fewer brackets ");
+}
+
+}  // namespace
+}  // namespace risorius::design

@@ -1,0 +1,149 @@
+// Experiment files: what the registry knows, that all samples read, and what a person reads when one is wrong.
+#include "risorius/figures/registry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "figures/samples.h"
+#include "risorius/figures/detail/experiment_kind.h"
+
+namespace risorius::figures {
+namespace {
+
+/// Reads everything and runs nothing: asked to stop at the first chance.
+void read_only(const JsonCursor& experiment) {
+    RunOptions options;
+    options.stopped = [] { return true; };
+    run_figure(experiment, options);
+}
+
+TEST(Registry, EverySampleReadsWithoutError) {
+    int files = 0;
+    for (const auto& folder : std::filesystem::directory_iterator(samples_folder())) {
+        const auto file = folder.path() / "experiment.json";
+        if (!std::filesystem::exists(file)) continue;
+        ++files;
+        EXPECT_THROW(read_only(JsonCursor::read_file(file)), Interrupted) << file;
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "README.md")) << folder.path();
+    }
+    EXPECT_GE(files, 7);
+}
+
+TEST(Registry, EveryFigureHasItsSampleOfItsKind) {
+    const auto names = kinds();
+    for (const Figure& figure : figures()) {
+        const Json experiment = sample(std::string(figure.id));
+        EXPECT_EQ(experiment.at("figure"), figure.id);
+        EXPECT_EQ(experiment.at("kind"), figure.kind);
+        EXPECT_TRUE(std::find(names.begin(), names.end(), figure.kind) != names.end());
+        EXPECT_GT(figure.run_time_s, 0);
+    }
+}
+
+TEST(Registry, WrongFilesAreNamedWithTheirPlace) {
+    const auto message = [](const char* pointer, Json value) {
+        Json json = sample("5");
+        json[Json::json_pointer(pointer)] = std::move(value);
+        return message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); });
+    };
+    EXPECT_EQ(message("/format", "risorius-script"),
+              "mine.json:/format: expected \"risorius-experiment\", found \"risorius-script\"");
+    EXPECT_EQ(message("/version", 2), "mine.json:/version: expected an integer in [1, 1], found 2");
+    EXPECT_EQ(message("/kind", "equilibria").substr(0, 46),
+              "mine.json:/kind: expected one of \"equilibrium\"");
+    EXPECT_EQ(message("/body/material/mass_kg", -1),
+              "mine.json (rest):/body/material/mass_kg: expected a number in (0, inf), found -1");
+    EXPECT_EQ(message("/cases/2/change/grid", {4, 4, 1}),
+              "mine.json (raw-4x4x4):/body/grid/2: expected an integer in [2, 1000], found 1");
+    EXPECT_EQ(message("/cases/2/name", "rest"),
+              "mine.json:/cases/2/name: expected a name of its own, found \"rest\" again");
+    EXPECT_EQ(message("/steps", 3).substr(0, 26), "mine.json:/steps: expected");
+}
+
+TEST(Registry, EveryGridHasItsStepOrNone) {
+    Json json = sample("9b");
+    json["runs"][0]["steps_s"] = {1e-3, 1e-3};
+    EXPECT_EQ(message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); }),
+              "mine.json:/runs/0/steps_s: expected as many steps as \"grids\", 11, found 2");
+}
+
+TEST(Registry, ChecksNameWhatWasMeasured) {
+    Json json = sample("5");
+    json["cases"] = Json::array({json["cases"][1]});
+    json["checks"] = Json::parse(R"([{"measured": "length/raw-3x3x3"}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/measured: expected one of \"length_ratio/raw-3x3x3\" "
+              "\"drift_ratio/raw-3x3x3\" \"volume_change_percent/raw-3x3x3\" "
+              "\"greatest_move_m/raw-3x3x3\" \"force_ratio/raw-3x3x3\" \"diverged/raw-3x3x3\", "
+              "found \"length/raw-3x3x3\"");
+
+    json["checks"] =
+        Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2, "high": 1}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/low: expected at most \"high\", which is 1, found 2");
+
+    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "differs": true}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/differs: expected false where nothing is \"published\", "
+              "found true");
+
+    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2}])");
+    EXPECT_FALSE(run(json).passes()) << "a band it does not meet is a result, not an error";
+}
+
+TEST(Registry, ParallelWorkEndsWithItsFirstFailure) {
+    std::vector<int> done(100, 0);
+    parallel_for(100, 3, [&](int i) { done[static_cast<std::size_t>(i)] = i; });
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i);
+    EXPECT_THROW(parallel_for(10, 2,
+                              [](int i) {
+                                  if (i == 3) throw std::out_of_range("3");
+                              }),
+                 std::out_of_range);
+    parallel_for(0, 2, [](int) { FAIL() << "nothing to do"; });
+}
+
+TEST(Registry, NestedWorkSharesItsThreads) {
+    // Three threads between four outer pieces of five inner ones each: never more at work at once, all done.
+    SpareThreads spare(2);
+    const ThreadLimit limit(3, &spare);
+    std::atomic<int> at_work{0}, most{0};
+    std::vector<int> done(20, 0);
+    parallel_for(4, limit, [&](int outer) {
+        parallel_for(5, limit, [&](int inner) {
+            const int now = ++at_work;
+            for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ++done[static_cast<std::size_t>(5 * outer + inner)];
+            --at_work;
+        });
+    });
+    EXPECT_EQ(done, std::vector<int>(20, 1));
+    EXPECT_GT(most, 1);
+    EXPECT_LE(most, 5) << "three, and two more while lent threads come back";
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(spare.take());
+    EXPECT_FALSE(spare.take()) << "all are given back, and no more than there were";
+}
+
+TEST(Registry, EqualRunsRunOnce) {
+    SpareThreads spare(3);
+    SharedRuns shared(&spare);
+    std::atomic<int> runs{0};
+    const std::function<int()> run = [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        return ++runs;
+    };
+    parallel_for(8, {4, &spare},
+                 [&](int i) { EXPECT_GT(*shared.get<int>(i % 2 ? "odd" : "even", run), 0); });
+    EXPECT_EQ(runs, 2);
+    EXPECT_EQ(shared.get<int>("odd", run), shared.get<int>("odd", run));
+}
+
+}  // namespace
+}  // namespace risorius::figures

@@ -1,0 +1,89 @@
+#include "risorius/fitting/part_guess.h"
+
+#include <gtest/gtest.h>
+
+namespace risorius::fitting {
+namespace {
+
+TEST(PartGuess, KnowsTheNamesThatModelsUse) {
+    for (const auto& [group, role] :
+         std::vector<std::pair<const char*, const char*>>{{"face", "skin"},
+                                                          {"head_neck", "skin"},
+                                                          {"Body", "skin"},
+                                                          {"EyelidUpper", "skin"},
+                                                          {"mouth_socket", "mouth"},
+                                                          {"OralCavity", "mouth"},
+                                                          {"eye_socket_l", "eye_socket"},
+                                                          {"eyeball_l", "eye_l"},
+                                                          {"RightEye", "eye_r"},
+                                                          {"Eye_R", "eye_r"},
+                                                          {"eyes", "eye"},
+                                                          {"cornea_l", "cornea_l"},
+                                                          {"teeth", "teeth"},
+                                                          {"UpperTeeth", "teeth_upper"},
+                                                          {"teeth_lower", "teeth_lower"},
+                                                          {"gums_tongue", "gums_tongue"},
+                                                          {"gums_upper", "gums_upper"},
+                                                          {"Tongue", "tongue"},
+                                                          {"lashes_r", "lashes_r"},
+                                                          {"EyelashesLeft", "lashes_l"},
+                                                          {"eyebrows", "hidden"},
+                                                          {"lacrimal_l", "hidden"},
+                                                          {"eyeocclusion_r", "hidden"},
+                                                          {"eyeblend_l", "hidden"},
+                                                          {"polySurface12", ""}})
+        EXPECT_EQ(role_suggested_by(group), role) << group;
+}
+
+/// One triangle per group, at x.
+geom::PolygonMesh triangles(const std::vector<std::pair<std::string, double>>& groups) {
+    geom::PolygonMesh mesh;
+    mesh.positions.resize(static_cast<long>(3 * groups.size()), 3);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        mesh.group_names.push_back(groups[g].first);
+        mesh.face_group.push_back(static_cast<int>(g));
+        for (int k = 0; k < 3; ++k) {
+            const int v = static_cast<int>(3 * g) + k;
+            mesh.positions.row(v) << groups[g].second, k == 1, k == 2;
+            mesh.corner_vertex.push_back(v);
+        }
+        mesh.face_begin.push_back(static_cast<int>(3 * (g + 1)));
+    }
+    return mesh;
+}
+
+const auto kLeftIsPositive = [](const Vec3& p) { return p.x(); };
+
+TEST(PartGuess, TakesTheOnlyGroupAsSkin) {
+    const PartGuess guess = guess_parts(triangles({{"polySurface1", 0}}), {}, kLeftIsPositive);
+    EXPECT_EQ(guess.parts.at("skin"), std::vector<std::string>{"polySurface1"});
+    EXPECT_TRUE(guess.notes.empty());
+}
+
+TEST(PartGuess, TellsEyesWithoutASideByWhereTheyLie) {
+    const PartGuess guess =
+        guess_parts(triangles({{"head", 0}, {"eye1", 3}, {"eye2", -3}}), {}, kLeftIsPositive);
+    EXPECT_EQ(guess.parts.at("eye_l"), std::vector<std::string>{"eye1"});
+    EXPECT_EQ(guess.parts.at("eye_r"), std::vector<std::string>{"eye2"});
+    ASSERT_EQ(guess.notes.size(), 2u);
+    EXPECT_EQ(guess.notes[0], "group \"eye1\" taken as eye_l, by where it lies");
+}
+
+TEST(PartGuess, HidesWhatItDoesNotKnowAndSaysSo) {
+    const PartGuess guess =
+        guess_parts(triangles({{"head", 0}, {"object7", 0}}), {}, kLeftIsPositive);
+    EXPECT_EQ(guess.parts.at("hidden"), std::vector<std::string>{"object7"});
+    ASSERT_EQ(guess.notes.size(), 1u);
+    EXPECT_EQ(guess.notes[0],
+              "group \"object7\" is hidden: its name says no part (--part role=object7 names one)");
+}
+
+TEST(PartGuess, WhatIsGivenWins) {
+    const PartGuess guess = guess_parts(triangles({{"head", 0}, {"tongue", 0}}),
+                                        {{"gums", {"tongue"}}}, kLeftIsPositive);
+    EXPECT_EQ(guess.parts.at("gums"), std::vector<std::string>{"tongue"});
+    EXPECT_FALSE(guess.parts.contains("tongue"));
+}
+
+}  // namespace
+}  // namespace risorius::fitting

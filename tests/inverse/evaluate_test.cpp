@@ -1,0 +1,234 @@
+// What a rig did itself, written down as if it had been measured, is found again; and a report is there as a whole or not at all.
+#include "risorius/inverse/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "paths.h"
+#include "risorius/core/error.h"
+#include "risorius/face/face.h"
+#include "risorius/headmodel/sculpt_head.h"
+#include "risorius/media/image_file.h"
+#include "risorius/report/staged_folder.h"
+#include "risorius/scene/rig_files.h"
+#include "temporary_folder.h"
+
+namespace risorius::inverse {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = RISORIUS_SOURCE_DIR;
+
+using Excitations = std::map<std::string, double>;
+
+/// A rig and a file of "measured" shapes that were brought about by known activations.
+struct SelfMade {
+    fs::path rig, shapes;
+
+    /// The file says `said` of shapes that `done` brought about.
+    SelfMade(const fs::path& rig_file, const fs::path& folder,
+             const std::map<std::string, Excitations>& done,
+             const std::map<std::string, Excitations>& said)
+        : rig(rig_file), shapes(folder / "shapes.json") {
+        const scene::RigFiles files = scene::read_rig_files(rig);
+        face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+        const track::ChannelTable channels = files.rig.channels();
+        const Points rest = face.head().frame.to_mesh(face.head().vertices);
+        std::ofstream numbers(folder / "shapes.f32", std::ios::binary);
+        Json json{{"shape", {done.size(), rest.rows(), 3}},
+                  {"dtype", "<f4"},
+                  {"layout", "[shape][vertex][xyz]"},
+                  {"names", Json::array()},
+                  {"excitations", Json::object()}};
+        for (const auto& [name, excitations] : done) {
+            track::Drive drive;
+            drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+            face.start([&](double) { return drive; });
+            for (const auto& [muscle, value] : excitations)
+                for (const Side side : {Side::kLeft, Side::kRight})
+                    drive.excitation[channels.column(muscle, side)] = value;
+            face.settle(drive.excitation, drive);
+            const Points moved = face.head().frame.to_mesh(face.pose().vertices) - rest;
+            for (long v = 0; v < moved.rows(); ++v)
+                for (int k = 0; k < 3; ++k) {
+                    const auto number = static_cast<float>(moved(v, k));
+                    numbers.write(reinterpret_cast<const char*>(&number), sizeof number);
+                }
+            json["names"].push_back(name);
+            json["excitations"][name] = said.at(name);
+        }
+        std::ofstream(shapes) << json.dump();
+    }
+};
+
+TEST(EvaluateAdult, FindsAgainWhatItDidItself) {
+    const TemporaryFolder folder;
+    const std::map<std::string, Excitations> done{
+        {"frown", {{"depressor_anguli_oris", 0.4}, {"corrugator_supercilii", 0.7}}},
+        {"smile", {{"zygomaticus_major", 0.6}}}};
+    const SelfMade made(kRoot / "rigs/adult/rig.json", folder.path(), done, done);
+    const Evaluation found = evaluate({.rig = made.rig, .shapes = made.shapes});
+    ASSERT_EQ(found.expressions.size(), 2u);
+    for (const EvaluatedExpression& one : found.expressions) {
+        EXPECT_GT(one.table.score.cosine, 0.999) << one.name;
+        EXPECT_LT(one.table.score.relative, 0.01) << one.name;
+        EXPECT_GT(one.table.score.peak_m, 0.002) << one.name;
+    }
+}
+
+/// A head that none of the rigs was made for, in a folder with shapes of its own.
+class Evaluate : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        folder = std::make_unique<TemporaryFolder>();
+        headmodel::sculpt_head({.out = *folder / "imani",
+                                .identity = headmodel::chosen_identity({.identity = "imani"})});
+        const std::map<std::string, Excitations> done{
+            {"noseSneer", {{"corrugator_supercilii", 0.7}}},
+            {"smile", {{"zygomaticus_major", 0.6}}}};
+        // The file sets out from less, and from another muscle
+        const std::map<std::string, Excitations> said{
+            {"noseSneer", {{"corrugator_supercilii", 0.7}}},
+            {"smile", {{"zygomaticus_major", 0.2}}}};
+        made = std::make_unique<SelfMade>(*folder / "imani/rig.json", folder->path(), done, said);
+    }
+    static void TearDownTestSuite() {
+        made.reset();
+        folder.reset();
+    }
+    static EvaluateOptions options(const std::string& out = "") {
+        return {.rig = made->rig,
+                .shapes = made->shapes,
+                .out = out.empty() ? fs::path() : *folder / out};
+    }
+    static std::string complaint(const EvaluateOptions& options) {
+        try {
+            evaluate(options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    }
+    static std::unique_ptr<TemporaryFolder> folder;
+    static std::unique_ptr<SelfMade> made;
+};
+std::unique_ptr<TemporaryFolder> Evaluate::folder;
+std::unique_ptr<SelfMade> Evaluate::made;
+
+TEST_F(Evaluate, ASearchFindsTheActivationAgain) {
+    EvaluateOptions asked = options();
+    asked.only = {"smile"};
+    asked.fit = true;
+    const Evaluation found = evaluate(asked);
+    ASSERT_TRUE(found.expressions.at(0).fitted);
+    const EvaluatedExpression& smile = found.expressions[0];
+    EXPECT_GT(smile.table.score.relative, 0.3);
+    EXPECT_GT(smile.fitted->score.cosine, 0.99);
+    EXPECT_LT(smile.fitted->score.relative, 0.15);
+    const int left = found.channels.column("zygomaticus_major", Side::kLeft);
+    EXPECT_NEAR(smile.fitted->drive.excitation[left], 0.6, 0.12);
+}
+
+TEST_F(Evaluate, TheReportIsWholeAndListsItsFiles) {
+    const Evaluation evaluation = evaluate(options("report"));
+    std::ifstream stream(*folder / "report/results.json");
+    const Json results = Json::parse(stream);
+    std::set<std::string> listed, there;
+    for (const Json& file : results[report::kFilesKey]) listed.insert(file);
+    for (const auto& entry : fs::recursive_directory_iterator(*folder / "report"))
+        if (!entry.is_directory())
+            there.insert(entry.path().lexically_relative(*folder / "report").generic_string());
+    EXPECT_EQ(listed, there);
+    for (const char* file :
+         {"index.html", "scores.tsv", "contact_sheet_front.png", "contact_sheet_three_quarter.png",
+          "pictures/smile/front_table.png", "pictures/smile/three_quarter_measured.png",
+          "pictures/smile/front_table_error.png"})
+        EXPECT_TRUE(there.count(file)) << file;
+    EXPECT_EQ(results["expressions"][1]["name"], "smile");
+    EXPECT_EQ(results["expressions"][1]["table"]["drive"]["zygomaticus_major.l"], 0.2);
+
+    // The page needs nobody else, and every picture that it shows is there
+    const std::string page = bytes_of(*folder / "report/index.html");
+    for (const char* foreign : {"<script", "http:", "https:", "@import", "<link"})
+        EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
+    int shown = 0;
+    for (std::size_t at = page.find(" src=\""); at != std::string::npos;
+         at = page.find(" src=\"", at + 1), ++shown) {
+        const std::string file = page.substr(at + 6, page.find('"', at + 6) - at - 6);
+        EXPECT_TRUE(there.count(file)) << file;
+    }
+    EXPECT_EQ(shown, 2 + 2 * 2 * 3);
+
+    // A face that does what was measured has no error: pale all over
+    const Image pale = media::read_png(*folder / "report/pictures/noseSneer/front_table_error.png"),
+                wrong = media::read_png(*folder / "report/pictures/smile/front_table_error.png");
+    const auto mean_blue = [](const Image& image) {
+        double sum = 0;
+        for (std::size_t i = 2; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+        return 4 * sum / static_cast<double>(image.rgba.size());
+    };
+    EXPECT_GT(mean_blue(pale), mean_blue(wrong) + 1);
+}
+
+TEST_F(Evaluate, TwiceIsTheSameToTheByte) {
+    for (const char* out : {"one", "two"}) {
+        EvaluateOptions asked = options(out);
+        asked.pictures = false;
+        evaluate(asked);
+    }
+    for (const char* file : {"results.json", "index.html", "scores.tsv"})
+        EXPECT_EQ(bytes_of(*folder / "one" / file), bytes_of(*folder / "two" / file)) << file;
+    EXPECT_FALSE(fs::exists(*folder / "one/pictures"));
+}
+
+TEST_F(Evaluate, BadInputLeavesNothingBehind) {
+    const std::set<std::string> before = folder->listing();
+    EvaluateOptions asked = options("bad");
+    asked.only = {"smiel"};
+    EXPECT_EQ(complaint(asked), "--only: expected names of shapes in " + made->shapes.string() +
+                                    " (did you mean \"smile\"?), found \"smiel\"");
+    asked = options("bad");
+    asked.rig = kRoot / "rigs/adult/rig.json";  // shapes of another head
+    EXPECT_NE(complaint(asked).find("/shape/1: expected the "), std::string::npos);
+    asked = options("bad");
+    asked.quality = "best";
+    EXPECT_EQ(complaint(asked),
+              "--quality: expected \"draft\", \"preview\", \"video\" or \"fine\", found \"best\"");
+    EXPECT_EQ(folder->listing(), before);
+}
+
+TEST_F(Evaluate, InterruptedLeavesNothingBehind) {
+    const std::set<std::string> before = folder->listing();
+    int told = 0;
+    Watch watch;
+    watch.progress = [&](double, const std::string&) { ++told; };
+    watch.stopped = [&] { return told == 3; };  // while pictures are drawn
+    EXPECT_THROW(evaluate(options("stopped"), watch), Interrupted);
+    EXPECT_EQ(told, 3);
+    EXPECT_EQ(folder->listing(), before);
+}
+
+TEST(Evaluation, SaysWhichExpressionsTheRigWasCalibratedOn) {
+    Evaluation evaluation;
+    evaluation.calibrated_on = {"smile", "jawLeft"};
+    for (const char* name : {"smile", "smile_L", "sneer", "jawLeft", "jawRight"}) {
+        EvaluatedExpression one;
+        one.name = name;
+        one.table.score.cosine = one.name.starts_with("s") ? 0.5 : 0.9;
+        evaluation.expressions.push_back(one);
+    }
+    EXPECT_TRUE(evaluation.is_calibrated_on("smile_L"));
+    EXPECT_FALSE(evaluation.is_calibrated_on("jawRight"));
+    const auto groups = evaluation.groups();
+    ASSERT_EQ(groups.size(), 3u);  // the sixteen are not all there
+    EXPECT_EQ(groups[1].names, (std::vector<std::string>{"smile", "smile_L", "jawLeft"}));
+    EXPECT_EQ(groups[2].names, (std::vector<std::string>{"sneer", "jawRight"}));
+    EXPECT_NEAR(evaluation.means(groups[2].names, false).cosine, 0.7, 1e-15);
+}
+
+}  // namespace
+}  // namespace risorius::inverse

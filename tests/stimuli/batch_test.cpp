@@ -1,0 +1,261 @@
+// Clips of a design: the same bytes however they come about, kept while nothing changes.
+#include "risorius/stimuli/batch.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "message_of.h"
+#include "paths.h"
+#include "risorius/animate/frame_rows.h"
+#include "risorius/media/tone.h"
+#include "risorius/media/video_reader.h"
+#include "temporary_folder.h"
+#include "tools/risorius/check_files.h"
+
+namespace risorius::stimuli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Batch : public testing::Test {
+  protected:
+    static const TemporaryFolder& folder() {
+        static const TemporaryFolder one;
+        return one;
+    }
+    static fs::path design(const std::string& name, const std::vector<double>& intensities,
+                           const std::string& controls = "[]") {
+        Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Smiles",
+            "clips": {"quality": "preview", "ending": "mkv", "photodiode": "lower_left"},
+            "sets": [{"name": "smiles", "clip": "smile_${intensity}",
+                "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.5,
+                    "events": [{"expression": "happiness", "intensity": "${intensity}",
+                                "start_s": 0.05, "onset_s": 0.3, "hold_s": 0.1, "offset_s": 0.3}],
+                    "view": {"width_px": 48, "height_px": 64, "antialiasing": 1}}}]})");
+        json["sets"][0]["script"]["rig"] = kAdult;
+        json["sets"][0]["factors"]["intensity"] = intensities;
+        json["sets"][0]["controls"] = Json::parse(controls);
+        const fs::path file = folder().path() / name;
+        std::ofstream(file) << json.dump();
+        return file;
+    }
+    static inline const std::string kAdult = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
+};
+
+TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
+    const fs::path file = design("design.json", {0.5, 1},
+                                 R"(["reversed", "upside_down", "phase_scrambled", "flipped"])");
+    std::map<std::string, std::string> told;
+    BatchOptions options{.design = file,
+                         .out = folder().path() / "one",
+                         .workers = 1,
+                         .told = [&](const std::string& clip, const std::string& state,
+                                     const std::string&) { told[clip] = state; }};
+    const BatchReport first = make_batch(options);
+    EXPECT_EQ(first.made, 10);
+    EXPECT_TRUE(first.complete);
+    EXPECT_EQ(told.at("smile0p5Reversed"), "made");
+    const std::string sums = text_of(options.out / "SHA256SUMS");
+    const fs::path video = options.out / "stimuli/stim-smile1_video.mkv";
+    const std::string smile = text_of(video);
+
+    // In two parts, on two threads each
+    BatchOptions parts = options;
+    parts.out = folder().path() / "two";
+    parts.workers = 2;
+    parts.parts = 2;
+    parts.part = 2;
+    const BatchReport half = make_batch(parts);
+    EXPECT_EQ(half.made, 5);
+    EXPECT_EQ(half.elsewhere, 5);
+    EXPECT_FALSE(half.complete);
+    EXPECT_FALSE(fs::exists(parts.out / "SHA256SUMS"));
+    parts.parts = parts.part = parts.workers = 1;
+    EXPECT_EQ(make_batch(parts).made, 5);
+    EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), sums);
+
+    // Kept while it is whole, also for another design: what is common stays, what it does not have goes
+    EXPECT_EQ(make_batch(options).kept, 10);
+    std::ofstream(video, std::ios::app) << "x";
+    options.design = design("design.json", {1, 0.8, 0.5});
+    fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
+    const BatchReport other = make_batch(options);
+    EXPECT_EQ(other.made, 3);
+    EXPECT_EQ(text_of(video), smile);
+    EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile1Reversed_video.mkv"));
+    options.design = design("design.json", {1, 0.8});
+    // Whoever keeps something beside it keeps it
+    const fs::path others[] = {options.out / "stimuli/ratings.tsv",
+                               options.out / "overview/talk.png"};
+    for (const fs::path& other_file : others) std::ofstream(other_file) << "mine";
+    const BatchReport less = make_batch(options);
+    EXPECT_EQ(less.made, 0);
+    for (const fs::path& other_file : others) EXPECT_EQ(text_of(other_file), "mine");
+    EXPECT_FALSE(fs::exists(options.out / "overview/smile0p5.png"));
+    EXPECT_FALSE(fs::exists(options.out / "code/scripts/smile0p5.json"));
+    EXPECT_EQ(less.kept, 2);
+    EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile0p5_video.mkv"));
+    EXPECT_TRUE(fs::exists(options.out / "stimuli/stim-smile0p8_video.mkv"));
+
+    // Controls show the same in another order and upside down
+    const auto frames = [](const fs::path& of) {
+        media::VideoReader reader(of);
+        std::vector<Image> out;
+        for (int i = 0; i < reader.frames(); ++i) out.push_back(reader.frame(i));
+        return out;
+    };
+    const std::vector<Image> plain = frames(video),
+                             back = frames(parts.out / "stimuli/stim-smile1Reversed_video.mkv"),
+                             turned = frames(parts.out / "stimuli/stim-smile1UpsideDown_video.mkv");
+    ASSERT_EQ(plain.size(), 5u);
+    ASSERT_EQ(back.size(), 5u);
+    // Above the photodiode's square
+    const auto same = [](const Image& a, const Image& b) {
+        return std::equal(a.rgba.begin(), a.rgba.begin() + 4 * 48 * 56, b.rgba.begin());
+    };
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_TRUE(same(plain[i], back[4 - i])) << i;
+        for (const int y : {10, 30, 50})
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(plain[i].pixel(20, y)[k], turned[i].pixel(27, 63 - y)[k]);
+    }
+    EXPECT_FALSE(same(plain[0], plain[4]));
+    const animate::FrameRows rows = animate::frame_rows(
+        text_of(parts.out / "stimuli/stim-smile1Reversed_annot-frames_events.tsv"));
+    ASSERT_EQ(rows.rows(), 5);
+    EXPECT_EQ(rows.number(0, rows.column("source_frame")), 4);
+    // Corners of the mouth that go up by so much go down
+    const auto corner = [&](const char* clip, int frame) {
+        const animate::FrameRows of = animate::frame_rows(text_of(
+            parts.out / "stimuli" / ("stim-" + std::string(clip) + "_annot-frames_events.tsv")));
+        return of.number(frame, of.column("ch_l.y_mm"));
+    };
+    const double up = corner("smile1", 4) - corner("smile1", 0);
+    EXPECT_GT(up, 2);
+    EXPECT_NEAR(corner("smile1Flipped", 4) - corner("smile1Flipped", 0), -up, 1e-3);
+    EXPECT_EQ(rows.number(1, rows.column("onset")), 0.1);
+}
+
+TEST_F(Batch, MatchesLuminanceOverTheSetAlsoInParts) {
+    Json json = Json::parse(text_of(design("match.json", {0.2, 1}, R"(["reversed"])")));
+    json["match"] = {{"luminance", {{"within", "face"}, {"mean", 0.2}, {"sd", 0.08}}}};
+    json["clips"].erase("landmarks");
+    std::ofstream(folder().path() / "match.json") << json.dump();
+    BatchOptions options{
+        .design = folder().path() / "match.json", .out = folder().path() / "matched", .workers = 1};
+    EXPECT_EQ(make_batch(options).made, 4);
+    const Json report = Json::parse(text_of(options.out / "luminance/luminance.json"));
+    EXPECT_GT(std::abs(report["before"]["mean"].get<double>() - 0.2), 0.03);
+    // What rounding to bytes leaves
+    EXPECT_NEAR(report["after"]["mean"].get<double>(), 0.2, 2e-3);
+    EXPECT_NEAR(report["after"]["sd"].get<double>(), 0.08, 2e-3);
+    EXPECT_EQ(report["greatest_cut_off"], 0);
+    EXPECT_TRUE(fs::exists(options.out / "luminance/mean.svg"));
+    EXPECT_FALSE(fs::exists(options.out / "takes"));
+
+    // The table tells of the pictures as they are shown; the photodiode stays black and white
+    media::VideoReader video(options.out / "stimuli/stim-smile1_video.mkv");
+    const animate::FrameRows rows =
+        animate::frame_rows(text_of(options.out / "stimuli/stim-smile1_annot-frames_events.tsv"));
+    Image second = video.frame(1);
+    EXPECT_EQ(second.pixel(1, 62)[0], 0);
+    EXPECT_EQ(video.frame(0).pixel(1, 62)[0], 255);
+    media::LuminanceSums sums;
+    for (int y = 0; y < 8; ++y)  // the square is 6 pixels wide
+        for (int x = 0; x < 8; ++x) std::fill_n(second.pixel(x, 56 + y), 3, second.pixel(40, 5)[0]);
+    sums.add(second);
+    EXPECT_NEAR(rows.number(1, rows.column("luminance_mean")), sums.mean(), 2e-3);
+
+    // In parts nothing is made before all is measured; the bytes are the same
+    BatchOptions parts = options;
+    parts.out = folder().path() / "matched in parts";
+    parts.parts = parts.part = 2;
+    const BatchReport half = make_batch(parts);
+    EXPECT_EQ(half.made, 0);
+    EXPECT_EQ(half.unmeasured, 1) << "of two films";
+    EXPECT_FALSE(half.complete);
+    parts.parts = parts.part = 1;
+    EXPECT_TRUE(make_batch(parts).complete);
+    EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), text_of(options.out / "SHA256SUMS"));
+    EXPECT_EQ(make_batch(parts).kept, 4);
+}
+
+TEST_F(Batch, RefusesBeforeAnythingIsMade) {
+    const auto complaint = [](const fs::path& file, const fs::path& out) {
+        return message_of([&] { make_batch({.design = file, .out = out, .workers = 1}); });
+    };
+    const fs::path out = folder().path() / "never";
+    Json json = Json::parse(text_of(design("bad.json", {0.5, 1})));
+    const auto with = [&](const char* place, const Json& value) {
+        Json bad = json;
+        bad[Json::json_pointer(place)] = value;
+        std::ofstream(folder().path() / "bad.json") << bad.dump();
+        return complaint(folder().path() / "bad.json", out);
+    };
+    const std::string folder_of = folder().path().string();
+    EXPECT_EQ(
+        with("/sets/0/script/events/0/expression", "hapiness").substr(0, folder_of.size() + 26),
+        folder_of + "/bad.json, clip smile0p5:/");
+    EXPECT_NE(with("/sets/0/script/events/0/expression", "hapiness").find("\"happiness\""),
+              std::string::npos);
+    EXPECT_NE(with("/sets/0/script/duration_s", "= 0 - 1").find("expected (0, 3600]"),
+              std::string::npos);
+    EXPECT_NE(with("/clips/photodiode", "middle").find("clips/photodiode: expected"),
+              std::string::npos);
+    Json turning = Json::parse(R"({"head_yaw_deg": {"keys": [[0, 0], [0.4, 10]]}})");
+    json["sets"][0]["controls"] = {"flipped"};
+    EXPECT_NE(with("/sets/0/script/channels", turning).find("a head that keeps still"),
+              std::string::npos);
+    json["sets"][0]["controls"] = Json::array();
+    EXPECT_NE(with("/sets/0/script/fps", 0).find("/fps: expected"), std::string::npos);
+    EXPECT_FALSE(fs::exists(out));
+    // A folder of somebody else
+    fs::create_directory(folder().path() / "mine");
+    std::ofstream(folder().path() / "mine/notes.txt") << "do not touch";
+    EXPECT_NE(complaint(design("good.json", {0.5}), folder().path() / "mine")
+                  .find("expected an empty folder, or one that `batch` has begun"),
+              std::string::npos);
+}
+
+TEST_F(Batch, NotesWhatMayNotBeMeant) {
+    const fs::path file = design("notes.json", {0.5, 1});
+    EXPECT_TRUE(plan_batch(file).notes.empty());
+    Json json = Json::parse(text_of(file));
+    json["sets"][0]["factors"]["fps"] = {25, 50};
+    json["sets"][0]["clip"] = "smile_${intensity}_${fps}";
+    json["experiment"] = {{"programs", {"psychopy"}},
+                          {"question", "How much?"},
+                          {"answers", {{"h", "0.5"}}},
+                          {"correct", "intensity"}};
+    json["clips"]["ending"] = "mp4";
+    std::ofstream(file) << json.dump();
+    const std::vector<std::string> notes = cli::check_file(file).notes;
+    ASSERT_EQ(notes.size(), 2u) << cli::check_file(file).error;
+    EXPECT_EQ(
+        notes[0],
+        "experiment: none of the answers is correct for 2 of the clips shown, smile125 the first");
+    EXPECT_EQ(notes[1],
+              "2 clips are the same films as others (smile0p550 is smile0p525 again): does the "
+              "script use every factor?");
+    std::ofstream(folder().path() / "late.json")
+        << Json{{"format", "risorius-script"},
+                {"version", 1},
+                {"rig", kAdult},
+                {"duration_s", 1},
+                {"channels", {{"AU12", {{"keys", {{0, 0}, {3, 1}}}}}}}};
+    const cli::CheckResult late = cli::check_file(folder().path() / "late.json");
+    ASSERT_EQ(late.notes.size(), 1u) << late.error;
+    EXPECT_EQ(late.notes[0], "\"AU12\" has a key at 3 s, after the end at 1 s");
+}
+
+}  // namespace
+}  // namespace risorius::stimuli

@@ -1,0 +1,123 @@
+#include "tools/bench/bench_pictures.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "risorius/animate/animate.h"
+#include "risorius/animate/shot.h"
+#include "risorius/face/face.h"
+#include "risorius/media/luminance.h"
+#include "risorius/media/sha256.h"
+#include "risorius/media/video_writer.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/report/median.h"
+#include "risorius/report/staged_file.h"
+#include "risorius/report/stopwatch.h"
+#include "risorius/scene/scene_from_rig.h"
+#include "risorius/track/timeline.h"
+
+namespace risorius::bench {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr animate::PictureSize kSizes[] = {{512, 512}, {1024, 1024}, {1920, 1080}};
+constexpr std::size_t kWarmUp = 12;  ///< frames until every thread has its view and programs
+constexpr int kDrawnEvery = 4;       ///< of the frames, for times of single frames
+
+Json script_of(const fs::path& rig) {
+    Json script = Json::parse(R"({
+        "format": "risorius-script", "version": 1, "fps": 30, "duration_s": 2.0, "seed": 1,
+        "events": [{"expression": "happiness", "start_s": 0.1, "onset_s": 0.3, "hold_s": 0.3, "offset_s": 0.3},
+                   {"expression": "surprise", "start_s": 1.1, "onset_s": 0.2, "hold_s": 0.3, "offset_s": 0.3},
+                   {"blink": {}, "start_s": 0.6}, {"idle": {"blinks_per_minute": 0}}]
+    })");
+    script["rig"] = fs::absolute(rig).generic_string();
+    return script;
+}
+
+// One stage after another, so that each is timed by itself.
+Json stages(const animate::AnimateOptions& options, const scene::RigFiles& files) {
+    const animate::Shot shot = animate::plan_shot(options);
+    const track::ChannelTable channels = files.rig.channels();
+    const track::Timeline timeline(
+        track::read_script(options.script, channels, files.rig.facs, files.rig.expressions),
+        channels);
+    const auto drive = [&](double t_s) { return timeline.at(t_s); };
+    face::Face face(files.rig, files.mesh, face::quality_named(animate::quality_of(options)),
+                    files.place());
+    render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
+    scene::add_wrinkles(face.wrinkle_lines(), scene);
+    render::OffscreenView view(scene, shot.view);
+
+    std::vector<double> simulate, draw, read_back, measure;
+    std::vector<Image> images;
+    media::LuminanceMeter meter;
+    media::Sha256 hash;
+    face.start(drive);
+    const auto ms = [](const auto& stopwatch) { return 1e3 * stopwatch.seconds(); };
+    for (int frame = 0; frame < shot.frames; ++frame) {
+        const report::ProcessStopwatch simulating;
+        const render::Pose pose = scene::pose_for_view(face.pose_at(shot.time_s(frame), drive));
+        if (frame > 0) simulate.push_back(ms(simulating));
+        if (frame % kDrawnEvery != 0) continue;
+        if (frame == 0) view.draw(pose);  // the driver compiles
+        const report::ProcessStopwatch drawing;
+        images.push_back(view.draw(pose));
+        const double drawn_ms = ms(drawing);
+        read_back.push_back(1e3 * view.read_back_s());
+        draw.push_back(drawn_ms - read_back.back());
+        const report::ProcessStopwatch measuring;
+        meter.measure(images.back());
+        hash.add(images.back().rgba.data(), images.back().rgba.size());
+        measure.push_back(ms(measuring));
+    }
+    const report::ProcessStopwatch encoding;
+    media::VideoWriter video(options.out, shot.video);
+    for (int frame = 0; frame < shot.frames; ++frame)
+        video.append(images[static_cast<std::size_t>(frame / kDrawnEvery)]);
+    video.finish();
+    return {{"simulate_ms", report::median(simulate)},
+            {"draw_ms", report::median(draw)},
+            {"read_back_ms", report::median(read_back)},
+            {"measure_ms", report::median(measure)},
+            {"encode_ms", ms(encoding) / shot.frames}};
+}
+
+}  // namespace
+
+Json bench_pictures(const scene::RigFiles& files, const fs::path& folder, const Watch& watch) {
+    animate::AnimateOptions options;
+    options.script = folder / "pictures.json";
+    options.out = folder / "pictures.mp4";
+    report::write_text(options.script, script_of(files.file).dump());
+    Json out = Json::array();
+    for (const animate::PictureSize& size : kSizes)
+        for (const bool draft : {false, true}) {
+            watch.tell(static_cast<double>(out.size()) / 6, "pictures");
+            options.size = size;
+            options.draft = draft;
+            // The driver's threads are chosen once in a process: with all of them both times.
+            options.threads = static_cast<int>(std::max(2U, std::thread::hardware_concurrency()));
+            std::vector<double> shown_s;
+            const report::Stopwatch since;
+            const animate::RunRecord record =
+                animate::animate(options, {[&](double, const std::string& what) {
+                                               if (what == kRendering)
+                                                   shown_s.push_back(since.seconds());
+                                           },
+                                           watch.stopped});
+            Json one{{"width_px", size.width_px},
+                     {"height_px", size.height_px},
+                     {"draft", draft},
+                     {"fps", (record.frames - static_cast<double>(kWarmUp)) /
+                                 (since.seconds() - shown_s[kWarmUp])}};
+            one.update(stages(options, files));
+            out.push_back(std::move(one));
+        }
+    return out;
+}
+
+}  // namespace risorius::bench

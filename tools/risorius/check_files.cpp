@@ -1,0 +1,110 @@
+#include "tools/risorius/check_files.h"
+
+#include <algorithm>
+
+#include "risorius/core/data_folder.h"
+#include "risorius/core/existing_file.h"
+#include "risorius/figures/registry.h"
+#include "risorius/fitting/landmark_file.h"
+#include "risorius/fitting/part_guess.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/rig/head.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/stimuli/batch.h"
+#include "risorius/track/script.h"
+
+namespace risorius::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+rig::Head check_rig(const fs::path& file) {
+    const scene::RigFiles files = scene::read_rig_files(file);
+    return rig::place_head(files.rig, files.mesh, files.place());
+}
+
+/// What a script asks for after its last frame.
+void note_what_comes_late(const track::ScriptDescription& script, CheckResult& result) {
+    const double end_s = script.header.duration_s;
+    const auto note = [&](const std::string& what, const std::string& does, double at_s) {
+        if (at_s <= end_s + 1e-9) return;
+        result.notes.push_back(what + " " + does + " at " + format_number(at_s) +
+                               " s, after the end at " + format_number(end_s) + " s");
+    };
+    for (const track::ChannelTrack& channel : script.channels)
+        if (!channel.keys.empty())
+            note("\"" + channel.name + "\"", "has a key", channel.keys.back().time_s);
+    for (const track::ExpressionEvent& event : script.expressions)
+        if (const double until = event.start_s + event.onset_s + event.hold_s; until > end_s)
+            note("\"" + event.expression + "\"", "is over", until + event.offset_s);
+        else
+            note("\"" + event.expression + "\"", "has gone back", until + event.offset_s);
+}
+
+void check_script(const fs::path& file, CheckResult& result) {
+    const track::ScriptHeader header = track::read_script_header(file);
+    existing_file(JsonCursor::read_file(file).at("rig"));
+    const scene::RigFiles files = scene::read_rig_files(header.rig_file);
+    note_what_comes_late(
+        track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions),
+        result);
+    rig::place_head(files.rig, files.mesh, files.place());
+}
+
+void check_landmarks(const fs::path& file, CheckResult& result) {
+    const auto atlas = rig::read_atlas_landmarks(
+        JsonCursor::read_file(data_folder() / "rigs/standard/landmarks.json"));
+    const auto landmarks = fitting::read_atlas_named_landmarks(file, atlas);
+    for (const std::string& id : rig::required_landmarks())
+        if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
+}
+
+// Eyes and teeth may be open, intersecting pieces; the skin has to be a sound surface.
+void check_mesh_file(const fs::path& file, CheckResult& result) {
+    const geom::PolygonMesh mesh = io::read_mesh(file);
+    geom::MeshCheckOptions options;
+    options.scale = geom::Severity::kIgnore;  // no one has said in which unit it is
+    for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
+        if (fitting::role_suggested_by(mesh.group_names[g]) == "skin")
+            options.groups.push_back(static_cast<int>(g));
+    const geom::MeshReport report = geom::check_mesh(mesh, file.string(), options);
+    for (const geom::MeshFinding& finding : report.findings)
+        result.notes.push_back(finding.message());
+}
+
+void check(CheckResult& result) {
+    if (result.file.extension() != ".json") {
+        result.format = "mesh";
+        return check_mesh_file(result.file, result);
+    }
+    const JsonCursor json = JsonCursor::read_file(result.file);
+    const std::string format =
+        json.at("format").one_of({"risorius-script", "risorius-rig", "risorius-landmarks",
+                                  "risorius-design", "risorius-experiment"});
+    result.format = format.substr(std::string("risorius-").size());
+    if (result.format == "script") check_script(result.file, result);
+    if (result.format == "design") result.notes = stimuli::plan_batch(result.file).notes;
+    if (result.format == "experiment") figures::check_experiment(json);
+    if (result.format == "landmarks") check_landmarks(result.file, result);
+    if (result.format == "rig") {
+        const rig::Head head = check_rig(result.file);
+        if (!head.warped_landmarks.empty())
+            result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
+                                   " landmarks are not given and placed by the atlas");
+    }
+}
+
+}  // namespace
+
+CheckResult check_file(const fs::path& file) {
+    CheckResult result{.file = file, .format = "", .error = "", .notes = {}};
+    try {
+        check(result);
+    } catch (const Error& error) {
+        result.error = error.what();
+    }
+    return result;
+}
+
+}  // namespace risorius::cli

@@ -1,0 +1,83 @@
+#include "tools/risorius/rig_info.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "risorius/rig/head.h"
+#include "risorius/scene/rig_files.h"
+
+namespace risorius::cli {
+
+namespace {
+
+Json parts_of(const scene::RigFiles& files) {
+    Json out = Json::object();
+    for (const auto& [role, groups] : files.rig.parts)
+        for (const std::string& group : groups) {
+            const int index = files.mesh.group_index(group);
+            out[role][group] =
+                std::count(files.mesh.face_group.begin(), files.mesh.face_group.end(), index);
+        }
+    return out;
+}
+
+Json muscles_of(const rig::RigDescription& rig) {
+    Json out = Json::array();
+    for (const rig::Muscle& muscle : rig.muscles.muscles) {
+        int bands = 0;
+        double force_n = 0, strength = 1;
+        for (const rig::MuscleBand& band : rig.atlas.bands)
+            if (band.muscle == muscle.id) {
+                ++bands;
+                force_n += band.force_n;
+                strength = band.strength;
+            }
+        Json entry{{"id", muscle.id},         {"name", muscle.name},
+                   {"group", muscle.group},   {"paired", muscle.paired},
+                   {"action", muscle.action}, {"min", muscle.tonic ? -1.0 : 0.0},
+                   {"bands", bands}};
+        if (muscle.group == "jaw" || muscle.group == "hyoid")
+            entry["moves_jaw"] = true;  // when a script says "jaw": "muscles"
+        if (bands > 0) {
+            entry["force_n"] = force_n;
+            entry["strength"] = strength;
+        }
+        out.push_back(entry);
+    }
+    return out;
+}
+
+}  // namespace
+
+Json rig_info(const std::filesystem::path& rig_file) {
+    const scene::RigFiles files = scene::read_rig_files(rig_file);
+    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+    Json out;
+    out["name"] = files.rig.name;
+    out["mesh"] = {{"file", files.rig.mesh_file.generic_string()},
+                   {"vertices", files.mesh.vertex_count()},
+                   {"faces", files.mesh.face_count()},
+                   {"metres_per_unit", files.rig.metres_per_unit}};
+    out["parts"] = parts_of(files);
+    out["size"] = head.size;
+    out["residual_mm"] = 1e3 * head.frame.residual_m;
+    out["landmarks"] = {{"given", files.rig.landmarks.size()},
+                        {"placed_by_the_atlas", head.warped_landmarks}};
+    out["muscles"] = muscles_of(files.rig);
+    out["columns"] = files.rig.channels().column_count();
+    out["action_units"] = Json::array();
+    for (const track::ActionUnit& unit : files.rig.facs.units)
+        if (unit.unsupported.empty())
+            out["action_units"].push_back(
+                {{"id", unit.id}, {"name", unit.name}, {"sided", unit.sided}});
+    out["expressions"] = Json::array();
+    for (const track::Expression& expression : files.rig.expressions.list)
+        out["expressions"].push_back(expression.name);
+    out["kinematic"] = Json::array();
+    for (const track::KinematicChannel& channel : track::kinematic_channels())
+        out["kinematic"].push_back(
+            {{"name", std::string(channel.name)}, {"min", channel.min}, {"max", channel.max}});
+    return out;
+}
+
+}  // namespace risorius::cli
