@@ -31,7 +31,7 @@ struct Patch {
     Eigen::VectorXd mass, activation;
     std::unique_ptr<tissue::TetSolid> solid;
     std::unique_ptr<tissue::SkinSheet> sheet;
-    std::unique_ptr<tissue::Tethers> tethers;
+    std::unique_ptr<tissue::ZeroLengthSprings> tethers;
     std::unique_ptr<muscle::FibreSet> fibres;
     std::unique_ptr<solve::SparseCholesky> metric;
 
@@ -84,14 +84,14 @@ struct Patch {
         mass = solid->lumped_mass(1000.0, static_cast<int>(rest.rows()));
 
         // Deep nodes slide over bone; a rim is held firmly
-        std::vector<tissue::Tethers::Tether> held;
+        std::vector<tissue::ZeroLengthSprings::Tether> held;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const bool rim = i == 0 || j == 0 || i == n - 1 || j == n - 1;
                 held.push_back({at(i, j, 0), rest.row(at(i, j, 0)).transpose(), Vec3::UnitZ(), 5.0,
                                 rim ? 5.0 : 0.3});
             }
-        tethers = std::make_unique<tissue::Tethers>(held);
+        tethers = std::make_unique<tissue::ZeroLengthSprings>(held);
 
         // 180 fibres of 10 segments through the middle layer, in 20 groups
         std::mt19937 random(1);

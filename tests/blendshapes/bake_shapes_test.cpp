@@ -74,7 +74,7 @@ TEST(ShapeGoals, OtherSetsHaveWhatMovesTheFace) {
         ADD_FAILURE() << "took an unknown name";
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(),
-                     "--only: expected shapes of the set \"arkit52\" (did you mean "
+                     "only: expected shapes of the set \"arkit52\" (did you mean "
                      "\"mouthSmile\"?), found \"mouthSmlie\"");
     }
 }

@@ -23,7 +23,7 @@ TermField term(std::vector<int> drivers, int first, int count, double height_m) 
 }
 
 Points played(const LowRank& made, const Eigen::VectorXd& weights) {
-    LinearRig rig;
+    BlendShapeRig rig;
     rig.terms = made.terms;
     rig.correctives = made.correctives;
     Points out = Points::Zero(20, 3);

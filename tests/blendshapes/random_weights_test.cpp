@@ -15,7 +15,7 @@ MadeShapes shapes_of(const std::string& set) {
     static const rig::RigDescription rig =
         rig::read_rig(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
     MadeShapes out;
-    for (const ShapeGoal& goal : shape_set(rig, set, {}, "rig", "--only").goals)
+    for (const ShapeGoal& goal : shape_set(rig, set, {}, "rig", "only").goals)
         out.list.emplace_back().goal = goal;
     return out;
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "risorius/blendshapes/detail/played_rig.h"
+#include "risorius/blendshapes/detail/blend_shape_player.h"
 #include "risorius/blendshapes/detail/shape_measures.h"
 
 namespace risorius::blendshapes {
@@ -90,9 +90,9 @@ TEST(ShapeMeasures, StretchIsThatOfTheDeformationWhicheverWayItTurns) {
     EXPECT_NEAR(stretch_of(triangles, rest, rest).greatest, 1, 1e-12);
 }
 
-TEST(PlayedRig, MovesVerticesAsTheLinearRigDoes) {
+TEST(BlendShapePlayer, MovesVerticesAsTheLinearRigDoes) {
     const Points at = row_of(301);
-    LinearRig rig;
+    BlendShapeRig rig;
     for (const double centre_m : {-0.05, 0.0, 0.04}) {
         Points field = bump(at, centre_m, 5e-3);
         field.row(150).setZero();  // a gap
@@ -101,7 +101,7 @@ TEST(PlayedRig, MovesVerticesAsTheLinearRigDoes) {
     }
     rig.terms.push_back({"a*b", {0, 1}});
     rig.correctives.push_back({"c", rig.shapes[1], Eigen::VectorXd::Constant(1, -0.7)});
-    const PlayedRig played(rig);
+    const BlendShapePlayer played(rig);
     for (const Eigen::Vector3d& weights :
          {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.8, 0), Eigen::Vector3d(1, 1, 1)}) {
         Points wanted = at, got = at;

@@ -1,23 +1,23 @@
-#include "risorius/core/place_chance.h"
-
 #include <gtest/gtest.h>
+
+#include "risorius/core/counter_rng.h"
 
 namespace risorius {
 namespace {
 
-TEST(PlaceChance, IsThePublishedGenerator) {
+TEST(CounterRng, IsThePublishedGenerator) {
     // First outputs of splitmix64 by Vigna's reference code (prng.di.unimi.it) for these seeds
-    EXPECT_EQ(PlaceChance(1234567).at(0).bits(), 6457827717110365317u);
-    EXPECT_EQ(PlaceChance(0).at(0).bits(), 0xe220a8397b1dcdafu);
+    EXPECT_EQ(CounterRng(1234567).at(0).bits(), 6457827717110365317u);
+    EXPECT_EQ(CounterRng(0).at(0).bits(), 0xe220a8397b1dcdafu);
 }
 
-TEST(PlaceChance, HangsOnEveryPartAndTheirOrder) {
-    const double once = PlaceChance(3).at(1).at(2).from_zero();
-    EXPECT_EQ(once, PlaceChance(3).at(1).at(2).from_zero());
-    EXPECT_NE(once, PlaceChance(3).at(2).at(1).from_zero());
-    EXPECT_NE(once, PlaceChance(3).at(1).from_zero());
-    EXPECT_NE(once, PlaceChance(4).at(1).at(2).from_zero());
-    EXPECT_GT(PlaceChance(3).at(1).at(2).inside(), once);
+TEST(CounterRng, HangsOnEveryPartAndTheirOrder) {
+    const double once = CounterRng(3).at(1).at(2).uniform();
+    EXPECT_EQ(once, CounterRng(3).at(1).at(2).uniform());
+    EXPECT_NE(once, CounterRng(3).at(2).at(1).uniform());
+    EXPECT_NE(once, CounterRng(3).at(1).uniform());
+    EXPECT_NE(once, CounterRng(4).at(1).at(2).uniform());
+    EXPECT_GT(CounterRng(3).at(1).at(2).uniform_open(), once);
 }
 
 }  // namespace

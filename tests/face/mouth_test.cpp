@@ -24,7 +24,7 @@ double turn_of_red_deg(const Points& from, const Points& to, const char* rim, co
 
 TEST(Mouth, LipsAndTeethHardlyPassThroughEachOther) {
     for (const char* unit : {"AU18", "AU24", "AU14", "AU28_lower"}) {
-        StepFigures figures;
+        StepStats figures;
         settled(adult(), with_unit(unit), &figures);
         EXPECT_LE(figures.lip_depth_m, 0.3e-3) << unit;
         EXPECT_LE(figures.bone_depth_m, 0.2e-3) << unit;
@@ -37,7 +37,7 @@ TEST(Mouth, LipsAndTeethHardlyPassThroughEachOther) {
 TEST(Mouth, PressedLipsDoNotSinkInAsTimePasses) {
     const DriveAt drive = [](double t) { return with_unit("AU24", std::min(1.0, t / 0.2)); };
     adult().start(drive);
-    StepFigures figures, early;
+    StepStats figures, early;
     for (int i = 0; i < 45; ++i) {
         figures = adult().step(drive);
         if (i == 14) early = figures;
@@ -54,7 +54,7 @@ TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
     EXPECT_GT(turn_of_red_deg(rest, lower.vertices, "stoi", "li"), 1.5);
     EXPECT_LT(at(moved_mm(adult(), lower), "stoi").z(), -1.5);
     // It buckles on its way, and comes to rest late
-    StepFigures figures;
+    StepStats figures;
     const FacePose upper = settled(adult(), with_unit("AU28_upper"), &figures);
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
@@ -72,7 +72,7 @@ TEST(Mouth, PeripheralFibresPushTheLipsForwards) {
 }
 
 TEST(Mouth, ASmileDrawsTheCornersUpWithoutTheLipsOverlapping) {
-    StepFigures figures;
+    StepStats figures;
     const Points moved = moved_mm(adult(), settled(adult(), with_unit("AU12"), &figures));
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);

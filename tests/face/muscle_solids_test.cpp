@@ -55,7 +55,7 @@ TEST_F(MuscleSolidsInFace, WithoutActivationNothingMoves) {
 TEST_F(MuscleSolidsInFace, AFullContractionKeepsTheVolumeOfEveryMuscle) {
     for (const char* muscle : {"masseter_superficial", "zygomaticus_major", "mentalis",
                                "orbicularis_oris_upper_peripheral"}) {
-        StepFigures figures;
+        StepStats figures;
         settled(face(), with_muscle(muscle, 1.0), &figures);
         EXPECT_LT(figures.last_step_rms_m, 1e-4) << muscle;
         EXPECT_LT(figures.muscle_volume_error, 0.01) << muscle;

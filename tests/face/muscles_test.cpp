@@ -22,7 +22,7 @@ class Muscles : public testing::Test {
         return one;
     }
     static Points moved(const track::Drive& drive) {
-        StepFigures figures;
+        StepStats figures;
         const FacePose pose = settled(face(), drive, &figures, kNearRest);
         EXPECT_LT(figures.converged ? 0.0 : figures.last_step_rms_m, kCircles_m);
         return moved_mm(face(), pose);

@@ -50,7 +50,7 @@ TEST(OtherPeople, MoveAndStayWhole) {
         const Points rest = face.pose().vertices;
         ASSERT_TRUE(rest.allFinite());
         for (const std::string& unit : units) {
-            StepFigures figures;
+            StepStats figures;
             const Points moved = settled(face, with_unit(unit), &figures).vertices;
             ASSERT_TRUE(moved.allFinite()) << unit;
             // Lips that slide over teeth may still creep by some tenths of a millimetre

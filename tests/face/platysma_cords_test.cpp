@@ -85,7 +85,7 @@ TEST(PlatysmaCords, StandOutFromTheNeckOfTheSideThatPullsAndFromNothingElse) {
 
 TEST(PlatysmaCords, ShowAsLinesThatStandOutInTheFace) {
     Face face = adult_face();
-    StepFigures figures;
+    StepStats figures;
     const FacePose pose = settled(face, with_unit("AU21"), &figures, kNearRest);
     EXPECT_TRUE(figures.converged);
     const Vec3 hyoid = face.head().landmark("hyo");

@@ -29,7 +29,7 @@ TEST(Rest, LastsThroughASecondOfSteps) {
 TEST(Rest, IsTheEquilibriumWithoutDrive) {
     Face face = adult_face();
     face.start(always(neutral()));
-    const StepFigures figures = face.settle(neutral().excitation, neutral());
+    const StepStats figures = face.settle(neutral().excitation, neutral());
     EXPECT_TRUE(figures.converged);
     EXPECT_LT((face.pose().vertices - face.head().vertices).cwiseAbs().maxCoeff(), 1e-9);
 }

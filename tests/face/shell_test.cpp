@@ -33,7 +33,8 @@ struct Tissue {
           head(rig::place_head(rig, test.mesh, "test")),
           lids{EyeLids(head, 0, 0.96), EyeLids(head, 1, 0.96)},
           jaw(head, rig.jaw),
-          shell(borne_by_tissue(build_shell(head, jaw, lids, {vertices}), head, rig, lids)),
+          shell(
+              drop_unsupported_vertices(build_shell(head, jaw, lids, {vertices}), head, rig, lids)),
           mesh(build_tissue_mesh(head, rig, shell, lids)) {}
 };
 const Tissue& adult() {

@@ -35,7 +35,7 @@ Points noise(long rows, unsigned seed) {
 
 TEST(FaceStatics, SettlesToForcesThatBalance) {
     Face face = adult_face(kCoarse);
-    const StepFigures figures = face.settle(some_drive().excitation, some_drive());
+    const StepStats figures = face.settle(some_drive().excitation, some_drive());
     EXPECT_TRUE(figures.converged);
     const Points settled = face.static_gradient(face.nodes(), face.activation(), some_drive());
     const Points pulled = face.static_gradient(face.nodes(), 1.1 * face.activation(), some_drive());

@@ -59,7 +59,7 @@ TEST(Adaptive, WrongFilesAreNamedWithTheirPlace) {
         json[Json::json_pointer(pointer)] = std::move(value);
         return message_of([&] {
             RunOptions options;
-            options.stopped = [] { return true; };
+            options.monitor.stopped = [] { return true; };
             run(json, options);
         });
     };

@@ -75,7 +75,7 @@ TEST(Figure9, BothHalvesShareOneRun) {
     RunOptions options;
     options.shared = &shared;
     int runs = 0;
-    options.progress = [&](double, const std::string&) { ++runs; };
+    options.monitor.progress = [&](double, const std::string&) { ++runs; };
     const FigureResult first = run(a, options), second = run(b, options);
     EXPECT_EQ(runs, 1);
     EXPECT_EQ(table_of(first, "volume").rows, table_of(second, "volume").rows);

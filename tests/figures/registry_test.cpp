@@ -18,7 +18,7 @@ namespace {
 /// Reads everything and runs nothing: asked to stop at the first chance.
 void read_only(const JsonCursor& experiment) {
     RunOptions options;
-    options.stopped = [] { return true; };
+    options.monitor.stopped = [] { return true; };
     run_figure(experiment, options);
 }
 

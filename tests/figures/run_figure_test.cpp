@@ -37,7 +37,7 @@ figures::Shape pyramid(const std::string& name, const std::string& caption, doub
 
 /// What an experiment with the file's "figure" leaves, without what takes time to draw.
 FigureResult numbers(const JsonCursor& experiment, const figures::RunOptions& options) {
-    options.tell(0.5, "half");
+    options.monitor.report(0.5, "half");
     FigureResult result;
     result.id = experiment.at("figure").string();
     result.title = "A <made-up> figure & more";
@@ -298,7 +298,7 @@ TEST_F(Figures, AFailureStopsTheOthersAndIsTheOneTold) {
     given.threads = 2;
     given.run = [](const JsonCursor& json, const figures::RunOptions& run_options) {
         if (json.at("figure").string() == "x2") throw Error("x", "y", "z");
-        for (;;) run_options.stop_if_asked();  // until the other has failed
+        for (;;) run_options.monitor.throw_if_stopped();  // until the other has failed
         return FigureResult{};
     };
     EXPECT_EQ(message(given), "x: expected y, found z");

@@ -55,7 +55,7 @@ TEST(FitRig, AUnitIsAPositiveNumber) {
         options.out = folder / "rig.json";
         options.metres_per_unit = unit;
         EXPECT_EQ(refusal_of_fit(options),
-                  std::string("--metres-per-unit: expected a number in (0, inf), found ") + found);
+                  std::string("metres_per_unit: expected a number in (0, inf), found ") + found);
     }
 }
 

@@ -21,10 +21,10 @@ face::Face face_of(const rig::RigDescription& rig) {
 
 TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
     const rig::RigDescription& rig = scene::adult_of_bundles().rig;
-    scene::WayTable goal;
+    scene::DisplacementTable goal;
     {
         face::Face face = face_of(rig);
-        scene::LandmarkWays ways(face, rig, "adult");
+        scene::LandmarkDisplacements ways(face, rig, "adult");
         for (const std::string name : {"zygomaticus_major", "orbicularis_oris_upper_peripheral"}) {
             const Points moved = ways.settle(ways.drive(name));
             for (std::size_t i = 0; i < ways.landmarks().size(); ++i)

@@ -38,7 +38,7 @@ TEST(SculptHead, AMeshAloneDoesNotTakeARigAway) {
                                .identity = chosen_identity({.seed = 7}),
                                .mesh_only = true});
               }),
-              "--mesh-only: expected a folder without a rig, which it would take away, found \"" +
+              "mesh_only: expected a folder without a rig, which it would take away, found \"" +
                   (folder / "anna/rig.json").generic_string() + "\"");
     EXPECT_EQ(bytes_of(folder / "anna/rig.json"), "{}");
 }
@@ -72,11 +72,11 @@ TEST(SculptHead, ErrorsNameTheOption) {
     const auto message = [](const IdentityChoice& choice) {
         return message_of([&] { chosen_identity(choice); });
     };
-    EXPECT_EQ(message({.age = 12}), "--age: expected [20, 80], found 12");
-    EXPECT_EQ(message({.shape = {"lips"}}), "--shape: expected PARAMETER=NUMBER, found \"lips\"");
-    EXPECT_EQ(message({.shape = {"lips=3"}}), "--shape/lips: expected [-2, 2], found 3");
+    EXPECT_EQ(message({.age = 12}), "age: expected [20, 80], found 12");
+    EXPECT_EQ(message({.shape = {"lips"}}), "shape: expected PARAMETER=NUMBER, found \"lips\"");
+    EXPECT_EQ(message({.shape = {"lips=3"}}), "shape/lips: expected [-2, 2], found 3");
     EXPECT_EQ(message({.identity = "ada", .seed = 3}),
-              "--seed: expected a seed or --identity, found both");
+              "seed: expected a seed or identity, found both");
     EXPECT_NE(message({.identity = "adda"}).find("(did you mean \"ada\"?)"), std::string::npos);
 }
 

@@ -12,7 +12,7 @@
 #include "risorius/face/face.h"
 #include "risorius/headmodel/sculpt_head.h"
 #include "risorius/media/image_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/scene/rig_files.h"
 #include "temporary_folder.h"
 
@@ -189,7 +189,7 @@ TEST_F(Evaluate, BadInputLeavesNothingBehind) {
     const std::set<std::string> before = folder->listing();
     EvaluateOptions asked = options("bad");
     asked.only = {"smiel"};
-    EXPECT_EQ(complaint(asked), "--only: expected names of shapes in " + made->shapes.string() +
+    EXPECT_EQ(complaint(asked), "only: expected names of shapes in " + made->shapes.string() +
                                     " (did you mean \"smile\"?), found \"smiel\"");
     asked = options("bad");
     asked.rig = kRoot / "rigs/adult/rig.json";  // shapes of another head
@@ -197,17 +197,17 @@ TEST_F(Evaluate, BadInputLeavesNothingBehind) {
     asked = options("bad");
     asked.quality = "best";
     EXPECT_EQ(complaint(asked),
-              "--quality: expected \"draft\", \"preview\", \"video\" or \"fine\", found \"best\"");
+              "quality: expected \"draft\", \"preview\", \"video\" or \"fine\", found \"best\"");
     EXPECT_EQ(folder->listing(), before);
 }
 
 TEST_F(Evaluate, InterruptedLeavesNothingBehind) {
     const std::set<std::string> before = folder->listing();
     int told = 0;
-    Watch watch;
-    watch.progress = [&](double, const std::string&) { ++told; };
-    watch.stopped = [&] { return told == 3; };  // while pictures are drawn
-    EXPECT_THROW(evaluate(options("stopped"), watch), Interrupted);
+    ProgressMonitor monitor;
+    monitor.progress = [&](double, const std::string&) { ++told; };
+    monitor.stopped = [&] { return told == 3; };  // while pictures are drawn
+    EXPECT_THROW(evaluate(options("stopped"), monitor), Interrupted);
     EXPECT_EQ(told, 3);
     EXPECT_EQ(folder->listing(), before);
 }

@@ -145,7 +145,7 @@ TEST_F(MeasuredShapes, OnlyTheNamedOnesAreRead) {
         read(json({"grin", "mouthSmile_L", "mouthSmile_R"}), {.only = {"mouthSmile"}});
     ASSERT_EQ(shapes.size(), 1u);
     EXPECT_EQ(complaint(json({"mouthSmile_L", "mouthSmile_R"}), {.only = {"mouthSmil"}}),
-              "--only: expected names of shapes in x.json (did you mean \"mouthSmile\"?), found "
+              "only: expected names of shapes in x.json (did you mean \"mouthSmile\"?), found "
               "\"mouthSmil\"");
 }
 

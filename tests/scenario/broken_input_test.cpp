@@ -176,10 +176,10 @@ TEST(BrokenInput, EveryMeshIsRefusedByTheRigThatNamesIt) {
         std::ofstream(rigs / "rig.json") << rig.dump();
         // Messages that end in the reader's own words repeat the path as it was given.
         std::string text = (kBroken / "meshes" / "").string() + message.get<std::string>();
-        const std::string quoted = "\"" + file + "\"";
-        if (const std::size_t at = text.rfind("for the file format of file " + quoted);
+        const std::string in_quotes = "\"" + file + "\"";
+        if (const std::size_t at = text.rfind("for the file format of file " + in_quotes);
             at != std::string::npos)
-            text.replace(text.find(quoted, at), quoted.size(),
+            text.replace(text.find(in_quotes, at), in_quotes.size(),
                          "\"" + (kBroken / "meshes" / file).string() + "\"");
         animate::AnimateOptions options;
         options.script = kRoot / "samples/smile/script.json";

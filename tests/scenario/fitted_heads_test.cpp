@@ -219,7 +219,7 @@ TEST_P(FittedHead, ALipSuckedInComesToRestOnAFineMesh) {
     track::Drive none = drive;
     none.excitation.setZero();
     face.start([&](double) { return none; });
-    const face::StepFigures figures = face.settle(drive.excitation, drive, {.iterations = 400});
+    const face::StepStats figures = face.settle(drive.excitation, drive, {.iterations = 400});
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);

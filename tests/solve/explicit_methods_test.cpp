@@ -195,7 +195,7 @@ TEST(ExplicitMethods, FixedAndPrescribedNodesAreWhereTheyAreToldAtEveryStage) {
         }
     };
     MotionSystem system = toy::system_of(3, 1.0, std::make_shared<Witness>(), {1, 1, 0});
-    system.prescribe([](double t_s, Points& x, Points& v) {
+    system.set_boundary_conditions([](double t_s, Points& x, Points& v) {
         x(0, 0) = std::sin(t_s);
         v(0, 0) = std::cos(t_s);
     });

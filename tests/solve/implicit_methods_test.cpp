@@ -292,7 +292,7 @@ TEST(QuasiStatic, FollowsItsLoadAndHoldsPrescribedNodes) {
     auto anchor = std::make_shared<Anchor>(10.0, 3.0);
     anchor->load = [](double t) { return Vec3(t, 0, 0); };
     MotionSystem system = toy::system_of(2, 1.0, anchor, toy::first_fixed(2));
-    system.prescribe([](double t_s, Points& x, Points& v) {
+    system.set_boundary_conditions([](double t_s, Points& x, Points& v) {
         x.row(0).setConstant(t_s);
         v.row(0).setOnes();
     });
@@ -319,7 +319,7 @@ TEST(QuasiStatic, ABodyWithoutSupportDiverges) {
 TEST(ImplicitMethods, FixedAndPrescribedNodesAreWhereTheyAreTold) {
     for (const Method method : kImplicit) {
         MotionSystem system = swing();
-        system.prescribe([](double t_s, Points& x, Points& v) {
+        system.set_boundary_conditions([](double t_s, Points& x, Points& v) {
             x.row(0) << 0, 0.1 * std::sin(t_s), 0;
             v.row(0) << 0, 0.1 * std::cos(t_s), 0;
         });
@@ -336,7 +336,7 @@ TEST(ImplicitMethods, APulledNodeDragsItsNeighbourAlong) {
     for (const Method method : {Method::kBaraffWitkin, Method::kImplicitEuler}) {
         MotionSystem system =
             toy::system_of(3, 1.0, std::make_shared<Chain>(100.0, 1.0, 0.0), toy::first_fixed(3));
-        system.prescribe([](double t_s, Points& x, Points& v) {
+        system.set_boundary_conditions([](double t_s, Points& x, Points& v) {
             x.row(0) << -0.1 * t_s, 0, 0;
             v.row(0) << -0.1, 0, 0;
         });

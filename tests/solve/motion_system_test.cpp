@@ -49,7 +49,7 @@ TEST(MotionSystem, AccelerationIsForceOverMassAndNoneWhereFixed) {
 
 TEST(MotionSystem, FixedNodesStandStillUnlessPrescribed) {
     MotionSystem system(Eigen::VectorXd::Ones(3), {1, 0, 1});
-    system.prescribe([](double t, Points& x, Points& v) {
+    system.set_boundary_conditions([](double t, Points& x, Points& v) {
         x.row(2) << t, 0, 0;
         v.row(2) << 1, 0, 0;
     });

@@ -110,7 +110,7 @@ TEST(RealTimeStep, TwoRunsGiveTheSameBits) {
 
 TEST(RealTimeStep, HeldNodesGoWhereTheyAreLed) {
     FallingChain chain;
-    chain.system.prescribe([](double t_s, Points& x, Points& v) {
+    chain.system.set_boundary_conditions([](double t_s, Points& x, Points& v) {
         x.row(0) << 0, t_s, 0;
         v.row(0) << 0, 1, 0;
     });

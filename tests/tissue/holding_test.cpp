@@ -13,26 +13,26 @@ namespace {
 
 const LayeredBlock kHeldBlock(3, 3, 2);
 
-Tethers some_tethers() {
-    std::vector<Tethers::Tether> list;
+ZeroLengthSprings some_tethers() {
+    std::vector<ZeroLengthSprings::Tether> list;
     for (int node = 0; node < 9; ++node)
         list.push_back({node, kHeldBlock.rest.row(node).transpose(),
                         Vec3(0.1 * node, 0.5, 1.0).normalized(), 200.0, 3.0 * node});
-    return Tethers(list);
+    return ZeroLengthSprings(list);
 }
 
-TEST(Tethers, HoldNothingAtTheirTargets) {
+TEST(ZeroLengthSprings, HoldNothingAtTheirTargets) {
     Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
     EXPECT_EQ(some_tethers().add_energy(kHeldBlock.rest, gradient), 0.0);
     EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(Tethers, ForcesAreTheSlopeOfTheEnergy) {
+TEST(ZeroLengthSprings, ForcesAreTheSlopeOfTheEnergy) {
     expect_gradient_is_exact(some_tethers(), shaken(kHeldBlock.rest, 1e-3, 1));
 }
 
-TEST(Tethers, PullFirmlyAlongTheNormalAndLooselyAcross) {
-    const Tethers tethers({{0, Vec3::Zero(), Vec3::UnitY(), 500.0, 20.0}});
+TEST(ZeroLengthSprings, PullFirmlyAlongTheNormalAndLooselyAcross) {
+    const ZeroLengthSprings tethers({{0, Vec3::Zero(), Vec3::UnitY(), 500.0, 20.0}});
     Points x(1, 3);
     x << 1e-3, 2e-3, -3e-3;
     const Points gradient = gradient_of(tethers, x);
@@ -41,10 +41,10 @@ TEST(Tethers, PullFirmlyAlongTheNormalAndLooselyAcross) {
     EXPECT_NEAR(gradient(0, 2), -0.06, 1e-15);
 }
 
-TEST(Tethers, CanBeMovedWithTheJaw) {
-    Tethers tethers = some_tethers();
+TEST(ZeroLengthSprings, CanBeMovedWithTheJaw) {
+    ZeroLengthSprings tethers = some_tethers();
     const Rigid jaw = some_motion();
-    for (Tethers::Tether& tether : tethers.list()) {
+    for (ZeroLengthSprings::Tether& tether : tethers.list()) {
         tether.target = jaw * tether.target;
         tether.normal = jaw.linear() * tether.normal;
     }
@@ -52,8 +52,8 @@ TEST(Tethers, CanBeMovedWithTheJaw) {
     EXPECT_LT(tethers.add_energy(moved(kHeldBlock.rest, jaw), gradient), 1e-28);
 }
 
-TEST(Tethers, TheMetricBoundsBothDirections) {
-    const Tethers tethers({{1, Vec3::Zero(), Vec3::UnitY(), 5.0, 20.0}});
+TEST(ZeroLengthSprings, TheMetricBoundsBothDirections) {
+    const ZeroLengthSprings tethers({{1, Vec3::Zero(), Vec3::UnitY(), 5.0, 20.0}});
     solve::MetricBuilder builder(3);
     tethers.add_metric(builder);
     const Eigen::MatrixXd metric = builder.build({});

@@ -78,7 +78,7 @@ TEST(SecondDerivatives, OfSkinAreTheSlopeOfItsForces) {
 TEST(SecondDerivatives, OfTethersAndContactsAreTheSlopeOfTheirForces) {
     const Points x = shaken(kSmall.rest, 1e-3, 23);
     const Vec3 slanted = Vec3(1, 2, -1).normalized();
-    const Tethers tethers(
+    const ZeroLengthSprings tethers(
         {{2, Vec3(1e-3, 0, 0), slanted, 30, 5}, {2, Vec3::Zero(), slanted, 1, 0}});
     const Eigen::MatrixXd held = dense_second(
         x.rows(), [&](solve::HessianBuilder& builder) { tethers.add_hessian(builder); });

@@ -14,8 +14,8 @@
 #include "risorius/core/data_folder.h"
 #include "risorius/core/version.h"
 #include "risorius/face/solver/stress.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/median.h"
-#include "risorius/report/staged_file.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/timeline.h"
@@ -95,7 +95,7 @@ class ScratchFolder {
 struct Bench {
     scene::RigFiles files;
     track::Timeline timeline;
-    const Watch& watch;
+    const ProgressMonitor& monitor;
 
     face::DriveAt drive() const {
         return [this](double t_s) { return timeline.at(t_s); };
@@ -103,14 +103,14 @@ struct Bench {
 
     // All steps of the track on one core.
     Json simulate(const std::string& quality) const {
-        watch.tell(0, "simulating, " + quality);
+        monitor.report(0, "simulating, " + quality);
         face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
         face.start(drive());
         std::vector<double> step_ms;
         int iterations = 0;
         const int steps = static_cast<int>(kTrack_s / face::kStep_s);
         for (int step = 0; step < steps; ++step) {
-            if (step % 20 == 0) watch.tell(0.3 * step / steps, "simulating, " + quality);
+            if (step % 20 == 0) monitor.report(0.3 * step / steps, "simulating, " + quality);
             const report::Stopwatch stopwatch;
             iterations += face.step(drive()).iterations;
             step_ms.push_back(1e3 * stopwatch.seconds());
@@ -126,7 +126,7 @@ struct Bench {
 
     // The same track with and without the standard volume muscles, step by step in turn, so that both meet the same machine.
     Json compare_solids() const {
-        watch.tell(0.25, "volume muscles");
+        monitor.report(0.25, "volume muscles");
         rig::RigDescription bundles = files.rig, solids = files.rig;
         bundles.solids.clear();
         solids.solids = rig::read_solid_muscles(
@@ -145,7 +145,7 @@ struct Bench {
         for (int step = 0; step < steps; ++step)
             for (std::size_t k = 0; k < 2; ++k) {
                 const report::Stopwatch stopwatch;
-                const face::StepFigures figures = faces[k].step(drive());
+                const face::StepStats figures = faces[k].step(drive());
                 step_ms[k].push_back(1e3 * stopwatch.seconds());
                 iterations[k] += figures.iterations;
                 volume_error = std::max(volume_error, figures.muscle_volume_error);
@@ -167,7 +167,7 @@ struct Bench {
 
     // One second from script to video
     Json whole_way(const ScratchFolder& scratch) const {
-        watch.tell(0.7, "from script to video");
+        monitor.report(0.7, "from script to video");
         const fs::path script = scratch / "script.json";
         report::write_text(script,
                            bench_script(fs::absolute(files.file).generic_string(), 1.0).dump());
@@ -175,10 +175,10 @@ struct Bench {
         options.script = script;
         options.out = scratch / "video.mp4";
         options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
-        Watch inner = watch;
-        if (watch.progress)
+        ProgressMonitor inner = monitor;
+        if (monitor.progress)
             inner.progress = [this](double share, const std::string&) {
-                watch.progress(0.7 + 0.3 * share, "from script to video");
+                monitor.progress(0.7 + 0.3 * share, "from script to video");
             };
         const animate::RunRecord record = animate::animate(options, inner);
         return {{"seconds_of_video", 1.0},
@@ -192,31 +192,32 @@ struct Bench {
     }
 };
 
-Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watch& watch) {
+Json bench_rig(const fs::path& rig_file, const BenchOptions& options,
+               const ProgressMonitor& monitor) {
     scene::RigFiles files = scene::read_rig_files(rig_file);
     const ScratchFolder scratch;
     if (options.only_steps)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
-                {"steps", bench_steps(files, usual_step_benches(), watch)}};
+                {"steps", bench_steps(files, usual_step_benches(), monitor)}};
     if (options.only_poses)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
-                {"poses", bench_poses(files, {}, watch)}};
+                {"poses", bench_poses(files, {}, monitor)}};
     if (options.only_shapes)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
-                {"blend_shapes", bench_shapes(files, options.shapes, watch)}};
+                {"blend_shapes", bench_shapes(files, options.shapes, monitor)}};
     if (options.only_pictures)
         return {{"rig", rig_file.generic_string()},
                 {"name", files.rig.name},
-                {"pictures", bench_pictures(files, scratch.path(), watch)},
+                {"pictures", bench_pictures(files, scratch.path(), monitor)},
                 {"peak_memory_mb", peak_memory_mb()}};
     const track::ChannelTable channels = files.rig.channels();
     const auto script = track::read_script(
         JsonCursor::from_json(bench_script(rig_file.generic_string(), kTrack_s), "bench"), channels,
         files.rig.facs, files.rig.expressions);
-    const Bench bench{std::move(files), track::Timeline(script, channels), watch};
+    const Bench bench{std::move(files), track::Timeline(script, channels), monitor};
 
     Json out;
     out["rig"] = rig_file.generic_string();
@@ -226,9 +227,9 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options, const Watc
     out["video"] = bench.simulate("video");
     out["fine"] = bench.simulate("fine");
     out["fine_volume_muscles"] = bench.compare_solids();
-    out["steps"] = bench_steps(bench.files, usual_step_benches(), watch);
-    out["pictures"] = bench_pictures(bench.files, scratch.path(), watch);
-    out["blend_shapes"] = bench_shapes(bench.files, {}, watch);
+    out["steps"] = bench_steps(bench.files, usual_step_benches(), monitor);
+    out["pictures"] = bench_pictures(bench.files, scratch.path(), monitor);
+    out["blend_shapes"] = bench_shapes(bench.files, {}, monitor);
     out["whole_way"] = bench.whole_way(scratch);
     out["peak_memory_mb"] = peak_memory_mb();
     return out;
@@ -263,7 +264,7 @@ Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
 
 }  // namespace
 
-Json bench_machine(const BenchOptions& options, const Watch& watch) {
+Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) {
     std::vector<fs::path> rigs = options.rigs;
     if (rigs.empty() && options.faces) rigs.push_back(data_folder() / "rigs/adult/rig.json");
     Json out;
@@ -277,8 +278,8 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
     if (options.stress_steps > 0) {
         out["stress"] = Json::array();
         for (std::size_t i = 0; i < rigs.size(); ++i) {
-            watch.tell(static_cast<double>(i) / static_cast<double>(rigs.size()),
-                       rigs[i].string() + ", random drive");
+            monitor.report(static_cast<double>(i) / static_cast<double>(rigs.size()),
+                           rigs[i].string() + ", random drive");
             out["stress"].push_back(stress_rig(rigs[i], options));
         }
         return out;
@@ -288,21 +289,21 @@ Json bench_machine(const BenchOptions& options, const Watch& watch) {
     const double parts = 1 + static_cast<double>(rigs.size());
     out["rigs"] = Json::array();
     for (std::size_t i = 0; i < rigs.size(); ++i) {
-        Watch one = watch;
-        if (watch.progress)
+        ProgressMonitor one = monitor;
+        if (monitor.progress)
             one.progress = [&, i](double share, const std::string& what) {
-                watch.progress((static_cast<double>(i) + share) / parts,
-                               rigs[i].string() + ", " + what);
+                monitor.progress((static_cast<double>(i) + share) / parts,
+                                 rigs[i].string() + ", " + what);
             };
         out["rigs"].push_back(bench_rig(rigs[i], options, one));
     }
     out["solids"] = Json::array();
     if (options.only_steps || options.only_poses || options.only_pictures || options.only_shapes)
         return out;
-    Watch solids = watch;
-    if (watch.progress)
+    ProgressMonitor solids = monitor;
+    if (monitor.progress)
         solids.progress = [&](double share, const std::string& what) {
-            watch.progress((parts - 1 + share) / parts, what);
+            monitor.progress((parts - 1 + share) / parts, what);
         };
     out["solids"] = {bench_solids({}, solids),
                      bench_solids({.nodes_per_edge = {13, 22}, .psi_n_per_m5 = 10}, solids)};

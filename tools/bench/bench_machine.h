@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::bench {
 
@@ -26,6 +26,6 @@ struct BenchOptions {
 
 /// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality,
 /// how far those steps are from converged ones (bench_steps.h), frames per second of pictures (bench_pictures.h), what a frame of blend shapes costs (bench_shapes.h), and the whole way from script to video against real time. Every rig plays the same four seconds.
-Json bench_machine(const BenchOptions& options, const Watch& watch = {});
+Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::bench

@@ -5,14 +5,15 @@
 #include <thread>
 
 #include "risorius/animate/animate.h"
+#include "risorius/animate/film.h"
 #include "risorius/animate/shot.h"
 #include "risorius/face/face.h"
 #include "risorius/media/luminance.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/offscreen_view.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/median.h"
-#include "risorius/report/staged_file.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/scene_from_rig.h"
 #include "risorius/track/timeline.h"
@@ -88,7 +89,8 @@ Json stages(const animate::AnimateOptions& options, const scene::RigFiles& files
 
 }  // namespace
 
-Json bench_pictures(const scene::RigFiles& files, const fs::path& folder, const Watch& watch) {
+Json bench_pictures(const scene::RigFiles& files, const fs::path& folder,
+                    const ProgressMonitor& monitor) {
     animate::AnimateOptions options;
     options.script = folder / "pictures.json";
     options.out = folder / "pictures.mp4";
@@ -96,7 +98,7 @@ Json bench_pictures(const scene::RigFiles& files, const fs::path& folder, const 
     Json out = Json::array();
     for (const animate::PictureSize& size : kSizes)
         for (const bool draft : {false, true}) {
-            watch.tell(static_cast<double>(out.size()) / 6, "pictures");
+            monitor.report(static_cast<double>(out.size()) / 6, "pictures");
             options.size = size;
             options.draft = draft;
             // The driver's threads are chosen once in a process: with all of them both times.
@@ -105,10 +107,10 @@ Json bench_pictures(const scene::RigFiles& files, const fs::path& folder, const 
             const report::Stopwatch since;
             const animate::RunRecord record =
                 animate::animate(options, {[&](double, const std::string& what) {
-                                               if (what == kRendering)
+                                               if (what == animate::kRendering)
                                                    shown_s.push_back(since.seconds());
                                            },
-                                           watch.stopped});
+                                           monitor.stopped});
             Json one{{"width_px", size.width_px},
                      {"height_px", size.height_px},
                      {"draft", draft},

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::bench {
@@ -15,6 +15,6 @@ namespace risorius::bench {
 /// `simulate_ms`, `draw_ms`, `read_back_ms` (samples to pixels, into memory), `measure_ms` (luminance, hash), `encode_ms` (mean). Scratch
 /// files go to the folder.
 Json bench_pictures(const scene::RigFiles& files, const std::filesystem::path& folder,
-                    const Watch& watch);
+                    const ProgressMonitor& monitor);
 
 }  // namespace risorius::bench

@@ -25,7 +25,7 @@ Json settle(face::Face& face, const std::string& unit, const track::Drive& drive
     rest.kinematic = {};
     face.start([&](double) { return rest; });
     const report::CoreStopwatch stopwatch;
-    const face::StepFigures figures = face.settle(drive.excitation, drive);
+    const face::StepStats figures = face.settle(drive.excitation, drive);
     const double seconds = stopwatch.seconds();
     const int inverted = face.inverted_tets();
     const Points at_rest = face.nodes();
@@ -43,7 +43,8 @@ Json settle(face::Face& face, const std::string& unit, const track::Drive& drive
 
 }  // namespace
 
-Json bench_poses(const scene::RigFiles& files, const PoseBench& bench, const Watch& watch) {
+Json bench_poses(const scene::RigFiles& files, const PoseBench& bench,
+                 const ProgressMonitor& monitor) {
     std::vector<track::Drive> drives;
     for (const std::string& unit : bench.units) drives.push_back(drive_of(files, unit));
     // Progress by nodes, since that is what time goes with
@@ -57,8 +58,8 @@ Json bench_poses(const scene::RigFiles& files, const PoseBench& bench, const Wat
         face::Face face(files.rig, files.mesh, quality, files.place());
         Json poses = Json::array();
         for (std::size_t i = 0; i < drives.size(); ++i) {
-            watch.tell(done / all,
-                       bench.units[i] + ", " + std::to_string(face.node_count()) + " nodes");
+            monitor.report(done / all,
+                           bench.units[i] + ", " + std::to_string(face.node_count()) + " nodes");
             poses.push_back(settle(face, bench.units[i], drives[i]));
             done += vertices;
         }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::bench {
@@ -21,6 +21,6 @@ struct PoseBench {
 /// Per shell: shell_vertices, nodes, tets and poses, each with name, iterations, seconds (of one core), at_rest, inverted
 /// (tetrahedra) and left_mm. Throws Error when the rig's tables do not know a unit.
 Json bench_poses(const scene::RigFiles& files, const PoseBench& bench = {},
-                 const Watch& watch = {});
+                 const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::bench

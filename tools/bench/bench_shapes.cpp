@@ -31,8 +31,8 @@ blendshapes::ShapesOfFile linear_shapes(const scene::RigFiles& files, face::Face
 }  // namespace
 
 Json bench_shapes(const scene::RigFiles& files, const std::filesystem::path& file,
-                  const Watch& watch) {
-    watch.tell(0, "blend shapes");
+                  const ProgressMonitor& monitor) {
+    monitor.report(0, "blend shapes");
     const track::ChannelTable channels = files.rig.channels();
     face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
     blendshapes::ShapesOfFile shapes =

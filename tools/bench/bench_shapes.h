@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::bench {
@@ -15,6 +15,6 @@ namespace risorius::bench {
 /// shapes and correctives), `frames`; processor time of one core, ms: `frame_ms` (median), `slowest_frame_ms`, `weights_ms` (median,
 /// of that).
 Json bench_shapes(const scene::RigFiles& files, const std::filesystem::path& file,
-                  const Watch& watch);
+                  const ProgressMonitor& monitor);
 
 }  // namespace risorius::bench

@@ -108,7 +108,7 @@ double newton_ms(const HangingCube& cube) {
 
 }  // namespace
 
-Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
+Json bench_solids(const SolidBenchOptions& options, const ProgressMonitor& monitor) {
     Json out;
     out["step_s"] = kStep_s;
     out["psi_n_per_m5"] = options.psi_n_per_m5;
@@ -122,14 +122,14 @@ Json bench_solids(const SolidBenchOptions& options, const Watch& watch) {
         const double share =
             static_cast<double>(i) / static_cast<double>(options.nodes_per_edge.size());
         const std::string name = "solid of " + std::to_string(edge) + "^3 nodes";
-        watch.tell(share, name);
+        monitor.report(share, name);
         const HangingCube cube(edge, options.psi_n_per_m5);
         const auto preconditioner =
             std::make_shared<tissue::CellPreconditioner>(cube.system, cube.solid, kStep_s);
 
         Fall run = fall(cube, preconditioner, iterations, options);
         while (!(run.error.back() <= options.accuracy) && iterations < kMostIterations) {
-            watch.tell(share, name);
+            monitor.report(share, name);
             run = fall(cube, preconditioner, ++iterations, options);
         }
         const double nodes = cube.system.size(), ms = middle_of(run.step_ms);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::bench {
 
@@ -24,6 +24,6 @@ struct SolidBenchOptions {
 
 /// "cases": nodes, iterations, step_ms (median), least_step_ms, median_error, worst_error, converged_step_ms, newton_step_ms
 /// (or null), and the growth exponents of time over nodes between one case and the next.
-Json bench_solids(const SolidBenchOptions& options, const Watch& watch = {});
+Json bench_solids(const SolidBenchOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::bench

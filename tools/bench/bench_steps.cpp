@@ -62,7 +62,7 @@ struct StepRun {
 };
 
 StepRun play(const scene::RigFiles& files, const face::DriveAt& drive, const StepBench& one,
-             const Watch& watch) {
+             const ProgressMonitor& monitor) {
     face::Face face(files.rig, files.mesh, one.quality, files.place());
     face.start(drive);
     StepRun out;
@@ -70,7 +70,7 @@ StepRun play(const scene::RigFiles& files, const face::DriveAt& drive, const Ste
     out.tets = face.tet_count();
     for (int step = 0; step < one.steps; ++step) {
         if (step % 20 == 0)
-            watch.tell(static_cast<double>(step) / one.steps, "steps, " + one.quality.name);
+            monitor.report(static_cast<double>(step) / one.steps, "steps, " + one.quality.name);
         const report::CoreStopwatch stopwatch;
         out.iterations += face.step(drive).iterations / static_cast<double>(one.steps);
         out.step_ms.push_back(1e3 * stopwatch.seconds());
@@ -126,7 +126,7 @@ std::vector<StepBench> usual_step_benches() {
 }
 
 Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cases,
-                 const Watch& watch) {
+                 const ProgressMonitor& monitor) {
     const track::Timeline timeline(step_track(files), files.rig.channels());
     const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
     std::map<std::tuple<int, int, double>, SkinTrack>
@@ -141,7 +141,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
         exact.iterations = kConvergedIterations;
         exact.tolerance_rms_m = kConverged_m;
         exact.precision = solve::Precision::kDouble;
-        converged[key(one)] = play(files, drive, {exact, one.steps}, watch).skin;
+        converged[key(one)] = play(files, drive, {exact, one.steps}, monitor).skin;
     }
 
     // Every case before any comes again: a machine that others share is slow for seconds on end.
@@ -149,7 +149,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
     std::vector<std::vector<double>> least_ms(cases.size());
     for (int time = 0; time < kTimesPlayed; ++time)
         for (std::size_t i = 0; i < cases.size(); ++i) {
-            StepRun run = play(files, drive, cases[i], watch);
+            StepRun run = play(files, drive, cases[i], monitor);
             if (time == 0) {
                 least_ms[i] = run.step_ms;
                 runs[i] = std::move(run);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/face/face.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/script.h"
@@ -29,7 +29,7 @@ struct StepBench {
 /// Per entry: quality, nodes, tets, most_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
 /// largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cases,
-                 const Watch& watch = {});
+                 const ProgressMonitor& monitor = {});
 
 /// The qualities to choose from, then shells of about 10 and 20 thousand nodes at the iterations of "fine" for the first
 /// second.

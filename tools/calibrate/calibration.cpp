@@ -194,7 +194,7 @@ class Calibration {
                         force[e].push_back(difference(more[e], gradient, 2 * step));
                 }
             }
-            if (i % 100 == 99) tell("  " + std::to_string(i + 1) + " parameters tried");
+            if (i % 100 == 99) report("  " + std::to_string(i + 1) + " parameters tried");
         }
         solve::BoxQuadratic problem;
         problem.A = Eigen::MatrixXd::Zero(z_.size(), z_.size());
@@ -278,7 +278,7 @@ class Calibration {
         char line[160];
         std::snprintf(line, sizeof line, "%s: cost %.5f, mean relative error %.4f", what.c_str(),
                       trial.cost, sum);
-        tell(line);
+        report(line);
     }
 
     const scene::RigFiles& files_;

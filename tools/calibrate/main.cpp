@@ -8,7 +8,7 @@
 #include "risorius/face/face.h"
 #include "risorius/inverse/evaluate.h"
 #include "risorius/rig/head.h"
-#include "risorius/scene/landmark_ways.h"
+#include "risorius/scene/landmark_displacements.h"
 #include "risorius/scene/rig_files.h"
 #include "tools/calibrate/calibration.h"
 #include "tools/calibrate/tables.h"
@@ -43,8 +43,8 @@ void write_ways(const std::filesystem::path& rig_file, const std::string& qualit
                 const std::filesystem::path& standard) {
     const scene::RigFiles files = scene::read_rig_files(rig_file);
     face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
-    scene::LandmarkWays ways(face, files.rig, files.place());
-    scene::WayTable table;
+    scene::LandmarkDisplacements ways(face, files.rig, files.place());
+    scene::DisplacementTable table;
     // Those that lids and jaw bring about say nothing about the strength of muscles
     const std::set<std::string> others{"eyeBlink", "eyeWide", "jawForward", "jawOpen"};
     for (const std::string& name : inverse::twenty_four_expressions()) {

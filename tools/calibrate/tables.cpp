@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 
 namespace risorius::calibrate {
 
@@ -156,8 +156,8 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
     report::write_text(folder / "facs.json", text_of(facs, 2) + "\n");
 }
 
-void write_ways(const scene::WayTable& ways, const std::filesystem::path& folder) {
-    const Json json = scene::landmark_ways_json(
+void write_ways(const scene::DisplacementTable& ways, const std::filesystem::path& folder) {
+    const Json json = scene::landmark_displacements_json(
         ways,
         "How the landmarks of the head in calibration.json go in its calibrated expressions, mm at "
         "atlas size; written by tools/calibrate");

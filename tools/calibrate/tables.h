@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "risorius/scene/landmark_ways.h"
+#include "risorius/scene/landmark_displacements.h"
 #include "tools/calibrate/calibration.h"
 
 namespace risorius::calibrate {
@@ -20,6 +20,6 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
                   const std::filesystem::path& folder);
 
 /// landmark_ways.json.
-void write_ways(const scene::WayTable& ways, const std::filesystem::path& folder);
+void write_ways(const scene::DisplacementTable& ways, const std::filesystem::path& folder);
 
 }  // namespace risorius::calibrate

@@ -118,8 +118,8 @@ void run(BatchArguments& arguments) {
     {
         ProgressBar bar(arguments.common);
         report = arguments.engine == "slurm"
-                     ? stimuli::make_batch_on_slurm(options, arguments.slurm, bar.watch())
-                     : stimuli::make_batch(options, bar.watch());
+                     ? stimuli::make_batch_on_slurm(options, arguments.slurm, bar.monitor())
+                     : stimuli::make_batch(options, bar.monitor());
     }
     if (arguments.common.json) {
         std::printf("%s\n", report.json().dump().c_str());

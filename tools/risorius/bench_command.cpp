@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "risorius/report/beside.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/output_paths.h"
 #include "tools/bench/bench_machine.h"
 #include "tools/risorius/commands.h"
 
@@ -145,7 +145,7 @@ void run(const BenchArguments& arguments) {
     options.faces = !arguments.only_solids;
     {
         ProgressBar bar(arguments.common);
-        report = bench::bench_machine(options, bar.watch());
+        report = bench::bench_machine(options, bar.monitor());
     }
     const std::string text = report.dump(2) + "\n";
     if (!arguments.out.empty()) report::write_text(arguments.out, text);

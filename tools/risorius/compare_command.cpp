@@ -36,7 +36,7 @@ void run_compare(CompareArguments& arguments) {
     Json record;
     {
         ProgressBar bar(arguments.common);
-        record = animate::compare(left, right, bar.watch());
+        record = animate::compare(left, right, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", record.dump(2).c_str());

@@ -84,7 +84,7 @@ void compare(EvaluateArguments& arguments) {
                                             arguments.options.only.empty()
                                                 ? inverse::twenty_four_expressions()
                                                 : arguments.options.only,
-                                            arguments.options.quality, bar.watch());
+                                            arguments.options.quality, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", comparison.json().dump(2).c_str());
@@ -101,7 +101,7 @@ void run(EvaluateArguments& arguments) {
     inverse::Evaluation evaluation;
     {
         ProgressBar bar(arguments.common);
-        evaluation = inverse::evaluate(arguments.options, bar.watch());
+        evaluation = inverse::evaluate(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", evaluation.json().dump(2).c_str());

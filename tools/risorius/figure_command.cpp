@@ -70,7 +70,7 @@ void run(const FigureArguments& arguments) {
     figures::FigureReport report;
     {
         ProgressBar bar(arguments.common);
-        report = figures::run_figures(options, bar.watch());
+        report = figures::run_figures(options, bar.monitor());
     }
     const std::string page = (options.out / "index.html").generic_string();
     if (arguments.common.json) {

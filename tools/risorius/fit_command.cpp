@@ -83,7 +83,7 @@ void run(FitArguments& arguments) {
     fitting::FitReport report;
     {
         ProgressBar bar(arguments.common);
-        report = fitting::fit_rig(arguments.options, bar.watch());
+        report = fitting::fit_rig(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());

@@ -22,7 +22,7 @@ void run(HeadArguments& arguments) {
     headmodel::SculptReport report;
     {
         ProgressBar bar(arguments.common);
-        report = headmodel::sculpt_head(arguments.options, bar.watch());
+        report = headmodel::sculpt_head(arguments.options, bar.monitor());
     }
     if (arguments.common.json) {
         std::printf("%s\n", report.json().dump(2).c_str());

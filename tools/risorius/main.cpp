@@ -1,4 +1,5 @@
 // The command line: turns arguments into calls of src/app and what they throw into messages and exit codes.
+#include <algorithm>
 #include <cstdio>
 #include <regex>
 #include <string>
@@ -6,8 +7,8 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/core/version.h"
-#include "risorius/core/watch.h"
 #include "tools/risorius/commands.h"
 
 namespace {
@@ -19,7 +20,16 @@ int say(ExitCode code, const std::string& message) {
     return code;
 }
 
-using risorius::quoted;
+using risorius::in_quotes;
+
+/// The flag of the command line that sets a field of an options struct: its name without the unit.
+std::string flag_of(const std::string& field) {
+    std::string flag = field;
+    for (const char* unit : {"_s", "_deg", "_mm", "_px"})
+        if (flag.ends_with(unit)) flag.erase(flag.size() - std::string(unit).size());
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return "--" + flag;
+}
 
 // Mistakes on the command line in the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
@@ -31,7 +41,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
             listed += " " + names.back();
         }
         return "command line: expected a command, one of" + listed +
-               (argc > 1 ? risorius::did_you_mean(argv[1], names) + ", found " + quoted(argv[1])
+               (argc > 1 ? risorius::did_you_mean(argv[1], names) + ", found " + in_quotes(argv[1])
                          : ", found none");
     }
     const CLI::App& command = *app.get_subcommands().front();
@@ -47,7 +57,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
                 for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
         return place + ": expected only what risorius " + place + " --help lists" +
                risorius::did_you_mean(found.substr(0, found.find('=')), names) + ", found " +
-               quoted(found);
+               in_quotes(found);
     }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) &&
         text.find("received") != std::string::npos)  // "--fps: At Most 1 required but received 2"
@@ -62,7 +72,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
             const std::string option = text.substr(name, equals - name);
             const bool whole = command.get_option(option)->get_type_name() == "INT";
             return place + " " + option + ": expected " + (whole ? "an integer" : "a number") +
-                   ", found " + quoted(text.substr(equals + 3));
+                   ", found " + in_quotes(text.substr(equals + 3));
         }
     }
     // "--texture: Value 99999 not in range 256 to 4096", "--quality: best not in {draft,fine}", "--steps excludes --shapes"
@@ -73,7 +83,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     if (std::regex_match(text, part, std::regex("(.*): (.*) not in \\{(.*)\\}")))
         return place + " " + part.str(1) + ": expected one of " +
                std::regex_replace(part.str(3), std::regex(","), ", ") + ", found " +
-               quoted(part.str(2));
+               in_quotes(part.str(2));
     if (std::regex_match(text, part, std::regex("(--[^ ]*) excludes (--[^ ]*)")))
         return place + ": expected " + part.str(1) + " or " + part.str(2) + ", found both";
     if (std::regex_match(text, part, std::regex("(--[^ ]*) requires (--[^ ]*)")))
@@ -109,7 +119,7 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
         return say(kWrongInput, message_of(error, app, argc, argv));
     } catch (const Error& error) {
-        return say(kWrongInput, error.what());
+        return say(kWrongInput, error.worded(flag_of));
     } catch (const cli::SaidAlready&) {
         return kWrongInput;
     } catch (const Interrupted&) {

@@ -21,7 +21,7 @@ void run(RenderArguments& arguments) {
     animate::RunRecord record;
     {
         ProgressBar bar(arguments.common);
-        record = animate::animate(arguments.options, bar.watch());
+        record = animate::animate(arguments.options, bar.monitor());
     }
     if (arguments.common.json) {
         std::printf("%s\n", record.json().dump(2).c_str());

@@ -71,7 +71,7 @@ void run(ShapesArguments& arguments) {
     blendshapes::ShapesReport report;
     {
         ProgressBar bar(arguments.common);
-        report = blendshapes::bake_shapes(arguments.options, bar.watch());
+        report = blendshapes::bake_shapes(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());

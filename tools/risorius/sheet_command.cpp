@@ -21,7 +21,7 @@ void run_sheet(SheetArguments& arguments) {
     Json record;
     {
         ProgressBar bar(arguments.common);
-        record = animate::make_sheet(arguments.options, bar.watch());
+        record = animate::make_sheet(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", record.dump(2).c_str());

@@ -33,7 +33,7 @@ void run(SolveArguments& arguments) {
     inverse::SolveReport report;
     {
         ProgressBar bar(arguments.common);
-        report = inverse::solve_activations(arguments.options, bar.watch());
+        report = inverse::solve_activations(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", report.json().dump(2).c_str());

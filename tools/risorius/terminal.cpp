@@ -38,7 +38,7 @@ ProgressBar::~ProgressBar() {
     if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
 }
 
-Watch ProgressBar::watch() {
+ProgressMonitor ProgressBar::monitor() {
     return {.progress = [this](double share, const std::string& what) { show(share, what); },
             .stopped = [] { return interrupted != 0; }};
 }

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace CLI {
 class App;
@@ -30,7 +30,7 @@ class ProgressBar {
   public:
     explicit ProgressBar(const Common& common);
     ~ProgressBar();
-    Watch watch();
+    ProgressMonitor monitor();
 
   private:
     void show(double share, const std::string& what);

@@ -8,8 +8,8 @@
 #include "risorius/core/error.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/video_writer.h"
-#include "risorius/report/beside.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
 
 namespace risorius::animate {
@@ -47,35 +47,35 @@ class Output {
 
 }  // namespace
 
-RunRecord animate(const AnimateOptions& options, const Watch& watch) {
+RunRecord animate(const AnimateOptions& options, const ProgressMonitor& monitor) {
     const report::Stopwatch total;
     if (options.out.extension() == ".png" && !options.still_s)
         throw Error(
             options.out.string(),
-            "--still TIME with it, the name of a video, or of a folder of PNG frames, which "
-            "ends in /",
+            option_name("still_s") +
+                " with it, the name of a video, or of a folder of PNG frames, which ends in /",
             "\".png\" alone");
     const Shot shot = plan_shot(options);
-    report::check_record(report::beside(options.out, ".json"));
-    report::check_table(report::beside(options.out, ".frames.tsv"));
+    report::check_record(report::output_path(options.out, ".json"));
+    report::check_table(report::output_path(options.out, ".frames.tsv"));
     Output output(options.out, shot, options.still_s.has_value());
 
     // One picture per frame
     FilmExtras extras;
-    extras.passes_folder = report::beside(options.out, ".passes");
+    extras.passes_folder = report::output_path(options.out, ".passes");
     RunRecord record = film(
-        options, shot, [&](Image image) { output.append(std::move(image)); }, extras, watch);
+        options, shot, [&](Image image) { output.append(std::move(image)); }, extras, monitor);
 
     // Leave everything or nothing
-    report::StagedFile frame_table(report::beside(options.out, ".frames.tsv"), extras.table);
+    report::AtomicFile frame_table(report::output_path(options.out, ".frames.tsv"), extras.table);
     const report::Stopwatch closing;
     output.finish();
     if (extras.passes) extras.passes->commit();
     record.timing.encode_s += closing.seconds();
     record.timing.total_s = total.seconds();
-    report::write_text(report::beside(options.out, ".json"), record.json().dump(2) + "\n");
+    report::write_text(report::output_path(options.out, ".json"), record.json().dump(2) + "\n");
     frame_table.commit();
-    watch.tell(1, "done");
+    monitor.report(1, "done");
     return record;
 }
 

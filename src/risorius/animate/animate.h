@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "risorius/animate/detail/run_record.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/media/video_writer.h"
 
 namespace risorius::animate {
@@ -67,6 +67,6 @@ std::string quality_of(const AnimateOptions& options);
 
 /// Writes OUT, and beside it OUT.json (the record returned) and OUT.frames.tsv; all of them or none. Throws Error for
 /// input, RunError when writing fails, Interrupted when asked to stop.
-RunRecord animate(const AnimateOptions& options, const Watch& watch = {});
+RunRecord animate(const AnimateOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

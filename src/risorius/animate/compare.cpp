@@ -10,8 +10,8 @@
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/lettering.h"
-#include "risorius/report/beside.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/output_paths.h"
 
 namespace risorius::animate {
 
@@ -66,7 +66,8 @@ void write_caption(const std::string& text, Image& image) {
 
 }  // namespace
 
-Json compare(const AnimateOptions& left, const AnimateOptions& right, const Watch& watch) {
+Json compare(const AnimateOptions& left, const AnimateOptions& right,
+             const ProgressMonitor& monitor) {
     // Plan both, alike but for what is compared
     const Shot first = plan_shot(left);
     AnimateOptions other = right;
@@ -79,18 +80,18 @@ Json compare(const AnimateOptions& left, const AnimateOptions& right, const Watc
     media::VideoOptions coding = first.video;
     coding.width_px = 2 * first.view.width_px + kGap_px;
     media::check_target(left.out, coding);
-    const fs::path record = report::beside(left.out, ".json"),
-                   tables[] = {report::beside(left.out, ".left.frames.tsv"),
-                               report::beside(left.out, ".right.frames.tsv")};
+    const fs::path record = report::output_path(left.out, ".json"),
+                   tables[] = {report::output_path(left.out, ".left.frames.tsv"),
+                               report::output_path(left.out, ".right.frames.tsv")};
     report::check_record(record);
     for (const fs::path& table : tables) report::check_table(table);
     media::VideoWriter video(left.out, coding);  // makes the folder too
 
     const auto half = [&](double begun) {
-        Watch part = watch;
-        if (watch.progress)
-            part.progress = [&watch, begun](double share, const std::string& what) {
-                watch.progress(begun + 0.5 * share, what);
+        ProgressMonitor part = monitor;
+        if (monitor.progress)
+            part.progress = [&monitor, begun](double share, const std::string& what) {
+                monitor.progress(begun + 0.5 * share, what);
             };
         return part;
     };
@@ -135,13 +136,13 @@ Json compare(const AnimateOptions& left, const AnimateOptions& right, const Watc
     Json json{{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}};
     json["left"] = records[0].json();
     json["right"] = records[1].json();
-    report::StagedFile table_left(tables[0], extras[0].table),
+    report::AtomicFile table_left(tables[0], extras[0].table),
         table_right(tables[1], extras[1].table), both(record, json.dump(2) + "\n");
     video.finish();
     table_left.commit();
     table_right.commit();
     both.commit();
-    watch.tell(1, "done");
+    monitor.report(1, "done");
     return json;
 }
 

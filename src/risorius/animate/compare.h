@@ -12,6 +12,7 @@ namespace risorius::animate {
 ///
 /// Writes left.out, and beside it OUT.json (both records), OUT.left.frames.tsv and OUT.right.frames.tsv. Throws Error, RunError,
 /// Interrupted.
-Json compare(const AnimateOptions& left, const AnimateOptions& right, const Watch& watch = {});
+Json compare(const AnimateOptions& left, const AnimateOptions& right,
+             const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

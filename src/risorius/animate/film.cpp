@@ -8,8 +8,8 @@
 
 #include "risorius/animate/detail/frame_table.h"
 #include "risorius/animate/detail/marked_pictures.h"
+#include "risorius/animate/detail/pipeline.h"
 #include "risorius/animate/detail/reference_run.h"
-#include "risorius/animate/detail/three_stages.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/face/face.h"
 #include "risorius/media/sha256.h"
@@ -19,7 +19,7 @@
 #include "risorius/scene/rig_files.h"
 #include "risorius/scene/scene_from_rig.h"
 #include "risorius/scene/script_drives.h"
-#include "risorius/scene/sight.h"
+#include "risorius/scene/visualization.h"
 #include "risorius/track/simulated_emg.h"
 #include "risorius/track/timeline.h"
 
@@ -70,7 +70,7 @@ RunRecord describe(const AnimateOptions& options, const Shot& shot,
     record.shutter_deg = shot.shutter_deg;
     record.shutter_moments = shot.moments();
     if (shot.view.show == render::Show::kStrain || shot.view.show == render::Show::kError)
-        record.scale_to = scene::Sight::scale_end(shot.view.show, options.scale);
+        record.scale_to = scene::Visualization::scale_end(shot.view.show, options.scale);
     record.show = render::show_names()[static_cast<std::size_t>(shot.view.show)];
     record.background = shot.background_text();
     record.quality = quality_of(options);
@@ -110,13 +110,13 @@ void flip_motion(const Points& rest, face::FacePose& pose) {
 }  // namespace
 
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
-               FilmExtras& extras, const Watch& watch) {
+               FilmExtras& extras, const ProgressMonitor& monitor) {
     Studio studio;
-    return film(options, shot, use, extras, watch, studio);
+    return film(options, shot, use, extras, monitor, studio);
 }
 
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
-               FilmExtras& extras, const Watch& watch, Studio& studio) {
+               FilmExtras& extras, const ProgressMonitor& monitor, Studio& studio) {
     const report::Stopwatch total;
 
     // Read what was asked for
@@ -127,7 +127,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         track::read_script(options.script, channels, files.rig.facs, files.rig.expressions);
 
     // Build what runs
-    watch.tell(0, "building the face");
+    monitor.report(0, "building the face");
     face::Face& face = studio.face(quality);
     face.drive_jaw_by(script.header.jaw);
     face.set_gravity(script.header.gravity_m_s2);
@@ -145,8 +145,9 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     const render::Scene& scene = studio.scene(shot.view, std::max(workers, 1));
     const render::OffscreenView& view = studio.view();
     const scene::LandmarkPoints landmarks(face.head(), files.rig);
-    const scene::Sight sight(shot.view.show, scene, face.head(), files.mesh, view,
-                             shot.view.width_px, shot.view.height_px, landmarks, options.scale);
+    const scene::Visualization sight(shot.view.show, scene, face.head(), files.mesh, view,
+                                     shot.view.width_px, shot.view.height_px, landmarks,
+                                     options.scale);
     std::optional<ReferenceRun> reference;
     if (options.against)
         reference.emplace(*options.against, shot.script.rig_file, quality_of(options),
@@ -186,7 +187,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         if (frame == 0 && moment == 0 && !shapes) face.start(drive);
         while (!shapes && script.header.motion == track::Motion::kDynamic &&
                face.time_s() + 2 * face.step_s() < t_s) {  // what leads up to a still
-            watch.tell(face.time_s() / t_s, "simulating");
+            monitor.report(face.time_s() / t_s, "simulating");
             face.step(drive);
         }
         std::optional<track::Drive> played;
@@ -234,7 +235,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
                      drawing.seconds()};
     };
     const auto show = [&](int frame, Drawn drawn) {
-        watch.tell(static_cast<double>(frame) / shot.frames, kRendering);
+        monitor.report(static_cast<double>(frame) / shot.frames, kRendering);
         const report::Stopwatch marking;
         Image& image = drawn.image;
         sight.draw_over(drawn.positions, image);
@@ -248,7 +249,7 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
         use(std::move(image));
         record.timing.encode_s += encoding.seconds();
     };
-    in_three_stages(shot.frames, workers, simulate, draw, show);
+    run_pipeline(shot.frames, workers, simulate, draw, show);
 
     record.frames_sha256 = hash.finish();
     record.solver = solver_figures(face.history(), most_inverted_tets);

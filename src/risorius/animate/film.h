@@ -14,6 +14,9 @@
 
 namespace risorius::animate {
 
+/// What the monitor is told while frames are drawn.
+inline constexpr const char* kRendering = "rendering";
+
 /// Gets the pictures in order, on a thread of its own when there are several.
 using UsePicture = std::function<void(Image)>;
 
@@ -26,8 +29,8 @@ struct FilmExtras {
 
 /// Throws Error for input, Interrupted when asked to stop. In a studio that has been used before, the same film is made sooner.
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
-               FilmExtras& extras, const Watch& watch, Studio& studio);
+               FilmExtras& extras, const ProgressMonitor& monitor, Studio& studio);
 RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture& use,
-               FilmExtras& extras, const Watch& watch);
+               FilmExtras& extras, const ProgressMonitor& monitor);
 
 }  // namespace risorius::animate

@@ -8,9 +8,9 @@
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
 #include "risorius/media/image_file.h"
-#include "risorius/report/beside.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/contact_sheet.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/output_paths.h"
 
 namespace risorius::animate {
 
@@ -22,16 +22,18 @@ void check_sheet(const SheetOptions& options) {
     if (options.out.extension() != ".png")
         throw Error(options.out.string(), "an ending of .png",
                     "\"" + options.out.extension().string() + "\"");
-    if (options.times_s.empty()) throw Error("--times", "at least one time in seconds", "none");
+    if (options.times_s.empty())
+        throw Error(option_name("times_s"), "at least one time in seconds", "none");
     const std::size_t pictures = options.scripts.size() * options.times_s.size() *
                                  std::max<std::size_t>(1, options.cameras.size()) *
                                  std::max<std::size_t>(1, options.rigs.size());
     if (pictures > kMostPictures)
-        throw Error("--times", "at most " + std::to_string(kMostPictures) + " pictures on a sheet",
+        throw Error(option_name("times_s"),
+                    "at most " + std::to_string(kMostPictures) + " pictures on a sheet",
                     std::to_string(pictures));
     for (const std::string& camera : options.cameras)
-        index_of_name("--cameras", camera, render::camera_names());
-    report::check_record(report::beside(options.out, ".json"));
+        index_of_name(option_name("cameras"), camera, render::camera_names());
+    report::check_record(report::output_path(options.out, ".json"));
 }
 
 /// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the folder where all files have one name.
@@ -93,7 +95,7 @@ std::vector<AnimateOptions> runs_of(const SheetOptions& options) {
 
 }  // namespace
 
-Json make_sheet(const SheetOptions& options, const Watch& watch) {
+Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
     check_sheet(options);
     const std::vector<AnimateOptions> runs = runs_of(options);
     std::vector<Shot> shots;
@@ -126,10 +128,10 @@ Json make_sheet(const SheetOptions& options, const Watch& watch) {
             if (!options.cameras.empty()) shots[i].view.camera = camera;
             std::vector<Image> pictures;
             FilmExtras extras;
-            Watch part = watch;
-            if (watch.progress)
+            ProgressMonitor part = monitor;
+            if (monitor.progress)
                 part.progress = [&](double share, const std::string& what) {
-                    watch.progress((begun + share) / all, what);
+                    monitor.progress((begun + share) / all, what);
                 };
             const RunRecord run = film(
                 runs[i], shots[i], [&](Image image) { pictures.push_back(std::move(image)); },
@@ -147,7 +149,7 @@ Json make_sheet(const SheetOptions& options, const Watch& watch) {
         sheet.rows.push_back(std::move(row));
     }
     sheet.rows.insert(sheet.rows.end(), others.begin(), others.end());
-    report::StagedFile staged(report::beside(options.out, ".json"), record.dump(2) + "\n");
+    report::AtomicFile staged(report::output_path(options.out, ".json"), record.dump(2) + "\n");
     media::write_png(report::draw_contact_sheet(sheet), options.out);
     staged.commit();
     return record;

@@ -22,6 +22,6 @@ struct SheetOptions {
 };
 
 /// Writes OUT and OUT.json, the records of all runs. Throws Error, RunError, Interrupted.
-Json make_sheet(const SheetOptions& options, const Watch& watch = {});
+Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

@@ -8,8 +8,8 @@
 #include "risorius/blendshapes/detail/shape_files.h"
 #include "risorius/blendshapes/detail/shapes_page.h"
 #include "risorius/core/known_names.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/report/stopwatch.h"
 
 namespace risorius::blendshapes {
@@ -138,7 +138,7 @@ ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable
 // The linear rig against the simulation, frame by frame.
 std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const ShapeSolver& solver,
                                        const ShapesOptions& options, const ShapesReport& report,
-                                       const Watch& watch) {
+                                       const ProgressMonitor& monitor) {
     const track::ChannelTable channels = files.rig.channels();
     struct Track {
         std::string name;
@@ -169,7 +169,7 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
     for (const Track& track : tracks) {
         const auto done = static_cast<double>(out.size());
         out.push_back(track_error(track.name, report.correctives.rig, solver, track.drives,
-                                  track.weights, watch.part(done / all, (done + 1) / all)));
+                                  track.weights, monitor.subrange(done / all, (done + 1) / all)));
         out.back().of_track = track.frames;
     }
     return out;
@@ -217,12 +217,12 @@ Json ShapesReport::json() const {
             {"bytes", bytes}};
 }
 
-ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
+ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {
     for (const std::string& format : options.formats)
-        index_of_name("--formats", format, shape_formats());
+        index_of_name(option_name("formats"), format, shape_formats());
     const scene::RigFiles files = scene::read_rig_files(options.rig);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
-    report::StagedFolder folder(options.out);
+    report::AtomicFolder folder(options.out);
 
     // About, of the time of a run
     const double solved = 0.35, corrected = options.correctives ? 0.65 : solved,
@@ -236,7 +236,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
         report.animation = bake_script(options.script, files, set.goals,
                                        ShapeWeights(*face, files.rig.channels(), set.goals));
     }
-    report.shapes = make_shapes(files, set, solver, watch.part(0, solved));
+    report.shapes = make_shapes(files, set, solver, monitor.subrange(0, solved));
     CorrectiveOptions corrective = correctives_of_set(set.name);
     corrective.pairs = options.pairs.value_or(corrective.pairs);
     corrective.tolerance_m = options.corrective_tolerance_m.value_or(corrective.tolerance_m);
@@ -245,13 +245,13 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
         report.correctives =
             find_correctives(files, report.shapes, solver, corrective,
                              frames_to_fit(report, files.rig.channels(), corrective.random_frames),
-                             watch.part(solved, corrected));
+                             monitor.subrange(solved, corrected));
     else
         for (const MadeShape& made : report.shapes.list)
             report.correctives.rig.shapes.push_back(made.shape);
     if (options.test_frames > 0)
         report.tracks =
-            compare_tracks(files, solver, options, report, watch.part(corrected, compared));
+            compare_tracks(files, solver, options, report, monitor.subrange(corrected, compared));
     report.solving_s = time.seconds();
     report.name = files.rig.name;
     report.rig = options.rig.generic_string();
@@ -294,7 +294,8 @@ ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch) {
     // What people look at
     std::optional<ShapesPictures> pictures;
     if (options.pictures) {
-        pictures = draw_shapes(report, files, head, folder.partial(), watch.part(compared, 1));
+        pictures =
+            draw_shapes(report, files, head, folder.partial(), monitor.subrange(compared, 1));
         written.insert(written.end(), pictures->files.begin(), pictures->files.end());
     }
     report::write_text(folder.partial() / "index.html",

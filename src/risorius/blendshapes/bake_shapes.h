@@ -10,7 +10,7 @@
 #include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::blendshapes {
 
@@ -56,6 +56,6 @@ struct ShapesReport {
 };
 
 /// Throws Error when the rig cannot be used, Interrupted; then nothing is left behind.
-ShapesReport bake_shapes(const ShapesOptions& options, const Watch& watch = {});
+ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::blendshapes

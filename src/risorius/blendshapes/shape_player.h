@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "risorius/blendshapes/detail/linear_rig.h"
-#include "risorius/blendshapes/detail/played_rig.h"
+#include "risorius/blendshapes/detail/blend_shape_player.h"
+#include "risorius/blendshapes/detail/blend_shape_rig.h"
 #include "risorius/blendshapes/detail/shape_goals.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/face/face.h"
@@ -19,8 +19,8 @@ namespace risorius::blendshapes {
 /// Of a glTF file that `risorius shapes` has left.
 struct ShapesOfFile {
     std::string set;
-    std::vector<ShapeGoal> goals;  ///< what drives each shape, by the rig's tables
-    blendshapes::LinearRig rig;    ///< on the vertices of the mesh
+    std::vector<ShapeGoal> goals;    ///< what drives each shape, by the rig's tables
+    blendshapes::BlendShapeRig rig;  ///< on the vertices of the mesh
 };
 
 /// Throws Error when the file is none of `risorius shapes`, or of another mesh, or its shapes are not in the rig's tables.
@@ -38,7 +38,7 @@ class ShapePlayer {
 
   private:
     ShapesOfFile shapes_;
-    blendshapes::PlayedRig played_;
+    blendshapes::BlendShapePlayer played_;
     const face::Face& face_;
     ShapeWeights weights_;
 };

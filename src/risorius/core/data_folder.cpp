@@ -64,7 +64,7 @@ std::filesystem::path data_folder() {
     if (const char* named = std::getenv("RISORIUS_DATA"); named && *named) {
         if (!holds_data(named))
             throw Error("RISORIUS_DATA", "a folder that holds rigs/standard and models",
-                        quoted(named));
+                        in_quotes(named));
         return named;
     }
     const std::vector<fs::path> folders = candidates();

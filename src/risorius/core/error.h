@@ -2,16 +2,49 @@
 //   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace risorius {
 
 class Error : public std::runtime_error {
   public:
     Error(const std::string& place, const std::string& expected, const std::string& found)
-        : std::runtime_error(place + ": expected " + expected + ", found " + found) {}
+        : Error(place + ": expected " + expected + ", found " + found) {}
+
+    /// The message with `word_for(field)` for each option that option_name() marks in it.
+    std::string worded(const std::function<std::string(const std::string&)>& word_for) const {
+        return put_words(marked_, word_for);
+    }
+
+  private:
+    explicit Error(const std::string& marked)
+        : std::runtime_error(put_words(marked, [](const std::string& field) { return field; })),
+          marked_(marked) {}
+    static std::string put_words(const std::string& marked,
+                                 const std::function<std::string(const std::string&)>& word_for) {
+        std::string out;
+        for (std::size_t i = 0; i < marked.size(); ++i) {
+            const std::size_t end =
+                marked[i] == '\x01' ? marked.find('\x02', i) : std::string::npos;
+            if (end == std::string::npos) {
+                out += marked[i];
+            } else {
+                out += word_for(marked.substr(i + 1, end - i - 1));
+                i = end;
+            }
+        }
+        return out;
+    }
+
+    std::string marked_;
 };
+
+/// The name of an option in the message of an Error. A library names the field of its options struct, as what() shows it; a
+/// program may put its own word in that place, such as a flag of its command line.
+inline std::string option_name(const std::string& field) { return "\x01" + field + "\x02"; }
 
 /// The run itself failed though the input was right: a full disk, an encoder that gives up. Exit code 1.
 class RunError : public std::runtime_error {
@@ -20,6 +53,6 @@ class RunError : public std::runtime_error {
 };
 
 /// For names in messages.
-inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+inline std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 }  // namespace risorius

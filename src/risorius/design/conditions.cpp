@@ -52,15 +52,15 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
         }
         const std::size_t end = set.clip.find('}', i);
         if (end == std::string::npos)
-            throw Error(place, "${name of a parameter}", risorius::quoted(set.clip.substr(i)));
+            throw Error(place, "${name of a parameter}", risorius::in_quotes(set.clip.substr(i)));
         append_word(clip_word(values.filled_text(set.clip.substr(i, end + 1 - i), place)), out);
         i = end + 1;
     }
     if (out.empty())
-        throw Error(place, "a name with letters or digits", risorius::quoted(set.clip));
+        throw Error(place, "a name with letters or digits", risorius::in_quotes(set.clip));
     if (out.size() > kLongestClip)
         throw Error(place, "a name of " + std::to_string(kLongestClip) + " letters at most",
-                    risorius::quoted(out));
+                    risorius::in_quotes(out));
     return out;
 }
 
@@ -84,7 +84,7 @@ class Names {
         const auto [other, is_new] = taken_.emplace(lower_case(clip), place);
         if (!is_new)
             throw Error(place, "a name that no other clip has; put what differs into \"clip\"",
-                        risorius::quoted(clip) + ", as in " + other->second);
+                        risorius::in_quotes(clip) + ", as in " + other->second);
     }
 
   private:

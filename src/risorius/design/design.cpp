@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "risorius/core/counter_rng.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
-#include "risorius/core/place_chance.h"
 #include "risorius/design/conditions.h"
 #include "risorius/design/detail/table.h"
 
@@ -21,7 +21,7 @@ std::vector<Given> read_values(const JsonCursor& json) {
     for (const std::string& name : json.keys()) {
         if (!is_parameter_name(name))
             json.at(name).fail("a name of letters, digits and _, a letter first",
-                               risorius::quoted(name));
+                               risorius::in_quotes(name));
         out.push_back({name, json.at(name)});
     }
     return out;
@@ -37,9 +37,9 @@ std::vector<JsonCursor> made_levels(const std::vector<double>& values, const Jso
 
 // The same number for the same design whatever else is drawn
 double chance(int seed, const std::string& name, int index) {
-    PlaceChance place(static_cast<std::uint64_t>(seed));
+    CounterRng place(static_cast<std::uint64_t>(seed));
     for (const char c : name) place.at(static_cast<unsigned char>(c));
-    return place.at(static_cast<std::uint64_t>(index)).from_zero();
+    return place.at(static_cast<std::uint64_t>(index)).uniform();
 }
 
 constexpr int kMostLevels = 100000;
@@ -106,7 +106,7 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
         for (const std::string& name : v->keys()) {
             if (!is_parameter_name(name))
                 v->at(name).fail("a name of letters, digits and _, a letter first",
-                                 risorius::quoted(name));
+                                 risorius::in_quotes(name));
             set.factors.push_back(read_factor(v->at(name), name, seed));
         }
     if (const auto v = json.find("conditions")) set.rows = read_rows(*v);
@@ -178,7 +178,7 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
         // What both programs and every keyboard call the same
         if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
                                  std::isdigit(static_cast<unsigned char>(key[0]))))
-            answers.at(key).fail("a key from a to z or 0 to 9", risorius::quoted(key));
+            answers.at(key).fail("a key from a to z or 0 to 9", risorius::in_quotes(key));
         out.answers.emplace_back(key, answers.at(key).string());
     }
     if (out.answers.empty()) answers.fail("a key to answer with at least", "none");
@@ -222,7 +222,7 @@ Design read_design(const std::filesystem::path& file) {
         design.sets.push_back(read_set(set, design.seed));
         if (!names.insert(design.sets.back().name).second)
             set.at("name").fail("every set's name once",
-                                risorius::quoted(design.sets.back().name) + " again");
+                                risorius::in_quotes(design.sets.back().name) + " again");
     }
     if (design.sets.empty()) json.at("sets").fail("a set of conditions at least", "none");
     if (design.experiment) check_experiment(json.at("experiment"), design);

@@ -17,7 +17,7 @@
 #include "risorius/face/solver/detail/face_statics.h"
 #include "risorius/face/solver/detail/face_tissue.h"
 #include "risorius/face/solver/detail/tissue_motion.h"
-#include "risorius/face/view/detail/muscle_straps.h"
+#include "risorius/face/view/detail/muscle_ribbons.h"
 #include "risorius/muscle/activation.h"
 #include "risorius/track/channels.h"
 
@@ -41,10 +41,10 @@ Quality quality_named(const std::string& name) {
     if (name == "draft")
         return {.name = "draft",
                 .iterations = 8,
-                .mouth_iterations = 10,
+                .mouth_passes = 10,
                 .step_s = 2 * kStep_s,
                 .longest_piece_s = 2 * kStep_s};
-    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_iterations = 9};
+    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_passes = 9};
     if (name == "video")
         return {.name = "video",
                 .iterations = 80,
@@ -58,7 +58,7 @@ Quality quality_named(const std::string& name) {
                 .least_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
                 .longest_piece_s = kStep_s / 2};
-    throw Error("--quality",
+    throw Error(option_name("quality"),
                 "\"draft\", \"preview\", \"video\" or \"fine\"" +
                     did_you_mean(name, {"draft", "preview", "video", "fine"}),
                 "\"" + name + "\"");
@@ -96,11 +96,11 @@ struct Face::Impl {
     Motion how = Motion::kDynamic;
     long done = 0;         // pieces
     bool in_step = false;  // since it last was at rest
-    std::vector<StepFigures> history;
+    std::vector<StepStats> history;
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
     MuscleSurfaces surfaces;
-    std::optional<MuscleStraps> straps;  // of the surfaces, when they were asked for
+    std::optional<MuscleRibbons> straps;  // of the surfaces, when they were asked for
 
     Impl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
          const Quality& q, const std::string& place)
@@ -112,7 +112,8 @@ struct Face::Impl {
           lids{EyeLids(head, 0, rig.eyes.lid_closed_share),
                EyeLids(head, 1, rig.eyes.lid_closed_share)},
           jaw(head, rig.jaw),
-          shell(borne_by_tissue(build_shell(head, jaw, lids, {q.shell_vertices}), head, rig, lids)),
+          shell(drop_unsupported_vertices(build_shell(head, jaw, lids, {q.shell_vertices}), head,
+                                          rig, lids)),
           mesh(build_tissue_mesh(head, rig, shell, lids)),
           tissue(head, rig, jaw, lids, shell, mesh),
           driven_jaw(head, rig, jaw),
@@ -120,7 +121,7 @@ struct Face::Impl {
           motion(neck, tissue.rest(), piece_s),
           channels(rig.channels()) {
         tissue.step_in(quality.precision);
-        tissue.refine_mouth(quality.mouth_iterations);
+        tissue.refine_mouth(quality.mouth_passes);
         tissue.prepare(motion.effective_step_s());
         poser.emplace(head, rig, jaw, driven_jaw.joint(), lids, shell, mesh);
         dynamics.emplace(
@@ -134,7 +135,10 @@ struct Face::Impl {
         now.drive.excitation = now.activation;
         before = now;
         statics.emplace(
-            tissue, [this](const Eigen::VectorXd& a, const track::Drive& d) { prescribe(a, d); },
+            tissue,
+            [this](const Eigen::VectorXd& a, const track::Drive& d) {
+                set_boundary_conditions(a, d);
+            },
             [this](const Points& x, const Eigen::VectorXd& a, const track::Drive& d) {
                 return pose_of({x, a, d, {}}).vertices;
             },
@@ -165,26 +169,27 @@ struct Face::Impl {
         return weight.norm() < 1e-9 ? Vec3(Vec3::Zero()) : weight;
     }
 
-    Prescribed prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
+    BoundaryState prescribed(const Eigen::VectorXd& activation, const track::Drive& drive) const {
         return {driven_jaw.motion(now.jaw.q, drive), poser->lids(activation, drive),
                 drive.at(track::Kinematic::kMouthPressure), poser->gaze(drive), weight_at(drive)};
     }
 
     // Moves bone, lids and air to where the drive wants them, and x with the bone, so that a fast jaw need not be chased.
-    void prescribe(Points& x, const Eigen::VectorXd& activation, const track::Drive& drive) {
+    void set_boundary_conditions(Points& x, const Eigen::VectorXd& activation,
+                                 const track::Drive& drive) {
         tissue.carry_with_bone(x, driven_jaw.motion(now.jaw.q, now.drive),
                                driven_jaw.motion(now.jaw.q, drive));
-        prescribe(activation, drive);
+        set_boundary_conditions(activation, drive);
     }
-    void prescribe(const Eigen::VectorXd& activation, const track::Drive& drive) {
-        tissue.prescribe(prescribed(activation, drive));
+    void set_boundary_conditions(const Eigen::VectorXd& activation, const track::Drive& drive) {
+        tissue.set_boundary_conditions(prescribed(activation, drive));
     }
 
-    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& drive,
-                       const StaticOptions& options) {
+    StepStats settle(const Eigen::VectorXd& activation, const track::Drive& drive,
+                     const StaticOptions& options) {
         Points x = now.x;
-        prescribe(x, activation, drive);
-        const StepFigures figures =
+        set_boundary_conditions(x, activation, drive);
+        const StepStats figures =
             driven_jaw.by_muscles()
                 ? driven_jaw.settle(tissue, activation, gravity_at(drive), options, x, now.jaw)
                 : statics->settle(activation, options, x);
@@ -204,7 +209,7 @@ struct Face::Impl {
         return times * quality.iterations;
     }
 
-    StepFigures piece(const DriveAt& drive_at) {
+    StepStats piece(const DriveAt& drive_at) {
         const double from = static_cast<double>(done) * piece_s,
                      to = static_cast<double>(done + 1) * piece_s;
         const track::Drive drive = drive_at(to);
@@ -223,14 +228,14 @@ struct Face::Impl {
         const TissueMotion::Step& moves = motion.begin(head_motion(head, drive));
         const double h = motion.effective_step_s();
         tissue.fibres().begin_step(moves.start, moves.expected, h);
-        prescribe(x, activation, drive);
+        set_boundary_conditions(x, activation, drive);
         tissue.find_contacts(x);
         const Points carried = x;
         // The move of the piece before is likely to go on: its curvature is the first the search knows.
         // One that went back on the one before is not: it would be sent to and fro.
         const std::span<const Points> likely(&last_move,
                                              last_move.rows() > 0 && !went_back ? 1 : 0);
-        const StepFigures figures =
+        const StepStats figures =
             driven_jaw.implicit_step(tissue, h, piece_s, moves.start, moves.aim, activation,
                                      {moves.moved, gravity_at(drive)},
                                      {.iterations = iterations(),
@@ -327,7 +332,7 @@ struct Face::Impl {
         const JawVector& q = state.jaw.q;
         FacePose out = poser->pose(
             {state.x, state.activation, state.drive, driven_jaw.motion(q, state.drive)});
-        driven_jaw.tell(q, out);
+        driven_jaw.report(q, out);
         return out;
     }
 };
@@ -377,7 +382,7 @@ void Face::start(const DriveAt& drive) {
         impl_->now.activation = activation;
         impl_->now.drive = first;
         Points x = impl_->now.x;  // a face used before may have left its jaw elsewhere
-        impl_->prescribe(x, activation, first);
+        impl_->set_boundary_conditions(x, activation, first);
         impl_->before = impl_->now;
         impl_->in_step = false;
     } else {
@@ -385,11 +390,11 @@ void Face::start(const DriveAt& drive) {
     }
 }
 
-StepFigures Face::step(const DriveAt& drive) {
-    StepFigures sum = impl_->piece(drive);
+StepStats Face::step(const DriveAt& drive) {
+    StepStats sum = impl_->piece(drive);
     for (int i = 1; i < impl_->pieces; ++i) {
-        const StepFigures next = impl_->piece(drive);
-        const StepFigures before = sum;
+        const StepStats next = impl_->piece(drive);
+        const StepStats before = sum;
         sum = next;
         sum.iterations += before.iterations;
         sum.evaluations += before.evaluations;
@@ -423,8 +428,8 @@ Eigen::VectorXd Face::activation_at(double t_s) const {
     return (1 - share) * impl_->before.activation + share * impl_->now.activation;
 }
 
-StepFigures Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                         const StaticOptions& options) {
+StepStats Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                       const StaticOptions& options) {
     return impl_->settle(impl_->driven_jaw.excitation(activation, kinematic), kinematic, options);
 }
 
@@ -468,7 +473,7 @@ const WrinkleLines& Face::wrinkle_lines() const { return impl_->poser->lines(); 
 const rig::Head& Face::head() const { return impl_->head; }
 const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const Shell& Face::shell() const { return impl_->shell; }
-const std::vector<StepFigures>& Face::history() const { return impl_->history; }
+const std::vector<StepStats>& Face::history() const { return impl_->history; }
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
     impl_->statics->moved();
@@ -552,7 +557,7 @@ Face::Variant::~Variant() = default;
 
 Points Face::Variant::static_gradient(const Points& nodes, const Eigen::VectorXd& activation,
                                       const track::Drive& drive) {
-    parts_->tissue.prescribe(parts_->face.prescribed(activation, drive));
+    parts_->tissue.set_boundary_conditions(parts_->face.prescribed(activation, drive));
     parts_->tissue.begin_rest(nodes);
     return parts_->tissue.static_gradient(nodes, activation);
 }

@@ -37,7 +37,7 @@ struct Quality {
     int iterations = 6;        ///< per piece of a step, at most; as many again for volume
                                ///< muscles, and again for a jaw that muscles move
     int least_iterations = 0;  ///< before the tolerance may stop a piece
-    int mouth_iterations = 0;  ///< then, of the mouth alone, at most
+    int mouth_passes = 0;      ///< then, of the mouth alone, at most
     double tolerance_rms_m =
         0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
     double step_s = kStep_s;
@@ -82,14 +82,14 @@ class Face {
     void start(const DriveAt& drive);
 
     /// One step of the quality's length.
-    StepFigures step(const DriveAt& drive);
+    StepStats step(const DriveAt& drive);
 
     /// Steps until t, and the pose at t: between steps it is interpolated, so that frame rates share their common times.
     FacePose pose_at(double t_s, const DriveAt& drive);
 
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
-    StepFigures settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                       const StaticOptions& options = {.iterations = kRestIterations});
+    StepStats settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                     const StaticOptions& options = {.iterations = kRestIterations});
 
     /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
     /// Nodes, n x 3, m: tissue, then volume muscles.
@@ -140,7 +140,7 @@ class Face {
     /// The simulated skin at the mesh's own resolution, F x 3 mesh vertices.
     const Triangles& simulated_skin() const;
     const Shell& shell() const;
-    const std::vector<StepFigures>& history() const;  ///< of every piece since start()
+    const std::vector<StepStats>& history() const;  ///< of every piece since start()
 
     /// Scales the force of every fibre of a muscle, for calibration.
     void scale_muscle(const std::string& muscle, double factor);

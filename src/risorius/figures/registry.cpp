@@ -125,7 +125,8 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
 void check_experiment(const JsonCursor& experiment) {
     try {
         // Asked to stop at its first step, which comes after all that.
-        run_figure(experiment, {.threads = 1, .stopped = [] { return true; }});
+        run_figure(experiment,
+                   {.threads = 1, .monitor = {.progress = {}, .stopped = [] { return true; }}});
     } catch (const Interrupted&) {
     }
 }

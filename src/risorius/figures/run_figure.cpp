@@ -17,8 +17,8 @@
 #include "risorius/figures/detail/figure_files.h"
 #include "risorius/figures/figure_page.h"
 #include "risorius/figures/registry.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/report/stopwatch.h"
 
 namespace risorius::figures {
@@ -154,9 +154,9 @@ Json results_of_all(const std::vector<ShownFigure>& figures) {
 /// Several at a time, the longest first; when there are fewer left than threads, those go to the work within them.
 class Run {
   public:
-    Run(const FigureOptions& options, const Watch& watch, const std::vector<Job>& jobs)
+    Run(const FigureOptions& options, const ProgressMonitor& monitor, const std::vector<Job>& jobs)
         : options_(options),
-          watch_(watch),
+          monitor_(monitor),
           jobs_(jobs),
           shares_(jobs.size(), 0),
           spare_(ThreadLimit(options.threads).count() - 1),
@@ -200,11 +200,13 @@ class Run {
         const std::string name = jobs_[job].folder.substr(0, jobs_[job].folder.find('/'));
         figures::RunOptions run_options{.threads = {options_.threads, &spare_}};
         run_options.shared = &shared_;
-        run_options.stopped = [this] { return failed_ || (watch_.stopped && watch_.stopped()); };
-        run_options.progress = [&](double share, const std::string& what) {
-            tell(job, share, name.empty() ? what : name + ": " + what);
+        run_options.monitor.stopped = [this] {
+            return failed_ || (monitor_.stopped && monitor_.stopped());
         };
-        run_options.tell(0, name);
+        run_options.monitor.progress = [&](double share, const std::string& what) {
+            report(job, share, name.empty() ? what : name + ": " + what);
+        };
+        run_options.monitor.report(0, name);
         const report::Stopwatch running;
         Done done;
         figures::FigureResult result =
@@ -215,11 +217,11 @@ class Run {
         const report::Stopwatch writing;
         done.shown = write_results(jobs_[job], std::move(result), top, options_.charts);
         done.write_s = writing.seconds();
-        tell(job, 1, name);
+        report(job, 1, name);
         return done;
     }
 
-    void tell(std::size_t job, double share, const std::string& what) {
+    void report(std::size_t job, double share, const std::string& what) {
         const std::lock_guard<std::mutex> lock(telling_);
         shares_[job] = std::max(shares_[job], share);
         double done_s = 0, total_s = 0;
@@ -227,11 +229,11 @@ class Run {
             done_s += shares_[i] * expected_s(jobs_[i]);
             total_s += expected_s(jobs_[i]);
         }
-        if (watch_.progress) watch_.progress(done_s / total_s, what);
+        if (monitor_.progress) monitor_.progress(done_s / total_s, what);
     }
 
     const FigureOptions& options_;
-    const Watch& watch_;
+    const ProgressMonitor& monitor_;
     const std::vector<Job>& jobs_;
     std::vector<double> shares_;  ///< of each job, done
     SpareThreads spare_;
@@ -267,20 +269,20 @@ std::vector<FigureEntry> list_figures(const fs::path& from) {
     return list;
 }
 
-FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
+FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& monitor) {
     // What is asked for, refused before anything is run
     const std::vector<Job> jobs = jobs_of(options);
     for (const Job& job : jobs) {
         const JsonCursor file = JsonCursor::read_file(job.file);
         if (!options.run) figures::check_experiment(file);
     }
-    report::StagedFolder staged(options.out);
+    report::AtomicFolder staged(options.out);
 
     // Each figure
     const report::Stopwatch total;
     Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
     std::vector<ShownFigure> figures;
-    for (Run::Done& done : Run(options, watch, jobs).all(staged.partial())) {
+    for (Run::Done& done : Run(options, monitor, jobs).all(staged.partial())) {
         timing["figures"].push_back(
             {{"id", done.shown.result.id}, {"run_s", done.run_s}, {"write_s", done.write_s}});
         figures.push_back(std::move(done.shown));
@@ -309,7 +311,7 @@ FigureReport run_figures(const FigureOptions& options, const Watch& watch) {
     }
     timing["total_s"] = total.seconds();
     write_json(staged.partial() / "timing.json", timing);
-    watch.tell(1, "written");
+    monitor.report(1, "written");
     staged.commit();
     return report;
 }

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/figures/detail/figure_result.h"
 #include "risorius/figures/detail/run_options.h"
 #include "risorius/plot/write_chart.h"
@@ -50,7 +50,7 @@ struct FigureReport {
 /// All of `out` is written or nothing. Numbers outside of their ranges are a result, not an error. Throws Error for an
 /// unknown figure, a wrong experiment or an `out` that cannot be used, RunError when writing or drawing fails,
 /// Interrupted when asked to stop.
-FigureReport run_figures(const FigureOptions& options, const Watch& watch = {});
+FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& monitor = {});
 
 struct FigureEntry {
     std::string id, title;

@@ -14,8 +14,8 @@
 #include "risorius/fitting/part_guess.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/image_file.h"
-#include "risorius/report/beside.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_folder.h"
+#include "risorius/report/output_paths.h"
 #include "risorius/rig/cut_lips.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
@@ -48,12 +48,12 @@ void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
     const std::string found = format_number(std::stod(size)) + " times the average adult";
     if (!(frame.size > kSmallestHead && frame.size < kLargestHead)) {
         if (options.metres_per_unit)
-            throw Error("--metres-per-unit", "a unit that makes a head of this mesh",
+            throw Error(option_name("metres_per_unit"), "a unit that makes a head of this mesh",
                         format_number(*options.metres_per_unit) + ", which makes one " + found);
-        throw Error(
-            options.landmarks.string() + ":/landmarks",
-            "a head in m, dm, cm, mm, inches or feet (--metres-per-unit names another unit)",
-            "one " + found);
+        throw Error(options.landmarks.string() + ":/landmarks",
+                    "a head in m, dm, cm, mm, inches or feet (" + option_name("metres_per_unit") +
+                        " names another unit)",
+                    "one " + found);
     }
     const double residual_mm = 1e3 * frame.residual_m / frame.size;
     if (residual_mm > kLargestResidual_mm)
@@ -83,7 +83,8 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
         return false;
     }
     if (!options.cut_lips)
-        throw Error(options.mesh.string(), "lips that can part (--cut-lips cuts them)",
+        throw Error(options.mesh.string(),
+                    "lips that can part (" + option_name("cut_lips") + " cuts them)",
                     "skin that runs on from the upper lip to the lower");
     std::vector<int> skin;
     for (const std::string& group : rig.parts.at("skin")) skin.push_back(mesh.group_index(group));
@@ -121,20 +122,21 @@ fs::path changed_mesh_file(const fs::path& rig) {
 
 // Each muscle by itself, then all together.
 void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& standard,
-                   const Watch& watch, rig::RigDescription& rig, FitReport& report) {
+                   const ProgressMonitor& monitor, rig::RigDescription& rig, FitReport& report) {
     const auto part_of = [&](double begin, double end) {
-        Watch part = watch;
-        part.progress = [&watch, begin, end](double done, const std::string& what) {
-            watch.tell(begin + (end - begin) * done, what);
+        ProgressMonitor part = monitor;
+        part.progress = [&monitor, begin, end](double done, const std::string& what) {
+            monitor.report(begin + (end - begin) * done, what);
         };
         return part;
     };
-    const Watch alone = part_of(0, options.together ? 0.4 : 1.0), together = part_of(0.4, 1.0);
+    const ProgressMonitor alone = part_of(0, options.together ? 0.4 : 1.0),
+                          together = part_of(0.4, 1.0);
     report.strengths = calibrate_strength(face, rig, alone);
     if (options.together) {
-        const StrengthFit fit =
-            fit_strengths(face, rig, scene::read_landmark_ways(standard / "landmark_ways.json"), {},
-                          options.out.string(), together);
+        const StrengthFit fit = fit_strengths(
+            face, rig, scene::read_landmark_displacements(standard / "landmark_ways.json"), {},
+            options.out.string(), together);
         report.difference_before = fit.difference_before;
         report.difference = fit.difference;
         rig.lips = fit.lips;
@@ -153,11 +155,11 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
 
 }  // namespace
 
-FitReport fit_rig(const FitOptions& options, const Watch& watch) {
+FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     report::check_overwritten(options.out, {"risorius-rig"}, "no file, or an earlier rig");
     if (options.metres_per_unit &&
         !(*options.metres_per_unit > 0 && std::isfinite(*options.metres_per_unit)))
-        throw Error("--metres-per-unit", "a number in (0, inf)",
+        throw Error(option_name("metres_per_unit"), "a number in (0, inf)",
                     format_number(*options.metres_per_unit));
 
     // Read the mesh, the landmarks and the standard anatomy
@@ -189,11 +191,12 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
             std::string names;
             for (std::string_view known : roles) names += " " + std::string(known);
-            throw Error("--part", "one of the roles" + names, "\"" + role + "\"");
+            throw Error(option_name("part"), "one of the roles" + names, "\"" + role + "\"");
         }
         for (const std::string& group : groups)
             if (mesh.group_index(group) < 0)
-                throw Error("--part", "a group of the mesh: " + quoted_list(mesh.group_names),
+                throw Error(option_name("part"),
+                            "a group of the mesh: " + quoted_list(mesh.group_names),
                             "\"" + group + "\"");
     }
     PartGuess guess =
@@ -202,13 +205,14 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
     report.notes.insert(report.notes.end(), guess.notes.begin(), guess.notes.end());
     if (!rig.parts.count("skin"))
         throw Error(options.mesh.string(),
-                    "a group whose name says that it is skin (--part skin=GROUP names one)",
+                    "a group whose name says that it is skin (" + option_name("part") +
+                        " skin=GROUP names one)",
                     quoted_list(mesh.group_names));
     for (const geom::MeshFinding& finding : scene::check_skin(rig, mesh).findings)
         if (finding.severity == geom::Severity::kWarning) report.notes.push_back(finding.message());
 
     // Prove that a face can be built of it
-    watch.tell(0, "building the face");
+    monitor.report(0, "building the face");
     {
         const rig::Head placed = rig::place_head(rig, mesh, options.out.string());
         for (std::string& note : check_places(placed, landmarks, rig.atlas, options.landmarks))
@@ -222,13 +226,13 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
             options.out.string(),
             "a name for the rig under which the changed mesh does not take the place of yours",
             changed_mesh_file(options.out).string());
-    std::optional<report::StagedFolder> folder;
+    std::optional<report::AtomicFolder> folder;
     if (!options.report.empty()) folder.emplace(options.report);
     face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
     // Make every muscle as strong as it has to be on this head
-    if (options.calibrate) scale_muscles(face, options, standard, watch, rig, report);
+    if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
     // Write it and say what came out
     if (options.out.has_parent_path()) {
@@ -270,7 +274,7 @@ FitReport fit_rig(const FitOptions& options, const Watch& watch) {
         write_fit_report(report, rig, folder->partial());
         folder->commit();
     }
-    watch.tell(1, "done");
+    monitor.report(1, "done");
     return report;
 }
 

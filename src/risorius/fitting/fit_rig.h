@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/fitting/detail/calibrate_strength.h"
 #include "risorius/fitting/detail/fit_picture.h"
 
@@ -53,6 +53,6 @@ struct FitReport {
 };
 
 /// Throws Error when the mesh or the landmarks are not those of a head; then nothing is written.
-FitReport fit_rig(const FitOptions& options, const Watch& watch = {});
+FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::fitting

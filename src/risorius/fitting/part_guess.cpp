@@ -109,9 +109,10 @@ PartGuess guess_parts(const geom::PolygonMesh& mesh,
         }
         if (role.empty()) {
             role = "hidden";
-            guess.notes.push_back("group \"" + group +
-                                  "\" is hidden: its name says no part (--part role=" + group +
-                                  " names one)");
+            guess.notes.push_back(
+                "group \"" + group +
+                "\" is hidden: its name says no part (the option part gives it one: role=" + group +
+                " names one)");
         }
         guess.parts[role].push_back(group);
     }

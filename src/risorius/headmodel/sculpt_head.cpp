@@ -9,8 +9,8 @@
 #include "risorius/headmodel/detail/head_textures.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/scene/scene_from_rig.h"
@@ -80,12 +80,12 @@ Image views_of(const render::Scene& scene) {
 headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     const headmodel::DesignTables tables = design_tables();
     if (choice.seed && !choice.identity.empty())
-        throw Error("--seed", "a seed or --identity", "both");
+        throw Error(option_name("seed"), "a seed or " + option_name("identity"), "both");
     headmodel::Identity identity;
     if (!choice.identity.empty()) {
         fs::path file = choice.identity;
         if (file.extension() != ".json") {
-            index_of_name("--identity", choice.identity, headmodel::named_identities());
+            index_of_name(option_name("identity"), choice.identity, headmodel::named_identities());
             file = headmodel::identity_file(choice.identity);
         }
         identity = headmodel::read_identity(file, tables);
@@ -97,7 +97,7 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     identity.skin = choice.skin.value_or(identity.skin);
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
-    headmodel::check_identity(identity, tables, "--");
+    headmodel::check_identity(identity, tables, option_name);
     if (choice.seed)
         headmodel::deform_within_spread(headmodel::make_head(tables), tables, identity);
     for (const std::string& text : choice.shape) {
@@ -112,19 +112,19 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
             }
         }
         if (used == 0 || equals + 1 + used != text.size())
-            throw Error("--shape", "PARAMETER=NUMBER", quoted(text));
+            throw Error(option_name("shape"), "PARAMETER=NUMBER", in_quotes(text));
         identity.shape[text.substr(0, equals)] = value;
     }
-    headmodel::check_identity(identity, tables, "--");
+    headmodel::check_identity(identity, tables, option_name);
     return identity;
 }
 
-SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
+SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& monitor) {
     if (options.mesh_only && fs::exists(options.out / kRigFile))
-        throw Error("--mesh-only", "a folder without a rig, which it would take away",
-                    quoted((options.out / kRigFile).generic_string()));
+        throw Error(option_name("mesh_only"), "a folder without a rig, which it would take away",
+                    in_quotes((options.out / kRigFile).generic_string()));
     // Shape it, and prove that there are people like this
-    watch.tell(0, "sculpting");
+    monitor.report(0, "sculpting");
     const headmodel::DesignTables tables = design_tables();
     SculptReport report;
     report.out = options.out;
@@ -135,7 +135,7 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
     report.quality = headmodel::head_quality(model, tables, options.identity.sex, false);
 
     // Write mesh, landmarks and who it is
-    report::StagedFolder folder(options.out);
+    report::AtomicFolder folder(options.out);
     const fs::path partial = folder.partial();
     const bool textured = options.texture_px > 0;
     headmodel::write_head(model, partial, textured ? kTextureLibrary : "");
@@ -154,7 +154,7 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
         fit.name = options.identity.name;
         fit.calibrate = options.calibrate;
         fit.solids = true;
-        report.notes = fitting::fit_rig(fit, watch).notes;
+        report.notes = fitting::fit_rig(fit, monitor).notes;
         Json rig = JsonCursor::read_file(fit.out).json();
         rig["look"] = look_json(options.identity, tables);
         // The pictures are for others: drawn here, the head looks the same with and without them.
@@ -172,7 +172,7 @@ SculptReport sculpt_head(const SculptOptions& options, const Watch& watch) {
     std::sort(report.files.begin(), report.files.end());
     report::write_text(partial / kResults, report.json().dump(2) + "\n");
     folder.commit();
-    watch.tell(1, "done");
+    monitor.report(1, "done");
     return report;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/headmodel/detail/identity.h"
 #include "risorius/headmodel/head_quality.h"
 
@@ -46,6 +46,6 @@ struct IdentityChoice {
 headmodel::Identity chosen_identity(const IdentityChoice& choice);
 
 /// Throws Error when the identity is beyond what adults are, or the folder is somebody's own; then nothing is written.
-SculptReport sculpt_head(const SculptOptions& options, const Watch& watch = {});
+SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::headmodel

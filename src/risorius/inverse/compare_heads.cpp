@@ -5,7 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/face/face.h"
-#include "risorius/scene/landmark_ways.h"
+#include "risorius/scene/landmark_displacements.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::inverse {
@@ -20,7 +20,7 @@ struct Mover {
           ways(face, files.rig, files.place()) {}
     scene::RigFiles files;
     face::Face face;
-    scene::LandmarkWays ways;
+    scene::LandmarkDisplacements ways;
 };
 
 }  // namespace
@@ -48,15 +48,15 @@ Json HeadComparison::json() const {
 
 HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,
                              const std::vector<std::string>& names, const std::string& quality,
-                             const Watch& watch) {
+                             const ProgressMonitor& monitor) {
     Mover own(rig, quality), other(like, quality);
     HeadComparison out{rig.generic_string(), like.generic_string(), {}};
     const std::vector<std::string>& ids = own.ways.landmarks();
     if (ids != other.ways.landmarks())
         throw Error(like.string(), "the same landmarks as " + rig.string(), "others");
     for (const std::string& name : names) {
-        watch.tell(static_cast<double>(out.expressions.size()) / static_cast<double>(names.size()),
-                   name);
+        monitor.report(
+            static_cast<double>(out.expressions.size()) / static_cast<double>(names.size()), name);
         const Points u = 1e3 * own.ways.settle(own.ways.drive(name)),
                      g = 1e3 * other.ways.settle(other.ways.drive(name));
         HeadDifference one;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::inverse {
 
@@ -32,6 +32,6 @@ struct HeadComparison {
 /// `names` as in expression_drive.h, known to both rigs. Throws Error, Interrupted.
 HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,
                              const std::vector<std::string>& names, const std::string& quality,
-                             const Watch& watch = {});
+                             const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::inverse

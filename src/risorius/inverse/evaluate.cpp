@@ -10,8 +10,8 @@
 #include "risorius/inverse/detail/evaluation_pictures.h"
 #include "risorius/inverse/fit_activations.h"
 #include "risorius/inverse/measured_shapes.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/rig/calibration.h"
 #include "risorius/rig/expression_drive.h"
 #include "risorius/scene/landmark_points.h"
@@ -55,15 +55,15 @@ double share_of_settling(const EvaluateOptions& options) {
 
 void write_report(const Evaluation& evaluation, const scene::RigFiles& files, const rig::Head& head,
                   const Eigen::VectorXd& area, const EvaluateOptions& options,
-                  const std::filesystem::path& folder, const Watch& watch) {
+                  const std::filesystem::path& folder, const ProgressMonitor& monitor) {
     std::optional<EvaluationPictures> pictures;
     std::vector<std::string> written{"index.html", "results.json", "scores.tsv"};
     if (options.pictures) {
         const double before = share_of_settling(options);
-        Watch drawing = watch;
-        if (watch.progress)
+        ProgressMonitor drawing = monitor;
+        if (monitor.progress)
             drawing.progress = [&](double share, const std::string& what) {
-                watch.progress(before + (1 - before) * share, what);
+                monitor.progress(before + (1 - before) * share, what);
             };
         pictures = draw_evaluation(evaluation, files.rig, files.mesh, head, area, folder, drawing);
         for (const std::string& file : pictures->files()) written.push_back(file);
@@ -168,9 +168,9 @@ Json Evaluation::json() const {
             {"expressions", list}};
 }
 
-Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
+Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monitor) {
     const scene::RigFiles files = scene::read_rig_files(options.rig);
-    std::optional<report::StagedFolder> folder;
+    std::optional<report::AtomicFolder> folder;
     if (!options.out.empty()) folder.emplace(options.out);
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
     const std::vector<MeasuredShape> shapes = read_measured_shapes(
@@ -192,8 +192,8 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
     at_rest.excitation = Eigen::VectorXd::Zero(out.channels.column_count());
     for (std::size_t s = 0; s < shapes.size(); ++s) {
         const MeasuredShape& shape = shapes[s];
-        watch.tell(settling * static_cast<double>(s) / static_cast<double>(shapes.size()),
-                   shape.name);
+        monitor.report(settling * static_cast<double>(s) / static_cast<double>(shapes.size()),
+                       shape.name);
         EvaluatedExpression one;
         one.name = shape.name;
         one.measured = shape.displacement;
@@ -216,7 +216,7 @@ Evaluation evaluate(const EvaluateOptions& options, const Watch& watch) {
         out.expressions.push_back(std::move(one));
     }
     if (folder) {
-        write_report(out, files, face.head(), area, options, folder->partial(), watch);
+        write_report(out, files, face.head(), area, options, folder->partial(), monitor);
         folder->commit();
     }
     return out;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/core/types.h"
-#include "risorius/core/watch.h"
 #include "risorius/scene/expression_score.h"
 #include "risorius/track/channels.h"
 
@@ -73,6 +73,6 @@ const std::vector<std::string>& sixteen_expressions();
 const std::vector<std::string>& twenty_four_expressions();
 
 /// Throws Error when rig or shapes cannot be used, Interrupted.
-Evaluation evaluate(const EvaluateOptions& options, const Watch& watch = {});
+Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::inverse

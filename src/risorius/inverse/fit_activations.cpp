@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/solve/box_quadratic.h"
 
 namespace risorius::inverse {

@@ -239,7 +239,8 @@ std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& fil
     for (const std::string& wanted : options.only)
         if (std::none_of(out.begin(), out.end(),
                          [&](const MeasuredShape& one) { return one.name == wanted; }))
-            throw Error("--only", "names of shapes in " + file.string() + did_you_mean(wanted, all),
+            throw Error(option_name("only"),
+                        "names of shapes in " + file.string() + did_you_mean(wanted, all),
                         "\"" + wanted + "\"");
     return out;
 }

@@ -11,9 +11,9 @@
 #include "risorius/core/error.h"
 #include "risorius/core/parallel.h"
 #include "risorius/face/face.h"
-#include "risorius/inverse/detail/given_motion.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/inverse/detail/fit_target.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/rig/expression_drive.h"
 #include "risorius/scene/expression_score.h"
 #include "risorius/scene/landmark_points.h"
@@ -105,31 +105,31 @@ void measure(const face::Face& face, const Points& given, const Eigen::VectorXd&
 
 class Solver {
   public:
-    Solver(const SolveOptions& options, const scene::RigFiles& files, const GivenMotion& given,
+    Solver(const SolveOptions& options, const scene::RigFiles& files, const FitTarget& given,
            const std::vector<ActivationUnknown>& unknowns)
         : options_(options), files_(files), given_(given), unknowns_(unknowns) {}
 
-    std::vector<SolvedDrive> shapes(const Watch& watch) const {
+    std::vector<SolvedDrive> shapes(const ProgressMonitor& monitor) const {
         std::vector<SolvedDrive> out(given_.fields.size());
         std::mutex telling;
         std::size_t done = 0;
         SpareThreads spare(ThreadLimit(options_.threads).count() - 1);
         parallel_for(static_cast<int>(out.size()), {options_.threads, &spare}, [&](int i) {
-            if (watch.stopped && watch.stopped()) throw Interrupted();
+            monitor.throw_if_stopped();
             const std::unique_ptr<face::Face> face = at_rest();
             SolvedDrive& one = out[static_cast<std::size_t>(i)];
-            ActivationFitOptions fit = usual(kShapeRounds, watch);
+            ActivationFitOptions fit = usual(kShapeRounds, monitor);
             seek(*face, static_cast<std::size_t>(i), nothing(files_.rig.channels()), fit, one);
             const std::lock_guard<std::mutex> lock(telling);
-            watch.tell(static_cast<double>(++done) / static_cast<double>(out.size()), one.name);
+            monitor.report(static_cast<double>(++done) / static_cast<double>(out.size()), one.name);
         });
         return out;
     }
 
-    std::vector<SolvedDrive> sequence(const Watch& watch) const {
+    std::vector<SolvedDrive> sequence(const ProgressMonitor& monitor) const {
         std::vector<SolvedDrive> out(given_.fields.size());
         const std::unique_ptr<face::Face> face = at_rest();
-        ActivationFitOptions fit = usual(kFrameRounds, watch);
+        ActivationFitOptions fit = usual(kFrameRounds, monitor);
         for (const Points& field : given_.fields)
             fit.size = std::max(fit.size, squares(field, given_.weight));
         if (!(fit.size > 0))
@@ -137,8 +137,8 @@ class Solver {
         track::Drive last = nothing(files_.rig.channels());
         fit.keep = options_.smooth;
         for (std::size_t t = 0; t < out.size(); ++t) {
-            watch.tell(0.6 * static_cast<double>(t) / static_cast<double>(out.size()),
-                       given_.names[t]);
+            monitor.report(0.6 * static_cast<double>(t) / static_cast<double>(out.size()),
+                           given_.names[t]);
             fit.near = values_of(unknowns_, last);
             seek(*face, t, last, fit, out[t]);
             last = out[t].drive;
@@ -147,8 +147,8 @@ class Solver {
         fit.keep = 2 * options_.smooth;
         fit.rounds = 1;
         for (std::size_t t = out.size(); t-- > 0;) {
-            watch.tell(1 - 0.4 * static_cast<double>(t + 1) / static_cast<double>(out.size()),
-                       given_.names[t]);
+            monitor.report(1 - 0.4 * static_cast<double>(t + 1) / static_cast<double>(out.size()),
+                           given_.names[t]);
             if (t == 0 || t + 1 == out.size()) continue;
             fit.near = 0.5 * (values_of(unknowns_, out[t - 1].drive) +
                               values_of(unknowns_, out[t + 1].drive));
@@ -158,7 +158,7 @@ class Solver {
     }
 
   private:
-    ActivationFitOptions usual(int rounds, const Watch& watch) const {
+    ActivationFitOptions usual(int rounds, const ProgressMonitor& monitor) const {
         ActivationFitOptions fit;
         fit.rounds = rounds;
         fit.price = options_.price;
@@ -167,7 +167,7 @@ class Solver {
         fit.rest = {.iterations = kIterations,
                     .tolerance_m = kTolerance_m,
                     .planes_m = kTolerance_m,
-                    .stopped = watch.stopped};
+                    .stopped = monitor.stopped};
         return fit;
     }
     std::unique_ptr<face::Face> at_rest() const {
@@ -190,7 +190,7 @@ class Solver {
 
     const SolveOptions& options_;
     const scene::RigFiles& files_;
-    const GivenMotion& given_;
+    const FitTarget& given_;
     const std::vector<ActivationUnknown>& unknowns_;
 };
 
@@ -274,26 +274,28 @@ Json SolveReport::json() const {
             {"solved", list}};
 }
 
-SolveReport solve_activations(const SolveOptions& options, const Watch& watch) {
+SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor& monitor) {
     const int kinds =
         !options.shapes.empty() + !options.meshes.empty() + !options.landmarks.empty();
     if (kinds != 1)
-        throw Error("solve", "one of --shapes, --mesh and --landmarks",
+        throw Error("solve",
+                    "one of " + option_name("shapes") + ", " + option_name("mesh") + " and " +
+                        option_name("landmarks"),
                     kinds == 0 ? "none" : std::to_string(kinds));
     if (!options.only.empty() && options.shapes.empty())
-        throw Error("--only", "--shapes to choose from", "none");
-    for (const auto& [name, value] :
-         {std::pair{"--price", options.price}, std::pair{"--ridge", options.ridge},
-          std::pair{"--smooth", options.smooth}})
+        throw Error(option_name("only"), option_name("shapes") + " to choose from", "none");
+    for (const auto& [name, value] : {std::pair{option_name("price"), options.price},
+                                      std::pair{option_name("ridge"), options.ridge},
+                                      std::pair{option_name("smooth"), options.smooth}})
         if (!(value >= 0 && value <= 1e3))
             throw Error(name, "a number in [0, 1000]", format_number(value));
     if (options.fps < 1 || options.fps > 240)
-        throw Error("--fps", "an integer in [1, 240]", std::to_string(options.fps));
+        throw Error(option_name("fps"), "an integer in [1, 240]", std::to_string(options.fps));
     const scene::RigFiles files = scene::read_rig_files(options.rig);
-    report::StagedFolder folder(options.out);
-    watch.tell(0, "building the face");
+    report::AtomicFolder folder(options.out);
+    monitor.report(0, "building the face");
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
-    GivenMotion given;
+    FitTarget given;
     if (!options.landmarks.empty()) {
         // How far everything that is sought moves each landmark at most
         const scene::LandmarkPoints points(face.head(), files.rig);
@@ -329,7 +331,7 @@ SolveReport solve_activations(const SolveOptions& options, const Watch& watch) {
     report.points = static_cast<int>((given.weight.array() > 0).count());
     report.channels = files.rig.channels();
     const Solver solver(options, files, given, unknowns);
-    report.solved = report.sequence ? solver.sequence(watch) : solver.shapes(watch);
+    report.solved = report.sequence ? solver.sequence(monitor) : solver.shapes(monitor);
 
     report::write_text(folder.partial() / "script.json", script_of(report, options).dump(1) + "\n");
     Json json = report.json();

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/inverse/fit_activations.h"
 #include "risorius/track/channels.h"
 
@@ -57,6 +57,6 @@ struct SolveReport {
 };
 
 /// Writes OUT/script.json, which `render` plays, and OUT/results.json; both or none. Throws Error, Interrupted.
-SolveReport solve_activations(const SolveOptions& options, const Watch& watch = {});
+SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::inverse

@@ -371,7 +371,7 @@ struct OffscreenView::Impl {
     }
 
     ViewOptions options;
-    Look look;
+    Appearance look;
     Box box;
     Camera camera;
     std::vector<Mat4> views;  ///< through the places of the lens

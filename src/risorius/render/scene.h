@@ -46,7 +46,7 @@ struct Eye {
 };
 
 /// Appearance, generated for any head from its landmarks.
-struct Look {
+struct Appearance {
     Vec3 skin_tone{0.80, 0.60, 0.50};  ///< sRGB 0..1, average of the cheek
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
@@ -94,7 +94,7 @@ struct Scene {
         textures;  ///< sRGB, alpha is not looked at; (0, 0) of texture coordinates is below, left
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
-    Look look;
+    Appearance look;
     Points
         fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown

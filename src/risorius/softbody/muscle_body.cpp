@@ -223,7 +223,7 @@ MuscleBody build_muscle(const MuscleDescription& description, MuscleTask task) {
     std::vector<char> fixed(static_cast<std::size_t>(d.grid.size()));
     for (const int node : musculotendon->tied_nodes()) fixed[static_cast<std::size_t>(node)] = 1;
     solve::MotionSystem system(mass_kg, std::move(fixed));
-    system.prescribe([musculotendon](double t_s, Points& x, Points& v) {
+    system.set_boundary_conditions([musculotendon](double t_s, Points& x, Points& v) {
         musculotendon->place_tied(t_s, x, v);
     });
     if (cells)

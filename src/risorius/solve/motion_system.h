@@ -27,7 +27,7 @@ class MotionSystem {
     MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed);
 
     void add(std::shared_ptr<ForceTerm> term);
-    void prescribe(PrescribedMotion motion) { prescribed_ = std::move(motion); }
+    void set_boundary_conditions(PrescribedMotion motion) { prescribed_ = std::move(motion); }
 
     int size() const { return static_cast<int>(mass_kg_.size()); }
     const Eigen::VectorXd& mass_kg() const { return mass_kg_; }

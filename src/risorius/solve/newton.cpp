@@ -120,7 +120,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
     const double inertia = step.rate_hz() * step.rate_hz();
     double e = evaluate(system, step, target, x, gradient_, report);
     const double first_slope = std::sqrt(dot(gradient_, gradient_));
-    double loudest = std::abs(e);
+    double energy_scale = std::abs(e);
     double move_before = std::numeric_limits<double>::infinity();
     Curvature curvature = options.curvature;
     int hold = 0;  // iterations to go before the exact curvature is tried again
@@ -157,7 +157,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
 
         // Armijo by halving; where rounding hides the decrease, the slope at the trial must not have turned round
         // (Hager & Zhang 2005, approximate Wolfe conditions)
-        const double rounding = kEnergyRounding * loudest;
+        const double rounding = kEnergyRounding * energy_scale;
         double t = 1, trial_e = 0;
         bool accepted = false;
         for (int halving = 0; halving <= kHalvings; ++halving) {
@@ -178,7 +178,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
         x.swap(trial_);
         gradient_.swap(trial_gradient_);
         e = trial_e;
-        loudest = std::max(loudest, std::abs(e));
+        energy_scale = std::max(energy_scale, std::abs(e));
         report.potential_j = e;
         ++report.iterations;
         if (move <= options.tolerance_m) {
@@ -225,7 +225,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
     const bool settling = step.rate_hz() == 0;
     const double inertia = step.rate_hz() * step.rate_hz();
     if (settling) began_ = x;
-    double loudest = std::abs(e);
+    double energy_scale = std::abs(e);
     double least = 0;
     Curvature curvature = options.curvature;
     int hold = 0;
@@ -258,7 +258,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
 
         trial_ = x + direction_;
         const double trial_e = evaluate(system, step, target, trial_, trial_gradient_, report);
-        const double rounding = kEnergyRounding * loudest;
+        const double rounding = kEnergyRounding * energy_scale;
         // How well the model foretold it; where rounding hides that, the gradient must have become smaller
         double gain = (e - trial_e) / predicted;
         if (std::abs(predicted) <= 10 * rounding && std::abs(e - trial_e) <= 20 * rounding)
@@ -268,7 +268,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
             x.swap(trial_);
             gradient_.swap(trial_gradient_);
             e = trial_e;
-            loudest = std::max(loudest, std::abs(e));
+            energy_scale = std::max(energy_scale, std::abs(e));
             report.potential_j = e;
             if (settling) {
                 trial_ = x - began_;

@@ -148,18 +148,18 @@ namespace {
 /// What a run does to one clip after another, and how it tells.
 class BatchRun {
   public:
-    BatchRun(const BatchOptions& options, const Watch& watch, BatchReport& report)
-        : options_(options), watch_(watch), report_(report) {}
+    BatchRun(const BatchOptions& options, const ProgressMonitor& monitor, BatchReport& report)
+        : options_(options), monitor_(monitor), report_(report) {}
 
     bool is_mine(std::size_t index) const {
         return static_cast<int>(index % static_cast<std::size_t>(options_.parts)) + 1 ==
                options_.part;
     }
-    void tell(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
+    void report(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
         if (options_.told) options_.told(clip.condition.clip, state, why);
     }
-    using Work =
-        std::function<void(const ClipPlan&, const CoreShare&, const Watch&, animate::Studio&)>;
+    using Work = std::function<void(const ClipPlan&, const CoreShare&, const ProgressMonitor&,
+                                    animate::Studio&)>;
     /// Of each clip in turn; those that failed are noted. How many were done.
     int work(const std::vector<const ClipPlan*>& clips, const char* done, const Work& make) {
         for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
@@ -172,11 +172,11 @@ class BatchRun {
             const ClipPlan& clip = *clips[i];
             std::string why;
             // Of its frames the batch tells nothing but that it goes on
-            const Watch frames{.progress = {}, .stopped = watch_.stopped};
+            const ProgressMonitor frames{.progress = {}, .stopped = monitor_.stopped};
             try {
                 {
                     const std::lock_guard lock(telling_);
-                    watch_.tell(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
+                    monitor_.report(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
                 }
                 make(clip, share, frames, studio);
             } catch (const Error& error) {
@@ -190,7 +190,7 @@ class BatchRun {
                 ++count;
             else
                 report_.failed.emplace_back(clip.condition.clip, why);
-            tell(clip, why.empty() ? done : "failed", why);
+            report(clip, why.empty() ? done : "failed", why);
         });
         std::sort(report_.failed.begin(), report_.failed.end());
         return count;
@@ -198,7 +198,7 @@ class BatchRun {
 
   private:
     const BatchOptions& options_;
-    const Watch& watch_;
+    const ProgressMonitor& monitor_;
     BatchReport& report_;
     std::mutex telling_;
     double left_s_ = 0;  ///< about, of the work that is being done
@@ -206,13 +206,13 @@ class BatchRun {
 
 }  // namespace
 
-BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
+BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(options.design);
     check_batch_folder(options.out);
     BatchReport report;
     report.name = plan.name;
-    BatchRun run(options, watch, report);
+    BatchRun run(options, monitor, report);
 
     // Pictures are matched by what all of them are: first the films, then the clips
     if (plan.match.luminance) {
@@ -221,7 +221,7 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
             if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
         run.work(
             films, "filmed",
-            [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+            [&](const ClipPlan& clip, const CoreShare& share, const ProgressMonitor& frames,
                 animate::Studio& studio) { make_take(clip, options.out, share, frames, studio); });
         report.unmeasured =
             static_cast<int>(unmeasured(plan, options.out).size() - report.failed.size());
@@ -239,7 +239,7 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
         const ClipPlan& clip = plan.clips[i];
         if (is_made(clip, options.out)) {
             ++report.kept;
-            run.tell(clip, "kept");
+            run.report(clip, "kept");
         } else if (!run.is_mine(i)) {
             ++report.elsewhere;
         } else {
@@ -248,12 +248,12 @@ BatchReport make_batch(const BatchOptions& options, const Watch& watch) {
     }
     report.made = run.work(
         wanted, "made",
-        [&](const ClipPlan& clip, const CoreShare& share, const Watch& frames,
+        [&](const ClipPlan& clip, const CoreShare& share, const ProgressMonitor& frames,
             animate::Studio& studio) { make_clip(clip, options.out, share, frames, studio); });
 
     // What is told of all of them
     if (report.failed.empty() && report.elsewhere == 0) {
-        watch.tell(1, "the files of the set");
+        monitor.report(1, "the files of the set");
         write_set(plan, options.design, options.out);
         report.complete = true;
     }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/stimuli/detail/clip.h"
 
 namespace risorius::stimuli {
@@ -53,6 +53,6 @@ struct BatchReport {
 };
 
 /// Throws Error before anything is made when the design or the folder is wrong; Interrupted when asked to stop.
-BatchReport make_batch(const BatchOptions& options, const Watch& watch = {});
+BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::stimuli

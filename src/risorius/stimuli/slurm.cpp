@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/run_program.h"
-#include "risorius/report/staged_file.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
@@ -40,8 +40,12 @@ std::string one_line(std::string text) {
 report::ProgramResult slurm_program(const std::vector<std::string>& command) {
     const report::ProgramResult result = report::run_program(command);
     if (result.exit_code == 127)
-        throw RunError(command[0] + ": not found; --engine slurm needs Slurm's programs");
+        throw RunError(command[0] + ": not found; a batch on a cluster needs Slurm's programs");
     return result;
+}
+
+std::string sbatch_option(const std::string& name, const std::string& value = "") {
+    return "--" + name + (value.empty() ? "" : "=" + value);
 }
 
 class Job {
@@ -53,14 +57,16 @@ class Job {
         const fs::path code = fs::absolute(batch.out) / "code";
         std::vector<std::string> command{
             "sbatch",
-            "--parsable",
-            "--job-name=risorius",
-            "--array=" + array,
-            "--cpus-per-task=" + std::to_string(slurm.workers),
-            "--output=" + (code / ("slurm-" + std::to_string(round) + "-%a.log")).string()};
-        if (!slurm.account.empty()) command.push_back("--account=" + slurm.account);
-        if (!slurm.partition.empty()) command.push_back("--partition=" + slurm.partition);
-        if (!slurm.time.empty()) command.push_back("--time=" + slurm.time);
+            sbatch_option("parsable"),
+            sbatch_option("job-name", "risorius"),
+            sbatch_option("array", array),
+            sbatch_option("cpus-per-task", std::to_string(slurm.workers)),
+            sbatch_option("output",
+                          (code / ("slurm-" + std::to_string(round) + "-%a.log")).string())};
+        if (!slurm.account.empty()) command.push_back(sbatch_option("account", slurm.account));
+        if (!slurm.partition.empty())
+            command.push_back(sbatch_option("partition", slurm.partition));
+        if (!slurm.time.empty()) command.push_back(sbatch_option("time", slurm.time));
         command.push_back((code / "slurm.sh").string());
         const report::ProgramResult sent = slurm_program(command);
         id_ = one_line(sent.output.substr(0, sent.output.find(';')));
@@ -111,13 +117,14 @@ namespace {
 class Rounds {
   public:
     /// What is missing of the plan's clips, by place.
-    using Look = std::function<std::vector<std::size_t>()>;
+    using Appearance = std::function<std::vector<std::size_t>()>;
 
-    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks, const Watch& watch)
-        : batch_(batch), slurm_(slurm), tasks_(tasks), watch_(watch) {}
+    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks,
+           const ProgressMonitor& monitor)
+        : batch_(batch), slurm_(slurm), tasks_(tasks), monitor_(monitor) {}
 
     /// `number`: of a clip, by which the clips are dealt out.
-    std::vector<std::size_t> run(const char* what, const Look& look,
+    std::vector<std::size_t> run(const char* what, const Appearance& look,
                                  const std::function<std::size_t(std::size_t)>& number) {
         std::vector<std::size_t> missing = look();
         const auto all = static_cast<double>(missing.size());
@@ -129,8 +136,8 @@ class Rounds {
             const Job job(batch_, slurm_, {parts.begin(), parts.end()}, sent_++);
             try {
                 while (job.goes_on()) {
-                    watch_.tell(1 - static_cast<double>(missing.size()) / all,
-                                std::to_string(missing.size()) + " " + what + " left");
+                    monitor_.report(1 - static_cast<double>(missing.size()) / all,
+                                    std::to_string(missing.size()) + " " + what + " left");
                     std::this_thread::sleep_for(kBetweenLooks);
                     missing = look();
                 }
@@ -147,14 +154,14 @@ class Rounds {
     const BatchOptions& batch_;
     const SlurmOptions& slurm_;
     int tasks_;
-    const Watch& watch_;
+    const ProgressMonitor& monitor_;
     int sent_ = 0;
 };
 
 }  // namespace
 
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
-                                const Watch& watch) {
+                                const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(batch.design);
     check_batch_folder(batch.out);
@@ -163,7 +170,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
     fs::create_directories(batch.out / "code");
     report::write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
-    Rounds rounds(batch, slurm, tasks, watch);
+    Rounds rounds(batch, slurm, tasks, monitor);
 
     // Pictures are matched by what all of them are: first the films. A task makes clips too when all films are there
     std::vector<std::size_t> missing = rounds.run(

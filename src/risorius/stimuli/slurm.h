@@ -23,6 +23,6 @@ std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, i
 /// Throws Error for a wrong design, RunError when there is no Slurm or it takes no job, Interrupted when asked to stop (the job is
 /// cancelled then).
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
-                                const Watch& watch = {});
+                                const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::stimuli

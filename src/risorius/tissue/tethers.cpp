@@ -7,9 +7,9 @@
 
 namespace risorius::tissue {
 
-Tethers::Tethers(std::vector<Tether> tethers) : tethers_(std::move(tethers)) {}
+ZeroLengthSprings::ZeroLengthSprings(std::vector<Tether> tethers) : tethers_(std::move(tethers)) {}
 
-double Tethers::add_energy(const Points& x, Points& gradient) const {
+double ZeroLengthSprings::add_energy(const Points& x, Points& gradient) const {
     double energy = 0;
     for (const Tether& tether : tethers_) {
         const Vec3 d = x.row(tether.node).transpose() - tether.target;
@@ -24,7 +24,7 @@ double Tethers::add_energy(const Points& x, Points& gradient) const {
     return energy;
 }
 
-void Tethers::add_hessian(solve::HessianBuilder& hessian) const {
+void ZeroLengthSprings::add_hessian(solve::HessianBuilder& hessian) const {
     for (const Tether& tether : tethers_)
         hessian.add(tether.node, tether.node,
                     tether.kt_n_per_m * Mat3::Identity() + (tether.kn_n_per_m - tether.kt_n_per_m) *
@@ -32,7 +32,7 @@ void Tethers::add_hessian(solve::HessianBuilder& hessian) const {
                                                                tether.normal.transpose());
 }
 
-void Tethers::add_metric(solve::MetricBuilder& builder) const {
+void ZeroLengthSprings::add_metric(solve::MetricBuilder& builder) const {
     for (const Tether& tether : tethers_)
         builder.add_diagonal(tether.node, std::max(tether.kn_n_per_m, tether.kt_n_per_m));
 }

@@ -16,7 +16,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
-class Tethers {
+class ZeroLengthSprings {
   public:
     struct Tether {
         int node = 0;
@@ -26,7 +26,7 @@ class Tethers {
         double kt_n_per_m = 0;        ///< across n    [0, inf)
     };
 
-    explicit Tethers(std::vector<Tether> tethers);
+    explicit ZeroLengthSprings(std::vector<Tether> tethers);
 
     std::vector<Tether>& list() { return tethers_; }
     const std::vector<Tether>& list() const { return tethers_; }

@@ -6,7 +6,7 @@ namespace {
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string_view>& known) {
     const std::string near = nearest_name(name, known);
-    return near.empty() ? "" : " (did you mean " + quoted(near) + "?)";
+    return near.empty() ? "" : " (did you mean " + in_quotes(near) + "?)";
 }
 
 double& value(KinematicValues& values, Kinematic k) { return values[static_cast<std::size_t>(k)]; }
@@ -156,10 +156,10 @@ MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
     if (!muscle) {
         std::vector<std::string_view> known;
         for (const MuscleChannel& m : channels.muscles) known.push_back(m.id);
-        place.fail("a muscle of the rig" + did_you_mean(sided.id, known), quoted(name));
+        place.fail("a muscle of the rig" + did_you_mean(sided.id, known), in_quotes(name));
     }
     if (sided.side && !muscle->paired)
-        place.fail(quoted(sided.id) + ", which has no sides", quoted(name));
+        place.fail(in_quotes(sided.id) + ", which has no sides", in_quotes(name));
     return {sided.id, sided.side, 1.0};
 }
 
@@ -179,18 +179,19 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
     if (!unit) {
         // "AU30" alone: the units that name their side are the nearest thing to what was meant.
         if (facs.find(name + ".l") && facs.find(name + ".r"))
-            place.fail(quoted(name + ".l") + " or " + quoted(name + ".r"), quoted(name));
+            place.fail(in_quotes(name + ".l") + " or " + in_quotes(name + ".r"), in_quotes(name));
         // A number near another number is no likely slip.
         std::vector<std::string_view> known;
         if (!is_unit_number(split_side(name).id))
             for (const ActionUnit& u : facs.units) known.push_back(u.id);
         place.fail("an action unit of the rig's FACS table" + did_you_mean(name, known),
-                   quoted(name));
+                   in_quotes(name));
     }
-    if (side && !unit->sided) place.fail(quoted(unit->id) + ", which has no sides", quoted(name));
+    if (side && !unit->sided)
+        place.fail(in_quotes(unit->id) + ", which has no sides", in_quotes(name));
     if (!unit->unsupported.empty())
         place.fail("an action unit a rig can move",
-                   quoted(name) + ", which needs " + unit->unsupported);
+                   in_quotes(name) + ", which needs " + unit->unsupported);
     return {unit->id, side, 1.0};
 }
 

@@ -158,9 +158,9 @@ class Reader {
             const std::string near = nearest_name(name.string(), known);
             std::string expected = near.empty() ? "one of"
                                                 : "an expression of the rig (did you mean " +
-                                                      risorius::quoted(near) + "?)";
+                                                      risorius::in_quotes(near) + "?)";
             if (near.empty())
-                for (std::string_view k : known) expected += " " + quoted(std::string(k));
+                for (std::string_view k : known) expected += " " + in_quotes(std::string(k));
             name.fail(expected);
         }
         ExpressionEvent event;
@@ -297,8 +297,8 @@ class Reader {
                     near = whole + side.substr(0, 2);
         json.fail("a muscle, action unit or kinematic channel of the rig" +
                       (near.empty() ? " (`risorius info` lists them)"
-                                    : " (did you mean " + risorius::quoted(near) + "?)"),
-                  quoted(name));
+                                    : " (did you mean " + risorius::in_quotes(near) + "?)"),
+                  in_quotes(name));
     }
 
     static std::vector<Key> read_keys(const JsonCursor& json, Range range) {
@@ -377,7 +377,7 @@ void read_weakness(const JsonCursor& json, const std::string& name, const Channe
         for (const MuscleChannel& muscle : channels.muscles) known.push_back(muscle.id);
         json.fail("a muscle of the rig, with or without .l or .r, \"left\" or \"right\"" +
                       risorius::did_you_mean(sided.id, known),
-                  quoted(name));
+                  in_quotes(name));
     }
     for (const Side side : {Side::kLeft, Side::kRight})
         if (!sided.side || *sided.side == side) set(sided.id, side);

@@ -8,9 +8,10 @@ namespace risorius::animate {
 MarkedPictures::MarkedPictures(const SyncMarks& marks, const track::ScriptDescription& script,
                                int fps)
     : marks_(marks) {
-    if (marks.photodiode) photodiode_ = media::corner_named(*marks.photodiode, "--photodiode");
+    if (marks.photodiode)
+        photodiode_ = media::corner_named(*marks.photodiode, option_name("photodiode"));
     if (marks.frame_counter)
-        counter_ = media::corner_named(*marks.frame_counter, "--frame-counter");
+        counter_ = media::corner_named(*marks.frame_counter, option_name("frame_counter"));
     constexpr double kRounding = 1e-9;  // of a frame's time in binary
     const auto note = [&](double start_s) {
         event_frames_.push_back(static_cast<int>(std::ceil(start_s * fps - kRounding)));

@@ -7,7 +7,7 @@
 
 #include "risorius/media/float_image.h"
 #include "risorius/media/image_file.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/scene/face_oval.h"
 
 namespace risorius::animate {

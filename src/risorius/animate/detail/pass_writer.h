@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "risorius/render/surface_passes.h"
-#include "risorius/report/staged_folder.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/scene/landmark_points.h"
 
 namespace risorius::animate {
@@ -48,7 +48,7 @@ class PassWriter {
                      const std::vector<std::uint16_t>& parts);
 
     std::vector<std::string> passes_, files_;
-    report::StagedFolder folder_;
+    report::AtomicFolder folder_;
     render::SurfacePasses surface_;
     Eigen::Matrix4d clip_from_world_;
     scene::LandmarkPoints landmarks_;

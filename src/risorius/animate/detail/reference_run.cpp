@@ -33,7 +33,7 @@ ReferenceRun::ReferenceRun(const std::filesystem::path& script, const std::files
                            const std::string& quality, Eigen::Index vertices)
     : impl_(std::make_unique<Impl>(script, rig, quality)) {
     if (impl_->files.mesh.vertex_count() != vertices)
-        throw Error("--against " + script.string(),
+        throw Error(option_name("against") + " " + script.string(),
                     "the mesh that is shown, of " + std::to_string(vertices) + " vertices",
                     "one of " + std::to_string(impl_->files.mesh.vertex_count()));
 }

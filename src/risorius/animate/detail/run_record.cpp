@@ -7,13 +7,12 @@
 
 namespace risorius::animate {
 
-SolverFigures solver_figures(const std::vector<face::StepFigures>& history,
-                             int most_inverted_tets) {
-    SolverFigures out;
+SolverStats solver_figures(const std::vector<face::StepStats>& history, int most_inverted_tets) {
+    SolverStats out;
     out.steps = static_cast<int>(history.size());
     out.most_inverted_tets = most_inverted_tets;
     int converged = 0;
-    for (const face::StepFigures& step : history) {
+    for (const face::StepStats& step : history) {
         out.mean_iterations += step.iterations;
         out.max_iterations = std::max(out.max_iterations, step.iterations);
         converged += step.converged;

@@ -13,7 +13,7 @@
 namespace risorius::animate {
 
 /// How the solver did over a run.
-struct SolverFigures {
+struct SolverStats {
     int steps = 0;
     double mean_iterations = 0;
     int max_iterations = 0;
@@ -23,7 +23,7 @@ struct SolverFigures {
     double largest_muscle_volume_error = 0;  ///< of the volume muscles, ratio
     int most_inverted_tets = 0;              ///< in any frame
 };
-SolverFigures solver_figures(const std::vector<face::StepFigures>& history, int most_inverted_tets);
+SolverStats solver_figures(const std::vector<face::StepStats>& history, int most_inverted_tets);
 
 struct RunTiming {
     int threads = 1;
@@ -54,7 +54,7 @@ struct RunRecord {
     double widest_jaw_mm = 0;    ///< at the incisors, of any frame
     double greatest_bite_n = 0;  ///< of all teeth, when muscles move the jaw
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
-    SolverFigures solver;
+    SolverStats solver;
     std::string frames_sha256;  ///< over the RGBA bytes of all frames, before encoding
     std::vector<std::string> warnings;
     RunTiming timing;

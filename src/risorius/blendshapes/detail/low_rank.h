@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "risorius/blendshapes/detail/linear_rig.h"
+#include "risorius/blendshapes/detail/blend_shape_rig.h"
 
 namespace risorius::blendshapes {
 

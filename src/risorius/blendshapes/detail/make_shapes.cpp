@@ -127,10 +127,10 @@ class Maker {
           points_(head_, files.rig),
           mirror_(blendshapes::mirror_of(head_.skin, head_.vertices)) {}
 
-    MadeShapes make(const Watch& watch) {
+    MadeShapes make(const ProgressMonitor& monitor) {
         const Plan plan = plan_of(set_, channels_);
-        std::vector<SolvedPose> poses = solver_.solve(plan.drives, watch);
-        keep_upright(plan, poses, watch);
+        std::vector<SolvedPose> poses = solver_.solve(plan.drives, monitor);
+        keep_upright(plan, poses, monitor);
         MadeShapes out;
         out.mirrored = mirror_.has_value();
         const std::vector<std::optional<double>> as_solved = mirror_poses(plan, poses);
@@ -175,7 +175,8 @@ class Maker {
   private:
     // A pose that leans to one side where drive and head do not has buckled on its way; it is sought again in small steps, and the
     // one that leans less is taken.
-    void keep_upright(const Plan& plan, std::vector<SolvedPose>& poses, const Watch& watch) const {
+    void keep_upright(const Plan& plan, std::vector<SolvedPose>& poses,
+                      const ProgressMonitor& monitor) const {
         if (!mirror_) return;
         const auto lean = [&](const SolvedPose& pose) {
             return blendshapes::asymmetry_m(*mirror_, pose.moved, pose.moved);
@@ -190,7 +191,7 @@ class Maker {
             }
         if (leaning.empty()) return;
         std::vector<SolvedPose> again = solver_.solve(
-            drives, {.progress = {}, .stopped = watch.stopped}, {.steps = kUprightSteps});
+            drives, {.progress = {}, .stopped = monitor.stopped}, {.steps = kUprightSteps});
         for (std::size_t k = 0; k < leaning.size(); ++k)
             if (again[k].figures.converged && lean(again[k]) < lean(poses[leaning[k]]))
                 poses[leaning[k]] = std::move(again[k]);
@@ -294,8 +295,8 @@ class Maker {
 }  // namespace
 
 MadeShapes make_shapes(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver,
-                       const Watch& watch) {
-    return Maker(files, set, solver).make(watch);
+                       const ProgressMonitor& monitor) {
+    return Maker(files, set, solver).make(monitor);
 }
 
 Points shown_pose(const MadeShapes& shapes, std::size_t index, const Points& rest) {

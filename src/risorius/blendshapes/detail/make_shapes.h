@@ -9,7 +9,7 @@
 #include "risorius/blendshapes/detail/shape_goals.h"
 #include "risorius/blendshapes/detail/shape_solver.h"
 #include "risorius/blendshapes/detail/sparse_shape.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::blendshapes {
@@ -32,7 +32,7 @@ struct MadeShapes {
 
 /// `solver` has the faces; `progress` goes from 0 to 1.
 MadeShapes make_shapes(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver,
-                       const Watch& watch = {});
+                       const ProgressMonitor& monitor = {});
 
 /// The mesh with a shape at weight 1, V x 3, m, head frame; a shape on top of another with that too.
 Points shown_pose(const MadeShapes& shapes, std::size_t index, const Points& rest);

@@ -74,7 +74,7 @@ CorrectiveOptions correctives_of_set(const std::string& set) {
 
 Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const ScriptFrames& played, const Watch& watch) {
+                             const ScriptFrames& played, const ProgressMonitor& monitor) {
     const rig::Head& head = solver.face().head();
     const track::ChannelTable channels = files.rig.channels();
     const Eigen::VectorXd area = scene::vertex_areas(solver.face().simulated_skin(), head.vertices);
@@ -94,7 +94,8 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
                              : sum_of(units[one.a].drive, units[one.b].drive, 1, channels));
     for (const track::Drive& drive : played.drives) drives.push_back(drive);
     const double first = options.bent_pairs ? 0.4 : 0.6;  // of the poses, for progress
-    std::vector<SolvedPose> poses = solver.solve(drives, watch.part(0, first), {.again = false});
+    std::vector<SolvedPose> poses =
+        solver.solve(drives, monitor.subrange(0, first), {.again = false});
 
     Correctives out;
     for (const MadeShape& made : shapes.list) out.rig.shapes.push_back(made.shape);
@@ -141,7 +142,7 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
                                     channels));
     }
     const std::vector<SolvedPose> near =
-        solver.solve(drives, watch.part(first, 1), {.again = false});
+        solver.solve(drives, monitor.subrange(first, 1), {.again = false});
 
     TermMaker terms(head, shapes, units, area);
     for (std::size_t c = 0; c < candidates.size(); ++c)
@@ -197,13 +198,14 @@ track::Drive drive_of_weights(const MadeShapes& shapes, const Eigen::VectorXd& w
     return sum_of(no_drive(channels), out, 1, channels);
 }
 
-TrackError track_error(const std::string& name, const blendshapes::LinearRig& rig,
+TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig& rig,
                        const ShapeSolver& solver, const std::vector<track::Drive>& drives,
-                       const std::vector<Eigen::VectorXd>& weights, const Watch& watch) {
+                       const std::vector<Eigen::VectorXd>& weights,
+                       const ProgressMonitor& monitor) {
     const rig::Head& head = solver.face().head();
     const Eigen::VectorXd area = scene::vertex_areas(solver.face().simulated_skin(), head.vertices);
-    const std::vector<SolvedPose> poses = solver.solve(drives, watch, {.again = false});
-    blendshapes::LinearRig plain{rig.shapes};
+    const std::vector<SolvedPose> poses = solver.solve(drives, monitor, {.again = false});
+    blendshapes::BlendShapeRig plain{rig.shapes};
     TrackError out;
     out.name = name;
     out.frames = static_cast<int>(drives.size());
@@ -213,7 +215,7 @@ TrackError track_error(const std::string& name, const blendshapes::LinearRig& ri
         rig.add_to(vertices, frame);
     }
     out.play_s = playing.seconds() / static_cast<double>(std::max<std::size_t>(1, weights.size()));
-    const auto add = [&](const blendshapes::LinearRig& linear, std::size_t f, double& squares,
+    const auto add = [&](const blendshapes::BlendShapeRig& linear, std::size_t f, double& squares,
                          double& greatest) {
         const double before = greatest;
         Points moved = Points::Zero(head.vertices.rows(), 3);

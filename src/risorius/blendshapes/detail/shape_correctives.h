@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/blendshapes/detail/linear_rig.h"
+#include "risorius/blendshapes/detail/blend_shape_rig.h"
 #include "risorius/blendshapes/detail/make_shapes.h"
 
 namespace risorius::blendshapes {
@@ -31,7 +31,7 @@ struct TriedCorrective {
 };
 
 struct Correctives {
-    blendshapes::LinearRig rig;  ///< the shapes and what was kept
+    blendshapes::BlendShapeRig rig;  ///< the shapes and what was kept
     std::vector<TriedCorrective> tried;
     long bytes = 0;
 };
@@ -47,7 +47,7 @@ struct ScriptFrames {
 /// what can be taken off (blendshapes/detail/low_rank.h).
 Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& shapes,
                              const ShapeSolver& solver, const CorrectiveOptions& options,
-                             const ScriptFrames& played = {}, const Watch& watch = {});
+                             const ScriptFrames& played = {}, const ProgressMonitor& monitor = {});
 
 /// Errors of a linear rig against the simulation over the frames of a track.
 struct TrackError {
@@ -69,8 +69,9 @@ track::Drive drive_of_weights(const MadeShapes& shapes, const Eigen::VectorXd& w
                               const track::ChannelTable& channels);
 
 /// Each frame's drive in equilibrium against the linear rig at its weights.
-TrackError track_error(const std::string& name, const blendshapes::LinearRig& rig,
+TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig& rig,
                        const ShapeSolver& solver, const std::vector<track::Drive>& drives,
-                       const std::vector<Eigen::VectorXd>& weights, const Watch& watch = {});
+                       const std::vector<Eigen::VectorXd>& weights,
+                       const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::blendshapes

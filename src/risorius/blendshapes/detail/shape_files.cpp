@@ -9,8 +9,8 @@
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
 #include "risorius/io/read_mesh.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/folder_name.h"
-#include "risorius/report/staged_file.h"
 #include "risorius/rig/expression_drive.h"
 
 namespace risorius::blendshapes {
@@ -81,7 +81,8 @@ Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape,
 
 io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const MadeShapes& shapes, const std::string& set,
-                           const blendshapes::LinearRig& linear, const ShapeAnimation* animation) {
+                           const blendshapes::BlendShapeRig& linear,
+                           const ShapeAnimation* animation) {
     io::MorphModel model;
     model.name = files.rig.name;
     model.vertices = head.vertices;
@@ -187,7 +188,7 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
 }
 
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
-                                            const blendshapes::LinearRig& linear,
+                                            const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder) {
     std::ofstream numbers(folder / "cache.f32", std::ios::binary);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/blendshapes/detail/linear_rig.h"
+#include "risorius/blendshapes/detail/blend_shape_rig.h"
 #include "risorius/blendshapes/detail/make_shapes.h"
 #include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/io/morph_model.h"
@@ -18,11 +18,12 @@ namespace risorius::blendshapes {
 /// Correctives come behind the shapes; their drivers stand under "correctives" of the extras. `animation` may be null.
 io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const MadeShapes& shapes, const std::string& set,
-                           const blendshapes::LinearRig& linear, const ShapeAnimation* animation);
+                           const blendshapes::BlendShapeRig& linear,
+                           const ShapeAnimation* animation);
 
 /// folder/cache.json and cache.f32: every vertex in every frame of the animation, mesh units, by the linear rig.
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
-                                            const blendshapes::LinearRig& linear,
+                                            const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder);
 

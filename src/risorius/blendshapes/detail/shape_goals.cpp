@@ -210,8 +210,8 @@ void keep_only(const std::vector<std::string>& only, ShapeSet& set, const std::s
         if (!found)
             throw Error(
                 place,
-                "shapes of the set " + risorius::quoted(set.name) + did_you_mean(name, known),
-                risorius::quoted(name));
+                "shapes of the set " + risorius::in_quotes(set.name) + did_you_mean(name, known),
+                risorius::in_quotes(name));
     }
     std::vector<ShapeGoal> kept;
     for (std::size_t i = 0; i < set.goals.size(); ++i)
@@ -235,7 +235,7 @@ const std::vector<std::string>& shape_set_names() {
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& name,
                    const std::vector<std::string>& only, const std::string& place,
                    const std::string& only_from) {
-    index_of_name("--set", name, shape_set_names());
+    index_of_name(option_name("set"), name, shape_set_names());
     ShapeSet set;
     set.name = name;
     Collector out(rig, set);
@@ -244,7 +244,7 @@ ShapeSet shape_set(const rig::RigDescription& rig, const std::string& name,
         for (const std::string& wanted : track::arkit_names())
             if (!set.index(wanted))
                 throw Error(place + ":/facs/arkit", "all 52 shapes of ARKit",
-                            "no " + quoted(wanted));
+                            "no " + in_quotes(wanted));
     } else if (name == "visemes") {
         collect_named(rig, rig.facs.visemes, out);
         if (set.goals.empty())

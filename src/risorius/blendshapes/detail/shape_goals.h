@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "risorius/core/error.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/track/channels.h"
 
@@ -47,6 +48,6 @@ const std::vector<std::string>& shape_set_names();
 /// the rig's tables do not have, and naming `only_from`, where `only` was read, for a name that the set does not have.
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& set,
                    const std::vector<std::string>& only, const std::string& place,
-                   const std::string& only_from = "--only");
+                   const std::string& only_from = option_name("only"));
 
 }  // namespace risorius::blendshapes

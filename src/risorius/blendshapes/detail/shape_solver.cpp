@@ -82,24 +82,25 @@ SolvedPose ShapeSolver::pose(face::Face& face, const track::Drive& drive, const 
 }
 
 std::vector<SolvedPose> ShapeSolver::solve(const std::vector<track::Drive>& drives,
-                                           const Watch& watch, const Approach& how) const {
+                                           const ProgressMonitor& monitor,
+                                           const Approach& how) const {
     std::vector<SolvedPose> out(drives.size());
     std::mutex telling;
     std::size_t done = 0;
     SpareThreads spare(ThreadLimit(threads_).count() - 1);
     parallel_for(static_cast<int>(drives.size()), {threads_, &spare}, [&](int i) {
-        if (watch.stopped && watch.stopped()) throw Interrupted();
+        monitor.throw_if_stopped();
         // It starts from rest and knows nothing of what it was used for before
         face::Face& face = idle();
         const auto at = static_cast<std::size_t>(i);
-        out[at] = pose(face, drives[at], how, watch.stopped);
+        out[at] = pose(face, drives[at], how, monitor.stopped);
         {
             const std::lock_guard<std::mutex> lock(mutex_);
             idle_.push_back(&face);
         }
         const std::lock_guard<std::mutex> lock(telling);
         ++done;
-        watch.tell(static_cast<double>(done) / static_cast<double>(drives.size()), "poses");
+        monitor.report(static_cast<double>(done) / static_cast<double>(drives.size()), "poses");
     });
     return out;
 }

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/face/face.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/channels.h"
@@ -18,7 +18,7 @@ namespace risorius::blendshapes {
 struct SolvedPose {
     Points moved;  ///< displacement of every vertex, V x 3, m, head frame
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
-    face::StepFigures figures;
+    face::StepStats figures;
     double volume_ratio = 1;  ///< of the tissue, against rest
     int inverted_tets = 0;
 };
@@ -36,8 +36,8 @@ class ShapeSolver {
     ~ShapeSolver();
 
     /// In the order of the drives. Throws Interrupted, and soon.
-    std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives, const Watch& watch,
-                                  const Approach& how = {}) const;
+    std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives,
+                                  const ProgressMonitor& monitor, const Approach& how = {}) const;
 
     /// For what does not move: poses are sought with it.
     const face::Face& face() const { return *faces_.front(); }

@@ -23,7 +23,7 @@ struct ShapesPictures {
 /// Written below `folder`; names of files are relative to it.
 ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& files,
                            const rig::Head& head, const std::filesystem::path& folder,
-                           const Watch& watch);
+                           const ProgressMonitor& monitor);
 
 /// `pictures` null: numbers only.
 std::string shapes_page(const ShapesReport& report, const ShapesPictures* pictures);

@@ -35,7 +35,8 @@ std::string shape_numbers(const MadeShape& made) {
 }  // namespace
 
 ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& files,
-                           const rig::Head& head, const fs::path& folder, const Watch& watch) {
+                           const rig::Head& head, const fs::path& folder,
+                           const ProgressMonitor& monitor) {
     const render::Scene scene = scene::scene_from_rig(head, files.rig, files.mesh);
     ShapesPictures out;
     out.shapes.resize(report.shapes.list.size());
@@ -54,7 +55,7 @@ ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& fi
     double drawn = 0;
     const auto draw = [&](render::OffscreenView& view, std::size_t i, const std::string& kind,
                           bool as_colour) {
-        watch.tell(drawn++ / all, "pictures of " + report.shapes.list[i].goal.name);
+        monitor.report(drawn++ / all, "pictures of " + report.shapes.list[i].goal.name);
         const MadeShape& made = report.shapes.list[i];
         render::Pose pose;
         pose.positions = shown_pose(report.shapes, i, head.vertices);

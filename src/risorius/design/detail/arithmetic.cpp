@@ -24,15 +24,15 @@ class Reader {
         skip_space();
         if (at_ < text_.size()) fail("an operator");
         if (!std::isfinite(value))
-            throw Error(place_, "a finite value of " + risorius::quoted(text_), "none");
+            throw Error(place_, "a finite value of " + risorius::in_quotes(text_), "none");
         return value;
     }
 
   private:
     [[noreturn]] void fail(const std::string& expected) const {
         const std::string rest = text_.substr(std::min(at_, text_.size()));
-        throw Error(place_, expected + " in " + risorius::quoted(text_),
-                    rest.empty() ? "its end" : risorius::quoted(rest));
+        throw Error(place_, expected + " in " + risorius::in_quotes(text_),
+                    rest.empty() ? "its end" : risorius::in_quotes(rest));
     }
     void skip_space() {
         while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
@@ -44,7 +44,7 @@ class Reader {
         return true;
     }
     void need(char c) {
-        if (!take(c)) fail(risorius::quoted(std::string(1, c)));
+        if (!take(c)) fail(risorius::in_quotes(std::string(1, c)));
     }
     double sum(int depth) {
         double value = term(depth);

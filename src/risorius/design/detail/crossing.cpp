@@ -86,7 +86,7 @@ std::vector<Relation> read_fraction(const JsonCursor& json,
         const auto add = [&](const JsonCursor& place, const std::string& name, int coefficient) {
             index_of_name(place.place(), name, factors);
             if (!names.insert(name).second)
-                place.fail("every factor once", risorius::quoted(name) + " again");
+                place.fail("every factor once", risorius::in_quotes(name) + " again");
             relation.sum.emplace_back(name, coefficient);
         };
         if (sum.is_array())

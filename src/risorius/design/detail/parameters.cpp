@@ -38,7 +38,7 @@ std::string whole_reference(const std::string& text) {
     std::vector<std::string> names;
     for (const auto& [one, value] : known) names.push_back(one);
     throw Error(place, "a parameter of the design" + did_you_mean(name, names),
-                risorius::quoted(name));
+                risorius::in_quotes(name));
 }
 
 std::string fill_text(const std::string& text, const std::string& place, const ValueOf& value_of) {
@@ -51,7 +51,7 @@ std::string fill_text(const std::string& text, const std::string& place, const V
         const std::size_t end = text.find('}', i);
         const std::string name = end == std::string::npos ? "" : text.substr(i + 2, end - i - 2);
         if (!is_parameter_name(name))
-            throw Error(place, "${name of a parameter}", risorius::quoted(text.substr(i)));
+            throw Error(place, "${name of a parameter}", risorius::in_quotes(text.substr(i)));
         out += text_of(value_of(name, place));
         i = end + 1;
     }
@@ -64,7 +64,7 @@ Json fill(const JsonCursor& value, const ValueOf& value_of) {
         for (const std::string& key : value.keys()) {
             const std::string filled = fill_text(key, value.at(key).place(), value_of);
             if (out.contains(filled))
-                value.at(key).fail("every key once", risorius::quoted(filled) + " again");
+                value.at(key).fail("every key once", risorius::in_quotes(filled) + " again");
             out[filled] = fill(value.at(key), value_of);
         }
         return out;
@@ -82,7 +82,8 @@ Json fill(const JsonCursor& value, const ValueOf& value_of) {
         return json_number(arithmetic(text.substr(1), value.place(), [&](const std::string& name) {
             const Json& found = value_of(name, value.place());
             if (!found.is_number())
-                throw Error(value.place(), "a number for " + risorius::quoted(name), found.dump());
+                throw Error(value.place(), "a number for " + risorius::in_quotes(name),
+                            found.dump());
             return found.get<double>();
         }));
     return fill_text(text, value.place(), value_of);

@@ -87,9 +87,10 @@ std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
     for (const std::string& name : names) {
         if (!is_parameter_name(name))
             throw Error(file.string() + ":1", "names of letters, digits and _",
-                        risorius::quoted(name));
+                        risorius::in_quotes(name));
         if (!seen.insert(name).second)
-            throw Error(file.string() + ":1", "every name once", risorius::quoted(name) + " again");
+            throw Error(file.string() + ":1", "every name once",
+                        risorius::in_quotes(name) + " again");
     }
     std::vector<std::vector<Given>> out;
     for (std::size_t r = 1; r < rows.size(); ++r) {

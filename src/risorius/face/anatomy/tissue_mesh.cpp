@@ -197,8 +197,8 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
     return mesh;
 }
 
-Shell borne_by_tissue(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
-                      const std::array<EyeLids, 2>& lids) {
+Shell drop_unsupported_vertices(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
+                                const std::array<EyeLids, 2>& lids) {
     while (true) {
         const TissueMesh mesh = build_tissue_mesh(head, rig, shell, lids);
         std::vector<char> bare(shell.vertex.size(), 1);

@@ -40,7 +40,7 @@ TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& r
 
 /// The shell without corners of its rim under which all tetrahedra were too thin: skin that nothing bears has two places of rest,
 /// one on either side of its neighbours.
-Shell borne_by_tissue(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
-                      const std::array<EyeLids, 2>& lids);
+Shell drop_unsupported_vertices(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
+                                const std::array<EyeLids, 2>& lids);
 
 }  // namespace risorius::face

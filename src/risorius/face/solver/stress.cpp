@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "risorius/core/place_chance.h"
+#include "risorius/core/counter_rng.h"
 
 namespace risorius::face {
 
@@ -31,12 +31,12 @@ constexpr Goal kGoals[] = {
 
 // One number of a place in the run, the same whatever was asked before
 double chance(int seed, unsigned stream, long row, long column) {
-    return PlaceChance()
+    return CounterRng()
         .at(static_cast<std::uint64_t>(seed))
         .at(stream)
         .at(static_cast<std::uint64_t>(row))
         .at(static_cast<std::uint64_t>(column))
-        .inside();
+        .uniform_open();
 }
 
 // The least of the values that so large a share of them does not exceed; 0 of none.

@@ -148,7 +148,7 @@ class Settler {
 
     bool operator()(const std::shared_ptr<tissue::CellSolid>& solid, tissue::Settling settling,
                     solve::MotionState& state) {
-        run_.stop_if_asked();
+        run_.monitor.throw_if_stopped();
         std::vector<softbody::NodeSelection> pushed;
         if (case_.push) pushed.push_back(case_.push->nodes);
         const solve::MotionSystem system = softbody::refined_system(case_.body, solid, pushed);

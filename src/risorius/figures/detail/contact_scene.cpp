@@ -195,7 +195,7 @@ solve::IntegratorReport ContactScene::run(solve::IntegratorOptions integrator, d
     constexpr int kParts = 50;  // between which the wish to stop is heard
     const double from = state_.t_s;
     for (int i = 1; i <= kParts && !report.diverged; ++i) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         report.add(steps->advance(*system_, state_, from + (until_s - from) * i / kParts));
     }
     return report;

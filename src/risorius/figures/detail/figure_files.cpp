@@ -8,7 +8,7 @@
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/object_view.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 
 namespace risorius::figures {
 

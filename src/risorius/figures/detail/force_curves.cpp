@@ -143,7 +143,7 @@ void run_muscle_curves(const JsonCursor& experiment, const RunOptions& options, 
                     .rows = {}};
         for (int k = 0; k < kSamples; ++k) table.rows.push_back({place_of(named, k)});
         for (const CurveSet& set : sets) {
-            options.stop_if_asked();
+            options.monitor.throw_if_stopped();
             table.columns.push_back(set.name + "_f0");
             for (std::vector<double>& row : table.rows)
                 row.push_back((set.curves.*named.of).value(row.front()));

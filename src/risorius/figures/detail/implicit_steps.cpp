@@ -117,7 +117,7 @@ double error_with(const softbody::SoftBody& body, solve::IntegratorOptions integ
     // A long step may end beyond the duration, and then it alone is judged.
     const long count = std::max(1L, std::lround(duration_s / step_s));
     for (long step = 1; step <= count; ++step) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         cost.add(steps->advance(body.system, state, static_cast<double>(step) * step_s));
         if (cost.diverged || !state.x.allFinite()) return kInfinity;
         if (2 * step < count) continue;

@@ -72,7 +72,7 @@ MuscleMotion move_muscle(const softbody::MuscleDescription& description, const M
         how.step_s = phase.until_s - begin_s;  // one piece, however it rounds
         const auto integrator = solve::make_integrator(how);
         for (int i = 1; i <= steps; ++i) {
-            options.stop_if_asked();
+            options.monitor.throw_if_stopped();
             const double before_s = state.t_s;
             const double until_s = begin_s + (phase.until_s - begin_s) * i / steps;
             if (plate->free) {

@@ -79,7 +79,7 @@ Contraction contract(const MuscleRun& run, double activation, double shortening,
     Contraction found;
     found.rest = muscle_shape(muscle, 0, state.x, run.name, run.label + ", at rest");
     const auto settle = [&] {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         const solve::IntegratorReport report =
             solve::equilibrium(body.system, state,
                                {.method = solve::Method::kQuasiStatic,

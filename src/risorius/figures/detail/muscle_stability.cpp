@@ -108,7 +108,7 @@ double mean_tension(const Plan& plan, double step_s, const RunOptions& options) 
     solve::MotionState state = muscle.body.start();
     double sum = 0;
     for (int i = 0; i < kSamples; ++i) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         const double until_s = plan.tension_duration_s * (kSamples + i) / (2.0 * kSamples);
         if (steps->advance(muscle.body.system, state, until_s).diverged)
             return std::numeric_limits<double>::quiet_NaN();

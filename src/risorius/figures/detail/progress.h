@@ -16,7 +16,7 @@ class Progress {
     void done(double work, const std::string& what) {
         const std::lock_guard<std::mutex> lock(mutex_);
         done_ += work;
-        options_.tell(done_ / whole_, what);
+        options_.monitor.report(done_ / whole_, what);
     }
 
   private:

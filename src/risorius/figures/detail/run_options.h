@@ -9,7 +9,7 @@
 #include <string>
 
 #include "risorius/core/parallel.h"
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::figures {
 
@@ -49,20 +49,9 @@ class SharedRuns {
 };
 
 struct RunOptions {
-    ThreadLimit threads = 0;  ///< results do not depend on it
-    /// Share of the run done, 0..1, and what is being run; called from any thread, one at a time.
-    std::function<void(double share, const std::string& what)> progress = {};
-    std::function<bool()> stopped = {};  ///< asked often, from any thread
+    ThreadLimit threads = 0;       ///< results do not depend on it
+    ProgressMonitor monitor = {};  ///< called from any thread, one at a time
     SharedRuns* shared = nullptr;
-
-    /// Throws Interrupted when asked to stop.
-    void stop_if_asked() const {
-        if (stopped && stopped()) throw Interrupted();
-    }
-    void tell(double share, const std::string& what) const {
-        stop_if_asked();
-        if (progress) progress(share, what);
-    }
 };
 
 }  // namespace risorius::figures

@@ -19,7 +19,7 @@ Settled settle(const softbody::SoftBody& body, solve::IntegratorOptions integrat
     Settled settled;
     const int pieces = integrator.method == solve::Method::kQuasiStatic ? 1 : kPieces;
     for (int piece = 1; piece <= pieces && !settled.report.diverged; ++piece) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         settled.report.add(
             steps->advance(body.system, state, duration_s * piece / static_cast<double>(pieces)));
     }

@@ -13,7 +13,7 @@ bool survives(const softbody::SoftBody& body, const solve::IntegratorOptions& in
     const auto steps = solve::make_integrator(integrator);
     solve::MotionState state = body.start();
     for (int piece = 1; piece <= kPieces; ++piece) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         const solve::IntegratorReport report =
             steps->advance(body.system, state, duration_s * piece / static_cast<double>(kPieces));
         evaluations += report.evaluations;

@@ -64,11 +64,11 @@ std::vector<Still> still_over(const softbody::MuscleDescription& muscle, double 
         lengths.begin();
     StillMuscle longer(muscle, activation), shorter(muscle, activation);
     for (auto i = static_cast<std::size_t>(middle); i < lengths.size(); ++i) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         found[i] = longer.at(lengths[i]);
     }
     for (auto i = static_cast<std::size_t>(middle); i-- > 0;) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         found[i] = shorter.at(lengths[i]);
     }
     return found;

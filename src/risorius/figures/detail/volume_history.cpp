@@ -37,7 +37,7 @@ History record(const BodyRun& run, const Times& times, const RunOptions& options
     History history;
     const double volume = body.volume(body.rest), sum = body.volume_element_sum(body.rest);
     for (int i = 0; i <= times.count; ++i) {
-        options.stop_if_asked();
+        options.monitor.throw_if_stopped();
         if (!history.report.diverged)
             history.report.add(steps->advance(body.system, state, i * times.sample_s));
         const bool lost = history.report.diverged;

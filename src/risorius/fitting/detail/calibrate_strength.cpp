@@ -15,7 +15,7 @@ constexpr int kTrialIterations = 200;  // of the solver, per trial
 }  // namespace
 
 std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
-                                               const Watch& watch) {
+                                               const ProgressMonitor& monitor) {
     std::vector<MuscleStrength> out;
     for (const rig::MuscleBand& band : rig.atlas.bands)
         if (out.empty() || out.back().muscle != band.muscle)
@@ -39,9 +39,9 @@ std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigD
         double before_log = 0, before_miss = 0;
         double log_strength = std::log(muscle.strength);
         for (int trial = 0; trial < kTrials; ++trial) {
-            watch.tell((static_cast<double>(m) + static_cast<double>(trial) / kTrials) /
-                           static_cast<double>(out.size()),
-                       muscle.muscle);
+            monitor.report((static_cast<double>(m) + static_cast<double>(trial) / kTrials) /
+                               static_cast<double>(out.size()),
+                           muscle.muscle);
             const double strength = std::exp(log_strength);
             face.scale_muscle(muscle.muscle, strength / muscle.strength);
             muscle.strength = strength;

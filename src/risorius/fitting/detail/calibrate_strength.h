@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/face/face.h"
 #include "risorius/rig/rig_description.h"
 
@@ -27,6 +27,6 @@ struct MuscleStrength {
 /// Each muscle of the rig's bands alone, be it a bundle or a solid, one after the other, by the secant method; `face` is left with the strengths
 /// found. Throws Interrupted.
 std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
-                                               const Watch& watch);
+                                               const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/report/html_writer.h"
-#include "risorius/report/staged_file.h"
-#include "risorius/report/staged_folder.h"
 
 namespace risorius::fitting {
 namespace {

@@ -24,13 +24,13 @@ constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPres
 
 class Fit {
   public:
-    Fit(face::Face& face, const rig::RigDescription& rig, const scene::WayTable& standard,
-        const StrengthFitOptions& options, const std::string& place, const Watch& watch)
+    Fit(face::Face& face, const rig::RigDescription& rig, const scene::DisplacementTable& standard,
+        const StrengthFitOptions& options, const std::string& place, const ProgressMonitor& monitor)
         : face_(face),
           channels_(rig.channels()),
           ways_(face, rig, place),
           options_(options),
-          watch_(watch),
+          monitor_(monitor),
           lips_(rig.lips) {
         std::set<std::string> seen;
         for (const rig::MuscleBand& band : rig.atlas.bands)
@@ -122,7 +122,7 @@ class Fit {
         }
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];
-            watch_.tell(
+            monitor_.report(
                 (round + static_cast<double>(e) / static_cast<double>(expressions_.size())) /
                     (options_.rounds + 1),
                 one.name);
@@ -208,9 +208,9 @@ class Fit {
 
     face::Face& face_;
     const track::ChannelTable channels_;
-    scene::LandmarkWays ways_;
+    scene::LandmarkDisplacements ways_;
     const StrengthFitOptions options_;
-    const Watch& watch_;
+    const ProgressMonitor& monitor_;
     std::vector<std::string> muscles_;
     rig::LipsDescription lips_;
     std::vector<std::pair<double*, double>> lip_ratios_;  // and what it was
@@ -221,9 +221,10 @@ class Fit {
 }  // namespace
 
 StrengthFit fit_strengths(face::Face& face, const rig::RigDescription& rig,
-                          const scene::WayTable& standard, const StrengthFitOptions& options,
-                          const std::string& place, const Watch& watch) {
-    StrengthFit out = Fit(face, rig, standard, options, place, watch).run();
+                          const scene::DisplacementTable& standard,
+                          const StrengthFitOptions& options, const std::string& place,
+                          const ProgressMonitor& monitor) {
+    StrengthFit out = Fit(face, rig, standard, options, place, monitor).run();
     track::Drive rest;
     rest.excitation = Eigen::VectorXd::Zero(rig.channels().column_count());
     face.start([&](double) { return rest; });

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "risorius/core/watch.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/face/face.h"
 #include "risorius/rig/rig_description.h"
-#include "risorius/scene/landmark_ways.h"
+#include "risorius/scene/landmark_displacements.h"
 
 namespace risorius::fitting {
 
@@ -38,7 +38,8 @@ struct StrengthFitOptions {
 
 /// `face` is left at rest with what was found. Throws Interrupted; Error when the table names what the rig does not know.
 StrengthFit fit_strengths(face::Face& face, const rig::RigDescription& rig,
-                          const scene::WayTable& standard, const StrengthFitOptions& options,
-                          const std::string& place, const Watch& watch);
+                          const scene::DisplacementTable& standard,
+                          const StrengthFitOptions& options, const std::string& place,
+                          const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

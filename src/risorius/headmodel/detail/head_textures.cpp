@@ -9,7 +9,7 @@
 #include "risorius/headmodel/detail/part_layout.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 
 namespace risorius::headmodel {
 namespace {

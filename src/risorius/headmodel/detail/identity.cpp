@@ -56,23 +56,22 @@ std::vector<std::string> tone_names(const DesignTables& tables, const std::strin
     return names;
 }
 
-void check_identity(const Identity& identity, const DesignTables& tables,
-                    const std::string& place) {
-    check_range(place + "sex", identity.sex, kSexRange);
-    check_range(place + "age", identity.age, kAgeRange);
-    check_range(place + "freckles", identity.freckles, {0, 1});
-    check_range(place + "scalp_hair", identity.scalp_hair, {0, 1});
-    check_range(place + "hairline", identity.hairline, kHairRange);
-    check_range(place + "temples", identity.temples, kHairRange);
-    check_range(place + "beard", identity.beard, {0, 1});
+void check_identity(const Identity& identity, const DesignTables& tables, const PlaceOf& place) {
+    check_range(place("sex"), identity.sex, kSexRange);
+    check_range(place("age"), identity.age, kAgeRange);
+    check_range(place("freckles"), identity.freckles, {0, 1});
+    check_range(place("scalp_hair"), identity.scalp_hair, {0, 1});
+    check_range(place("hairline"), identity.hairline, kHairRange);
+    check_range(place("temples"), identity.temples, kHairRange);
+    check_range(place("beard"), identity.beard, {0, 1});
     const auto names = shape_parameters(tables);
     for (const auto& [parameter, value] : identity.shape) {
-        index_of_name(place + "shape", parameter, names);
-        check_range(place + "shape/" + parameter, value, kShapeRange);
+        index_of_name(place("shape"), parameter, names);
+        check_range(place("shape") + "/" + parameter, value, kShapeRange);
     }
-    index_of_name(place + "skin", identity.skin, tone_names(tables, "skin"));
-    index_of_name(place + "iris", identity.iris, tone_names(tables, "iris"));
-    index_of_name(place + "hair", identity.hair, tone_names(tables, "hair"));
+    index_of_name(place("skin"), identity.skin, tone_names(tables, "skin"));
+    index_of_name(place("iris"), identity.iris, tone_names(tables, "iris"));
+    index_of_name(place("hair"), identity.hair, tone_names(tables, "hair"));
 }
 
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
@@ -101,7 +100,8 @@ Identity read_identity(const std::filesystem::path& file, const DesignTables& ta
     word("skin", identity.skin);
     word("iris", identity.iris);
     word("hair", identity.hair);
-    check_identity(identity, tables, file.string() + ":/");
+    check_identity(identity, tables,
+                   [&](const std::string& key) { return file.string() + ":/" + key; });
     return identity;
 }
 

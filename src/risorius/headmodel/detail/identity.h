@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,9 +36,11 @@ std::vector<std::string> shape_parameters(const DesignTables& tables);
 /// Names that a tone may have; `part` is skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);
 
-/// Throws Error on unknown parameters or tones and on values beyond the ranges above; `place` stands before
-/// the name of what is wrong: "--", "ada.json:/".
-void check_identity(const Identity& identity, const DesignTables& tables, const std::string& place);
+/// What an error names as the place of a field: "ada.json:/age", or an option by option_name().
+using PlaceOf = std::function<std::string(const std::string& field)>;
+
+/// Throws Error on unknown parameters or tones and on values beyond the ranges above.
+void check_identity(const Identity& identity, const DesignTables& tables, const PlaceOf& place);
 
 /// Throws Error as above, naming the place in the file.
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables);

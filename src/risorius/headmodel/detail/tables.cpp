@@ -112,7 +112,7 @@ std::vector<Handle> read_handles(const std::filesystem::path& file) {
         const auto kind = kinds.find(row[1]);
         if (kind == kinds.end())
             throw Error(file.string() + ": row " + std::to_string(r + 1), "move, scale or lid",
-                        quoted(row[1]));
+                        in_quotes(row[1]));
         const double reach = number(file, row[5]);
         handles.push_back({row[0], kind->second,
                            Vec3(number(file, row[2]), number(file, row[3]), number(file, row[4])),
@@ -150,7 +150,7 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
             throw Error(tones.string(), std::string("a row of part ") + part, "none");
     for (const auto& [name, tone] : tables.tones["skin"])
         if (!tables.tones["lips"].count(name))
-            throw Error(tones.string(), "lips for skin " + quoted(name), "none");
+            throw Error(tones.string(), "lips for skin " + in_quotes(name), "none");
     return tables;
 }
 

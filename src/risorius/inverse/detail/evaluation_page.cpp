@@ -183,7 +183,7 @@ void write_table(report::HtmlWriter& html, const Evaluation& evaluation) {
         const EvaluatedExpression& one = evaluation.expressions[e];
         std::string places;
         for (std::size_t o = 0; o < orders.size(); ++o)
-            places += "--o" + std::to_string(o) + ":" + std::to_string(orders[o].rank[e]) + ";";
+            places += " --o" + std::to_string(o) + ":" + std::to_string(orders[o].rank[e]) + ";";
         html.open("div", {{"class", "row"}, {"role", "row"}, {"style", places}});
         html.open("span", {{"role", "cell"}})
             .element("a", one.name, {{"href", "#" + anchor(e)}})

@@ -94,7 +94,7 @@ std::vector<std::string> EvaluationPictures::files() const {
 EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
                                    const geom::PolygonMesh& mesh, const rig::Head& head,
                                    const Eigen::VectorXd& area, const fs::path& folder,
-                                   const Watch& watch) {
+                                   const ProgressMonitor& monitor) {
     const render::Scene scene = scene::scene_from_rig(head, rig, mesh);
     const int shown_width = static_cast<int>(kShown * EvaluationPictures::kWidth_px),
               shown_height = static_cast<int>(kShown * EvaluationPictures::kHeight_px);
@@ -111,7 +111,7 @@ EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigD
         static_cast<double>(evaluation_cameras().size() * evaluation.expressions.size());
     double drawn = 0;
     for (const std::string& camera : evaluation_cameras()) {
-        watch.tell(drawn / views, "pictures");
+        monitor.report(drawn / views, "pictures");
         render::OffscreenView view(scene, {.width_px = EvaluationPictures::kWidth_px,
                                            .height_px = EvaluationPictures::kHeight_px,
                                            .camera = camera});
@@ -131,7 +131,7 @@ EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigD
             write(neutral, std::string(kFolder) + "/neutral_" + camera + ".png");
         for (std::size_t e = 0; e < evaluation.expressions.size(); ++e) {
             const EvaluatedExpression& one = evaluation.expressions[e];
-            watch.tell(drawn++ / views, "pictures of " + one.name);
+            monitor.report(drawn++ / views, "pictures of " + one.name);
             EvaluationPictures::Kinds& kinds = out.expressions[e][camera];
             kinds["neutral"] = neutral_file;
             report::ContactRow row{one.name, numbers_text(one), {}};

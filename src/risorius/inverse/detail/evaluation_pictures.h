@@ -34,6 +34,6 @@ struct EvaluationPictures {
 EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
                                    const geom::PolygonMesh& mesh, const rig::Head& head,
                                    const Eigen::VectorXd& area, const std::filesystem::path& folder,
-                                   const Watch& watch);
+                                   const ProgressMonitor& monitor);
 
 }  // namespace risorius::inverse

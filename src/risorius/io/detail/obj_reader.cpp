@@ -18,7 +18,7 @@ const std::string kDefaultGroup = "default";  // the name the format gives to fa
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /// What stands in the file at an error, kept short and printable.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (const char c : text.substr(0, 24)) out += (c >= 32 && c < 127) ? c : '?';
     if (text.size() > 24) out += "...";
@@ -103,7 +103,7 @@ class ObjReader {
             while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
             libraries_.emplace_back(rest);
         } else if (stranger_.empty() && key != "vn" && key != "s") {
-            stranger_ = quoted(key);
+            stranger_ = in_quotes(key);
             stranger_line_ = line_;
         }
     }
@@ -117,9 +117,9 @@ class ObjReader {
             const auto [end, problem] =
                 std::from_chars(word.data(), word.data() + word.size(), out[k]);
             if (problem == std::errc::result_out_of_range)
-                fail("a number that a double can hold", quoted(whole));
+                fail("a number that a double can hold", in_quotes(whole));
             if (problem != std::errc() || end != word.data() + word.size())
-                fail("a number", quoted(whole));
+                fail("a number", in_quotes(whole));
         }
     }
 
@@ -140,17 +140,17 @@ class ObjReader {
             int vertex = 0, texcoord = 0;
             auto [at, problem] = std::from_chars(word.data(), end, vertex);
             if (problem != std::errc())
-                fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+                fail("a face corner v, v/vt, v//vn or v/vt/vn", in_quotes(word));
             corner_vertex_.push_back(resolve(vertex, positions_.size(), "vertex"));
             int corner_texcoord = kNoTexCoord;
             if (at != end && *at == '/' && at + 1 != end && at[1] != '/') {
                 std::tie(at, problem) = from_chars_pair(at + 1, end, texcoord);
                 if (problem != std::errc())
-                    fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+                    fail("a face corner v, v/vt, v//vn or v/vt/vn", in_quotes(word));
                 corner_texcoord = resolve(texcoord, texcoords_.size(), "texture coordinate");
             }
             if (at != end && *at != '/')
-                fail("a face corner v, v/vt, v//vn or v/vt/vn", quoted(word));
+                fail("a face corner v, v/vt, v//vn or v/vt/vn", in_quotes(word));
             corner_texcoord_.push_back(corner_texcoord);
             ++corners;
         }

@@ -182,7 +182,7 @@ Sound read_recording(const std::filesystem::path& file) {
     Sound sound = read_sound(file);
     if (sound.container != "wav" && sound.container != "flac")
         throw Error(file.string(), "a WAV or FLAC file",
-                    "one of " + risorius::quoted(sound.container));
+                    "one of " + risorius::in_quotes(sound.container));
     check_whole(file, sound);
     return sound;
 }

@@ -23,7 +23,7 @@ void check_one_of(const std::string& place, const std::string& what, const Names
     std::string expected = what + ", one of";
     for (const char* name : names) expected += std::string(" ") + name;
     throw Error(place, expected + did_you_mean(found, {names.begin(), names.end()}),
-                risorius::quoted(found));
+                risorius::in_quotes(found));
 }
 
 void check_range(const std::string& place, const char* what, int value, int min, int max) {
@@ -53,7 +53,7 @@ const char* ending_of(Form form) {
 void check_quality(const std::string& place, Form form, const VideoOptions& options) {
     const bool lossy = form == Form::kMp4 || form == Form::kMov || form == Form::kWebm;
     const char* const found = ending_of(form);
-    const char* const lossless = "an option that goes with --lossless";
+    const std::string lossless = "an option that goes with " + option_name("lossless");
     const bool kept_exactly = options.lossless && lossy;
     if (options.crf) {
         if (!lossy)
@@ -100,16 +100,17 @@ void check_transparency(const std::string& place, Form form, const VideoOptions&
                     "\".webm\"");
     if (form == Form::kWebm && options.pixels.value_or("yuv420p") != "yuv420p")
         throw Error(place, "yuv420p, the pixel format that has transparency in .webm",
-                    risorius::quoted(*options.pixels));
+                    risorius::in_quotes(*options.pixels));
     if (form == Form::kMov && !options.lossless)
         for (const auto& [given, what] : {std::pair{options.crf.has_value(), "a quality (crf)"},
                                           std::pair{options.preset.has_value(), "a preset"},
                                           std::pair{options.pixels.has_value(), "a pixel format"}})
             if (given)
-                throw Error(place,
-                            "no options of H.264: transparent .mov files are ProRes 4444, or PNG "
-                            "with --lossless",
-                            what);
+                throw Error(
+                    place,
+                    "no options of H.264: transparent .mov files are ProRes 4444, or PNG with " +
+                        option_name("lossless"),
+                    what);
 }
 
 void check_sound(const std::string& place, Form form, const VideoOptions& options) {

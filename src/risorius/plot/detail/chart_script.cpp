@@ -33,7 +33,7 @@ constexpr std::size_t kLongestLabelBeside = 22;  ///< characters; longer ones st
 constexpr std::size_t kMostLabelsBelow = 9;
 
 // Single quotes: gnuplot reads nothing into such a string but the quote itself.
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
     return out + "'";
@@ -57,13 +57,13 @@ std::vector<int> colours_of(const std::vector<Series>& series) {
 
 std::string axis_lines(const char* name, const Axis& axis, const AxisLayout& layout) {
     const std::string n = name;
-    std::string text = "set " + n + "label " + quoted(typeset(axis.label)) + "\n";
+    std::string text = "set " + n + "label " + in_quotes(typeset(axis.label)) + "\n";
     text += "set " + n + "range [" + number(layout.low) + ":" + number(layout.high) + "]\n";
     if (!axis.logarithmic) return text + "set format " + n + " '%h'\n";
     text += "set logscale " + n + " 10\nset " + n + "tics (";
     for (std::size_t i = 0; i < layout.tics.size(); ++i) {
         const Tic& tic = layout.tics[i];
-        text += (i ? ", " : "") + quoted(tic.label) + " " + number(tic.at);
+        text += (i ? ", " : "") + in_quotes(tic.label) + " " + number(tic.at);
         if (tic.label.empty()) text += " 1";
     }
     return text + ")\n";
@@ -126,7 +126,7 @@ std::string curve(const Series& series, std::size_t index, int colour, std::size
     }
     return "DATA skip 1 index " + std::to_string(index) + " using 2:3 with " + style +
            " linecolor rgb '" + kPalette[colour % kColours].rgb + "' " +
-           (series.label.empty() ? "notitle" : "title " + quoted(typeset(series.label)));
+           (series.label.empty() ? "notitle" : "title " + in_quotes(typeset(series.label)));
 }
 
 std::string plot_lines(const Chart& chart) {
@@ -142,7 +142,7 @@ std::string plot_lines(const Chart& chart) {
         if (!chart.bands[i].label.empty())
             parts.push_back("keyentry with boxes fillstyle solid 1 noborder fillcolor rgb '" +
                             std::string(kBandShades[i % std::size(kBandShades)]) + "' title " +
-                            quoted(typeset(chart.bands[i].label)));
+                            in_quotes(typeset(chart.bands[i].label)));
     std::string text = "plot ";
     for (std::size_t i = 0; i < parts.size(); ++i) text += (i ? ", \\\n     " : "") + parts[i];
     return text + "\n";
@@ -158,12 +158,12 @@ std::string output_lines(const std::string& name, const std::string& plot) {
     return "set terminal svg noenhanced" + size(1) +
            " font 'DejaVu Sans,Helvetica,Arial,sans-serif,11' background 'white'\n"
            "set output " +
-           quoted(name + ".svg") + "\n" + plot + "set terminal pngcairo noenhanced" +
+           in_quotes(name + ".svg") + "\n" + plot + "set terminal pngcairo noenhanced" +
            size(kPngScale) + " font 'DejaVu Sans,11' fontscale " + scale + " linewidth " + scale +
            " pointscale " + scale +
            " background 'white'\n"
            "set output " +
-           quoted(name + ".png") + "\n" + plot + "set output\n";
+           in_quotes(name + ".png") + "\n" + plot + "set output\n";
 }
 
 }  // namespace
@@ -192,10 +192,10 @@ std::string chart_script(const Chart& chart, const AxisLayout& x, const AxisLayo
            "set encoding utf8\n"
            "set datafile separator comma\n"
            "DATA = " +
-           quoted(chart.name + ".data.csv") +
+           in_quotes(chart.name + ".data.csv") +
            "\n"
            "set title " +
-           quoted(typeset(chart.title)) + "\n" + axis_lines("x", chart.x, x) +
+           in_quotes(typeset(chart.title)) + "\n" + axis_lines("x", chart.x, x) +
            axis_lines("y", chart.y, y) +
            "set border 3 linewidth 0.8 linecolor rgb '#404040'\n"
            "set tics nomirror out scale 0.6\n"

@@ -113,7 +113,7 @@ std::string without_blank_ends(std::string text) {
 
 void run_gnuplot(const std::string& program, const std::string& script,
                  const std::filesystem::path& folder) {
-    std::vector<std::string> arguments{program, "--default-settings", script};
+    std::vector<std::string> arguments{program, "-d", script};
     std::vector<std::string> settings = environment();
     const std::vector<char*> argv = pointers_to(arguments), envp = pointers_to(settings);
     Pipe errors;

@@ -18,7 +18,7 @@ struct ColourScale {
 void draw_colour_scale(const ColourScale& scale, const Background& background, Image& image);
 
 /// Of muscles in even light, under the skin of the face.
-ColourScale activation_scale(const Look& look);
+ColourScale activation_scale(const Appearance& look);
 ColourScale values_scale(const SkinValues& values);
 
 }  // namespace risorius::render

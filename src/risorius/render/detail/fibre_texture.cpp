@@ -16,7 +16,7 @@ constexpr int kAcross = 512, kAlong = 128;  ///< texels
 class FibreNoise {
   public:
     FibreNoise(int across, int along, unsigned seed) : across_(across), along_(along) {
-        StrokeRandom random(seed);
+        RandomSequence random(seed);
         for (int i = 0; i < across * along; ++i) values_.push_back(random.next());
     }
     double at(double s, double t) const {  // 0..1 over the tile

@@ -87,17 +87,17 @@ Lights::~Lights() {
 ShaderConstants Lights::constants() const {
     std::string text = "#define LIGHTS_TOLD\nconst mat4 shadow_from_world = " +
                        glsl("mat4", frame_.shadow_from_world) + ";\n";
-    const auto tell = [&](const char* name, std::span<const float> four) {
+    const auto set_uniform = [&](const char* name, std::span<const float> four) {
         text += std::string("const vec4 ") + name + " = " + glsl("vec4", four) + ";\n";
     };
-    tell("shadow_places", frame_.shadow_places);
-    tell("camera", frame_.camera);
-    tell("key_direction", frame_.key_direction);
-    tell("key_card", frame_.key_card);
-    tell("fill_direction", frame_.fill_direction);
-    tell("fill_card", frame_.fill_card);
-    tell("rim_direction", frame_.rim_direction);
-    tell("rim_card", frame_.rim_card);
+    set_uniform("shadow_places", frame_.shadow_places);
+    set_uniform("camera", frame_.camera);
+    set_uniform("key_direction", frame_.key_direction);
+    set_uniform("key_card", frame_.key_card);
+    set_uniform("fill_direction", frame_.fill_direction);
+    set_uniform("fill_card", frame_.fill_card);
+    set_uniform("rim_direction", frame_.rim_direction);
+    set_uniform("rim_card", frame_.rim_card);
     text += "const vec4 irradiance[9] = vec4[9](";
     for (const auto& four : frame_.irradiance)
         text += glsl("vec4", four) + (&four == &frame_.irradiance[8] ? ");\n" : ", ");

@@ -172,7 +172,7 @@ std::unique_ptr<GlProgram> Materials::make_program(const Kind& kind, bool folds,
                          : fragment_shader(material, how, {.folds = folds, .pores = pores_}, own)));
     if (muscles && material == Material::kSkin) {
         program->use();
-        muscles->tell(*program);
+        muscles->set_uniform(*program);
     }
     return program;
 }

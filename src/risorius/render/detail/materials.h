@@ -59,7 +59,7 @@ class Materials {
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};
-    Look look_;
+    Appearance look_;
     bool draft_, pores_;
 };
 

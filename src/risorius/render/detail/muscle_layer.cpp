@@ -137,7 +137,7 @@ void MuscleLayer::upload(const Pose& pose) {
                  colours_.data(), GL_STREAM_DRAW);
 }
 
-void MuscleLayer::tell(const GlProgram& program) const {
+void MuscleLayer::set_uniform(const GlProgram& program) const {
     glUniform2f(program.location("distance_of_depth"), static_cast<float>(distance_of_depth_.x()),
                 static_cast<float>(distance_of_depth_.y()));
     const Eigen::Vector3f right = right_.cast<float>();

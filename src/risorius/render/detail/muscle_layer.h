@@ -26,7 +26,7 @@ class MuscleLayer {
     void draw() const;
 
     /// What a program that looks into the layer has to know of the camera.
-    void tell(const GlProgram& program) const;
+    void set_uniform(const GlProgram& program) const;
 
   private:
     Eigen::Index vertex_count_;

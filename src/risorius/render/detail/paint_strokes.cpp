@@ -45,7 +45,7 @@ class StrokePad {
 
 /// The ground the hairs of a brow stand in: their shadows and the finest among them.
 void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
-          StrokeRandom& random, StrokePad& pad) {
+          RandomSequence& random, StrokePad& pad) {
     if (line.size() < 3) return;
     constexpr int kHairs = 420;
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
@@ -59,7 +59,7 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
 
 /// Cropped hair beyond the hairline, lying away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
-           StrokeRandom& random, StrokePad& pad) {
+           RandomSequence& random, StrokePad& pad) {
     if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Evenly spread by the sequence of the plastic number (Roberts 2018): chance alone leaves bald spots and clots.
     constexpr int kHairs = 170000;
@@ -96,7 +96,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
 
 /// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
 void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
-           const std::vector<unsigned>& skin, StrokeRandom& random, StrokePad& pad) {
+           const std::vector<unsigned>& skin, RandomSequence& random, StrokePad& pad) {
     if (scene.look.beard <= 0 || plan.beard.empty()) return;
     constexpr double kPerSquareMetre = 1.1e6;  // of a man's chin
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
@@ -127,7 +127,7 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
     }
 }
 
-void freckles(const Scene& scene, const SkinPlan& plan, StrokeRandom& random, StrokePad& pad) {
+void freckles(const Scene& scene, const SkinPlan& plan, RandomSequence& random, StrokePad& pad) {
     const int count = static_cast<int>(900 * std::clamp(scene.look.freckles, 0.0, 1.0));
     const Vec3 tint = linear_from_srgb(scene.look.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
     const bool hairless = plan.hairline[0] > 1;
@@ -186,7 +186,7 @@ bool inside_lips(const SkinPlan& plan, const Vec3& p) {
     return inside && p.z() > plan.lip_back_m;
 }
 
-BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, StrokeRandom& random) {
+BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, RandomSequence& random) {
     const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
     const std::size_t end = line.size() - 1;
     const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
@@ -215,17 +215,9 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Strok
     return hair;
 }
 
-double StrokeRandom::next() {
-    state_ += 0x9E3779B97F4A7C15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
-}
-
 std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                                        const std::vector<unsigned>& skin) {
-    StrokeRandom random(scene.look.seed);
+    RandomSequence random(scene.look.seed);
     StrokePad pad;
     freckles(scene, plan, random, pad);
     scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);

@@ -4,20 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "risorius/core/counter_rng.h"
 #include "risorius/render/detail/skin_plan.h"
 #include "risorius/render/scene.h"
 
 namespace risorius::render {
-
-/// Uniform numbers in [0, 1), the same for a seed on every machine (splitmix64, Steele 2014).
-class StrokeRandom {
-  public:
-    explicit StrokeRandom(std::uint64_t seed) : state_(seed) {}
-    double next();
-
-  private:
-    std::uint64_t state_;
-};
 
 /// Where a hair of a brow grows on the map and which way: upright at the nose, then more and more along the brow; the upper rows
 /// lean down, the lower ones up.
@@ -26,7 +17,7 @@ struct BrowHair {
     double length_m = 0, density = 1;
 };
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
-                        StrokeRandom& random);
+                        RandomSequence& random);
 
 /// Cells of the map that ears cover.
 class EarMask {

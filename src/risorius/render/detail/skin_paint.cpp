@@ -15,7 +15,7 @@
 namespace risorius::render {
 namespace {
 
-void set_plan(const GlProgram& program, const SkinPlan& plan, const Look& look) {
+void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& look) {
     const auto colour = [&](const char* name, const Vec3& srgb) {
         const Eigen::Vector3f linear = linear_from_srgb(srgb).cast<float>();
         glUniform3fv(program.location(name), 1, linear.data());
@@ -185,7 +185,7 @@ GLuint make_pores(unsigned seed) {
     constexpr int kPores = 5200;
     constexpr auto kCount = static_cast<std::size_t>(kSide) * kSide;
     std::vector<float> height(kCount, 0.0F);
-    StrokeRandom random(seed * 7919U + 17U);
+    RandomSequence random(seed * 7919U + 17U);
     const auto wrap = [](int i) { return static_cast<std::size_t>((i + 4 * kSide) % kSide); };
 
     // Pits of some hundredths of a square millimetre at most, many small and few large, closer together in some places than in

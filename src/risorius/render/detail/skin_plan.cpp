@@ -134,7 +134,7 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
 }
 
 /// Hair grows beyond a closed line on the map: over the forehead through the marks, in front of the ears, to the nape.
-void plan_hairline(const Marks& marks, const Vec3& centre, const Look& look, SkinPlan& plan) {
+void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& look, SkinPlan& plan) {
     plan.hairline.fill(2.0);
     const std::vector<Vec3> front = marks.all({"tr", "fht_l", "fht_r", "t_l", "t_r"});
     if (front.empty()) return;
@@ -220,7 +220,7 @@ double beard_density(const SkinPlan& plan, const Vec3& rest) {
     return t * t * (3 - 2 * t);
 }
 
-Vec3 hair_tone_at(const Look& look) {
+Vec3 hair_tone_at(const Appearance& look) {
     const double grey = std::clamp(1.6 * look.age - 0.5, 0.0, 1.0);
     return look.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - look.hair_tone);
 }

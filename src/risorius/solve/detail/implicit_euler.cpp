@@ -105,15 +105,15 @@ class BaraffWitkin final : public Stepper {
 
 class QuasiStatic final : public Integrator {
   public:
-    explicit QuasiStatic(const IntegratorOptions& options) : options_(options), watch_(options) {}
+    explicit QuasiStatic(const IntegratorOptions& options) : options_(options), monitor_(options) {}
 
-    void restart() override { watch_.restart(); }
+    void restart() override { monitor_.restart(); }
 
     IntegratorReport advance(const MotionSystem& system, MotionState& state,
                              double until_s) override {
         IntegratorReport report;
         if (until_s < state.t_s) return report;
-        watch_.begin(state);
+        monitor_.begin(state);
         system.begin_step(state.t_s, std::numeric_limits<double>::infinity(), state.x, state.v);
         system.place_fixed(until_s, state.x, state.v);
         start_ = state.x;
@@ -127,17 +127,17 @@ class QuasiStatic final : public Integrator {
         report.error_estimate = newton.last_move_m / options_.length_scale_m;
         state.v.setZero(system.size(), 3);
         state.t_s = until_s;
-        if (report.diverged || watch_.diverged(state.x, state.v)) {
+        if (report.diverged || monitor_.diverged(state.x, state.v)) {
             report.diverged = true;
             report.diverged_at_s = state.t_s;
         }
-        watch_.end(state);
+        monitor_.end(state);
         return report;
     }
 
   private:
     const IntegratorOptions options_;
-    Watch watch_;
+    ProgressMonitor monitor_;
     Newton newton_;
     Points start_;
 };

@@ -20,17 +20,17 @@ double closeness(double h, double until_s) {
 
 }  // namespace
 
-Watch::Watch(const IntegratorOptions& options)
+ProgressMonitor::ProgressMonitor(const IntegratorOptions& options)
     : farthest_squared_(std::pow(options.diverged_at * options.length_scale_m, 2)),
       left_at_s_(std::numeric_limits<double>::quiet_NaN()) {}
 
-bool Watch::begin(const MotionState& state) {
+bool ProgressMonitor::begin(const MotionState& state) {
     if (state.t_s == left_at_s_ && state.x.rows() == began_.rows()) return false;
     began_ = state.x;
     return true;
 }
 
-bool Watch::diverged(const Points& x, const Points& v) const {
+bool ProgressMonitor::diverged(const Points& x, const Points& v) const {
     const double* p = x.data();
     const double* p0 = began_.data();
     const double* q = v.data();
@@ -62,10 +62,10 @@ bool Watch::diverged(const Points& x, const Points& v) const {
     return bad;
 }
 
-Stepper::Stepper(const IntegratorOptions& options) : options_(options), watch_(options) {}
+Stepper::Stepper(const IntegratorOptions& options) : options_(options), monitor_(options) {}
 
 void Stepper::restart() {
-    watch_.restart();
+    monitor_.restart();
     forget();
 }
 
@@ -76,13 +76,13 @@ IntegratorReport Stepper::advance(const MotionSystem& system, MotionState& state
         report.diverged = true;
         report.diverged_at_s = state.t_s;
     };
-    if (watch_.begin(state)) {
+    if (monitor_.begin(state)) {
         forget();
         origin_s_ = state.t_s;
         count_ = 0;
         system.place_fixed(state.t_s, state.x, state.v);
     }
-    if (watch_.diverged(state.x, state.v)) {
+    if (monitor_.diverged(state.x, state.v)) {
         diverge();
         return report;
     }
@@ -108,23 +108,23 @@ IntegratorReport Stepper::advance(const MotionSystem& system, MotionState& state
             count_ = 0;
         }
         state.t_s = std::abs(end - until_s) <= close ? until_s : end;
-        if (report.diverged || watch_.diverged(state.x, state.v)) {
+        if (report.diverged || monitor_.diverged(state.x, state.v)) {
             diverge();
             break;
         }
     }
-    watch_.end(state);
+    monitor_.end(state);
     return report;
 }
 
 ControlledStepper::ControlledStepper(const IntegratorOptions& options)
     : options_(options),
       tolerance_(options.tolerance > 0 ? options.tolerance : kBulirschStoerTolerance),
-      watch_(options),
+      monitor_(options),
       step_s_(options.step_s) {}
 
 void ControlledStepper::restart() {
-    watch_.restart();
+    monitor_.restart();
     step_s_ = options_.step_s;
     forget();
 }
@@ -149,12 +149,12 @@ IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionSt
         report.diverged = true;
         report.diverged_at_s = state.t_s;
     };
-    if (watch_.begin(state)) {
+    if (monitor_.begin(state)) {
         forget();
         step_s_ = options_.step_s;
         system.place_fixed(state.t_s, state.x, state.v);
     }
-    if (watch_.diverged(state.x, state.v)) {
+    if (monitor_.diverged(state.x, state.v)) {
         diverge();
         return report;
     }
@@ -178,7 +178,7 @@ IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionSt
                 state.v.swap(trial_v_);
                 system.place_fixed(state.t_s, state.x, state.v);
                 ++report.steps;
-                if (watch_.diverged(state.x, state.v)) diverge();
+                if (monitor_.diverged(state.x, state.v)) diverge();
                 break;
             }
             ++report.rejections;
@@ -190,7 +190,7 @@ IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionSt
             }
         }
     }
-    watch_.end(state);
+    monitor_.end(state);
     return report;
 }
 

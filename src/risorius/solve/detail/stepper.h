@@ -6,9 +6,9 @@
 namespace risorius::solve::detail {
 
 /// Remembers where a motion began and whether it is continued where it was left.
-class Watch {
+class ProgressMonitor {
   public:
-    explicit Watch(const IntegratorOptions& options);
+    explicit ProgressMonitor(const IntegratorOptions& options);
 
     void restart() { left_at_s_ = std::numeric_limits<double>::quiet_NaN(); }
 
@@ -45,7 +45,7 @@ class Stepper : public Integrator {
     const IntegratorOptions options_;
 
   private:
-    Watch watch_;
+    ProgressMonitor monitor_;
     double origin_s_ = 0;
     long count_ = 0;
 };
@@ -78,7 +78,7 @@ class ControlledStepper : public Integrator {
     Points trial_x_, trial_v_;
 
   private:
-    Watch watch_;
+    ProgressMonitor monitor_;
     double step_s_;
 };
 

@@ -15,7 +15,7 @@
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/wav_file.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/take.h"
 #include "risorius/track/timeline.h"
@@ -91,14 +91,14 @@ Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : 
 
 /// The pictures of a take, matched, and how light they were and are.
 Json show_take(const ClipPlan& plan, const Take& take, const animate::FrameRows& rows,
-               const Watch& watch, ClipPictures& pictures) {
+               const ProgressMonitor& monitor, ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
     const media::ToneCurve curve(tone);
     media::VideoReader reader(take.video);
     media::LuminanceSums after;
     double cut_off = 0;
     for (int frame = 0; frame < reader.frames(); ++frame) {
-        watch.tell(static_cast<double>(frame) / reader.frames(), kRendering);
+        monitor.report(static_cast<double>(frame) / reader.frames(), animate::kRendering);
         Image image = reader.frame(frame);
         const std::vector<std::uint16_t> part = measured_part(plan, rows, frame);
         cut_off += curve.cut_off(image, part) / reader.frames();
@@ -307,7 +307,7 @@ animate::AnimateOptions film_options(const ClipPlan& plan, const fs::path& folde
 }
 
 void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
-               const Watch& watch, animate::Studio& studio) {
+               const ProgressMonitor& monitor, animate::Studio& studio) {
     const ClipFiles files = clip_files(plan);
     for (const fs::path& file : {files.strip, files.video})
         fs::create_directories((folder / file).parent_path());
@@ -315,7 +315,7 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
     if (plan.luminance) {
         take = find_take(plan, folder);
         if (!take) {
-            make_take(plan, folder, share, watch, studio);
+            make_take(plan, folder, share, monitor, studio);
             take = find_take(plan, folder);
             if (!take) throw RunError(plan.condition.clip + ": its take has gone");
         }
@@ -340,11 +340,11 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
     if (take) {
         run = take->run;
         rows = animate::frame_rows(take->table);
-        luminance = show_take(plan, *take, rows, watch, pictures);
+        luminance = show_take(plan, *take, rows, monitor, pictures);
     } else {
         animate::FilmExtras extras;
         run = run_without_places(animate::film(
-            options, shot, [&](Image image) { pictures.take(std::move(image)); }, extras, watch,
+            options, shot, [&](Image image) { pictures.take(std::move(image)); }, extras, monitor,
             studio));
         rows = animate::frame_rows(extras.table);
     }

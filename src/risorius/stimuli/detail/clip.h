@@ -93,7 +93,7 @@ std::string text_of_file(const std::filesystem::path& file);
 
 /// Throws Error, RunError, Interrupted; then nothing new has a final name but files that the next try replaces.
 void make_clip(const ClipPlan& plan, const std::filesystem::path& folder, const CoreShare& share,
-               const Watch& watch, animate::Studio& studio);
+               const ProgressMonitor& monitor, animate::Studio& studio);
 
 /// The sidecar of a clip that is made.
 Json clip_record(const ClipPlan& plan, const std::filesystem::path& folder);

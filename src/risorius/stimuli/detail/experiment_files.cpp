@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 namespace risorius::stimuli {
@@ -130,7 +130,7 @@ void check_experiment(BatchPlan& plan) {
     if (!any) throw Error("experiment", "a clip to be shown at least", "none");
     if (experiment.correct && !any_correct)
         throw Error("experiment/correct", "a parameter with values that are among the answers",
-                    risorius::quoted(*experiment.correct));
+                    risorius::in_quotes(*experiment.correct));
     if (!without.empty())
         plan.notes.push_back("experiment: none of the answers is correct for " +
                              std::to_string(without.size()) + " of the clips shown, " +

@@ -235,10 +235,10 @@ def show(window, clip, frames, heard, triggers, square, refreshes):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--participant", default="0")
-    parser.add_argument("--seed", type=int, help="of the order; by default the participant's name")
-    parser.add_argument("--trigger-port", default="", help="a serial port, or the address of a parallel port as 0x0378")
-    parser.add_argument("--window", action="store_true", help="not the whole screen")
+    parser.add_argument('--participant', default="0")
+    parser.add_argument('--seed', type=int, help="of the order; by default the participant's name")
+    parser.add_argument('--trigger-port', default="", help="a serial port, or the address of a parallel port as 0x0378")
+    parser.add_argument('--window', action="store_true", help="not the whole screen")
     options = parser.parse_args()
 
     settings = json.loads((HERE / "settings.json").read_text(encoding="utf-8"))

@@ -7,7 +7,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/plot/write_chart.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/take.h"
 
 namespace risorius::stimuli {

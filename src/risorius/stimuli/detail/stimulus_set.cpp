@@ -7,8 +7,8 @@
 
 #include "risorius/core/version.h"
 #include "risorius/media/sha256.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/report/html_writer.h"
-#include "risorius/report/staged_file.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 

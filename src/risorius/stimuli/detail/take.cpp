@@ -6,7 +6,7 @@
 #include "risorius/core/error.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
-#include "risorius/report/staged_file.h"
+#include "risorius/report/atomic_file.h"
 #include "risorius/scene/face_oval.h"
 
 namespace risorius::stimuli {
@@ -81,7 +81,7 @@ std::optional<Take> find_take(const ClipPlan& plan, const fs::path& folder) {
 }
 
 void make_take(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
-               const Watch& watch, animate::Studio& studio) {
+               const ProgressMonitor& monitor, animate::Studio& studio) {
     const std::string& clip = plan.condition.clip;
     const fs::path video_file = folder / take_file(clip, ".mkv"),
                    table_file = folder / take_file(clip, ".tsv"),
@@ -95,7 +95,7 @@ void make_take(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
     media::VideoWriter video(video_file, shot.video);
     animate::FilmExtras extras;
     const animate::RunRecord run = animate::film(
-        options, shot, [&](const Image& image) { video.append(image); }, extras, watch, studio);
+        options, shot, [&](const Image& image) { video.append(image); }, extras, monitor, studio);
     video.finish();
     report::write_text(table_file, extras.table);
 

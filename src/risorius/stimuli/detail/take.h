@@ -31,7 +31,7 @@ std::optional<Take> find_take(const ClipPlan& plan, const std::filesystem::path&
 
 /// Throws as make_clip().
 void make_take(const ClipPlan& plan, const std::filesystem::path& folder, const CoreShare& share,
-               const Watch& watch, animate::Studio& studio);
+               const ProgressMonitor& monitor, animate::Studio& studio);
 
 /// What is measured of a clip's film: by its take, or by the clip that was made of it.
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,

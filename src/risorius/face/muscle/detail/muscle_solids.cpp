@@ -197,14 +197,14 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                 binding.solid_weight[k] * rest_.row(binding.solid[k]).transpose();
     }
 
-    std::vector<tissue::Tethers::Tether> supports;
+    std::vector<tissue::ZeroLengthSprings::Tether> supports;
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (!node.against_bone) continue;
         supports.push_back({first_ + i, node.rest, node.outward, kSupport_pa_per_m * area(i), 0.0});
         support_node_.push_back(i);
     }
-    supports_ = std::make_unique<tissue::Tethers>(supports);
+    supports_ = std::make_unique<tissue::ZeroLengthSprings>(supports);
 }
 
 bool MuscleSolids::is_solid(const std::string& muscle) const {
@@ -361,7 +361,7 @@ void MuscleSolids::refresh(Group& group, double h, const Points& x,
                                 binding.solid_weight[b] * Mat3::Identity());
     }
     for (std::size_t i : group.support) {
-        const tissue::Tethers::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
         hessian.add(row_of(support_node_[i]), row_of(support_node_[i]),
                     support.kn_n_per_m * support.normal * support.normal.transpose());
     }
@@ -428,7 +428,7 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
         if (on_bone(i))
             give(placement_.nodes[static_cast<std::size_t>(i)], -solid_b_.row(i).transpose());
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
-        const tissue::Tethers::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
         const Vec3 off = x.row(support.node).transpose() - support.target;
         give(placement_.nodes[static_cast<std::size_t>(support_node_[i])],
              support.kn_n_per_m * off.dot(support.normal) * support.normal);

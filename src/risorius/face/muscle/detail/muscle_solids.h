@@ -166,7 +166,7 @@ class MuscleSolids {
     Eigen::VectorXd mass_;
     std::vector<Part> parts_;
     std::vector<Binding> bindings_;
-    std::unique_ptr<tissue::Tethers> supports_;
+    std::unique_ptr<tissue::ZeroLengthSprings> supports_;
     std::vector<int> support_node_;
     std::vector<int> held_tissue_;  ///< tissue nodes that do not move by themselves
     double step_s_ = 0;

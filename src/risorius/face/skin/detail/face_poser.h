@@ -12,8 +12,8 @@
 #include "risorius/face/anatomy/shell.h"
 #include "risorius/face/anatomy/tissue_mesh.h"
 #include "risorius/face/skin/detail/face_pose.h"
-#include "risorius/face/skin/detail/follow.h"
-#include "risorius/face/skin/detail/lining.h"
+#include "risorius/face/skin/detail/mouth_lining.h"
+#include "risorius/face/skin/detail/rigid_followers.h"
 #include "risorius/face/skin/detail/skin_binding.h"
 #include "risorius/face/skin/detail/skin_layer.h"
 #include "risorius/rig/head.h"
@@ -79,9 +79,9 @@ class FacePoser {
     const TissueMesh& mesh_;
     track::ChannelTable channels_;
     SkinBinding binding_;
-    Follow follow_;
+    RigidFollowers follow_;
     SkinLayer skin_;
-    Lining lining_;
+    MouthLining lining_;
 };
 
 }  // namespace risorius::face

@@ -13,8 +13,8 @@ namespace risorius::face {
 namespace {
 
 constexpr double kRounding = 0.2;  // of the valleys; shader_skin.cpp draws the same profile
-constexpr double kUnlike = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
-constexpr double kSteepestFold = 0.45;              // depth / span: folds steeper than this close
+constexpr double kLineVariation = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
+constexpr double kSteepestFold = 0.45;  // depth / span: folds steeper than this close
 // Edges per wave from which on vertices carry the fold, and all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
 constexpr double kStays = 0.09;  // compression, of skin of 80 years
@@ -61,7 +61,7 @@ double fold_profile(double phase) {
 }
 
 double fold_height(double phase) {
-    const double of_line = 1 + kUnlike * std::sin(kUnlikeTurn * std::round(phase));
+    const double of_line = 1 + kLineVariation * std::sin(kUnlikeTurn * std::round(phase));
     return ridge() - of_line * (fold_profile(0.5) - fold_profile(phase));
 }
 

@@ -66,35 +66,34 @@ Eigen::VectorXd DrivenJaw::excitation(const Eigen::VectorXd& excitation,
                                                       drive.at(track::Kinematic::kJawSide)));
 }
 
-StepFigures DrivenJaw::implicit_step(FaceTissue& tissue, double h, double jaw_h,
-                                     const Points& start, const Points& aim,
-                                     const Eigen::VectorXd& activation,
-                                     const JawDynamics::Carriage& carriage,
-                                     const solve::QuasiNewtonOptions& options, Points& x,
-                                     JawDynamics::State& state,
-                                     std::span<const Points> likely) const {
+StepStats DrivenJaw::implicit_step(FaceTissue& tissue, double h, double jaw_h, const Points& start,
+                                   const Points& aim, const Eigen::VectorXd& activation,
+                                   const JawDynamics::Carriage& carriage,
+                                   const solve::QuasiNewtonOptions& options, Points& x,
+                                   JawDynamics::State& state,
+                                   std::span<const Points> likely) const {
     if (!dynamics_) return tissue.implicit_step(h, start, aim, activation, options, x, likely);
     JawInStep step{*dynamics_, dynamics_->begin(jaw_h, state, activation, carriage), state.q};
-    const StepFigures figures = tissue.implicit_step(h, start, aim, activation, options, x, step);
+    const StepStats figures = tissue.implicit_step(h, start, aim, activation, options, x, step);
     state = dynamics_->end(step.step, step.q);
     return figures;
 }
 
-StepFigures DrivenJaw::settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
-                              const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
-                              JawDynamics::State& state) const {
-    StepFigures figures;
+StepStats DrivenJaw::settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
+                            const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
+                            JawDynamics::State& state) const {
+    StepStats figures;
     while (figures.iterations < options.iterations && !(options.stopped && options.stopped())) {
         tissue.find_contacts(x);
         const Points start = x;
         state.velocity = JawDynamics::still();
-        const StepFigures part = implicit_step(tissue, kRestStep_s, kRestStep_s, start, start,
-                                               activation, {.gravity_m_s2 = gravity_m_s2},
-                                               {.iterations = kIterationsOfRestStep,
-                                                .memory = kRestMemory,
-                                                .step_cap_m = kRestStepCap_m,
-                                                .tolerance_rms_m = kRestTolerance_m},
-                                               x, state);
+        const StepStats part = implicit_step(tissue, kRestStep_s, kRestStep_s, start, start,
+                                             activation, {.gravity_m_s2 = gravity_m_s2},
+                                             {.iterations = kIterationsOfRestStep,
+                                              .memory = kRestMemory,
+                                              .step_cap_m = kRestStepCap_m,
+                                              .tolerance_rms_m = kRestTolerance_m},
+                                             x, state);
         figures.iterations += std::max(1, part.iterations);
         figures.evaluations += part.evaluations;
         figures.contact_depth_m = part.contact_depth_m;
@@ -111,7 +110,7 @@ StepFigures DrivenJaw::settle(FaceTissue& tissue, const Eigen::VectorXd& activat
     return figures;
 }
 
-void DrivenJaw::tell(const JawVector& q, FacePose& pose) const {
+void DrivenJaw::report(const JawVector& q, FacePose& pose) const {
     if (!dynamics_) return;
     pose.tooth_force_n = dynamics_->joint().tooth_force_n(q);
     pose.jaw_open = pose.jaw.open_m / joint_.place(jaw_.motion(1, 0, 0)).open_m;

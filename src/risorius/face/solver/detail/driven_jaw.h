@@ -42,18 +42,18 @@ class DrivenJaw {
     Eigen::VectorXd excitation(const Eigen::VectorXd& excitation, const track::Drive& drive) const;
 
     /// One step of the tissue, and of the jaw, from `state` to `state`, if muscles move it; `jaw_h` is the jaw's own.
-    StepFigures implicit_step(FaceTissue& tissue, double h, double jaw_h, const Points& start,
-                              const Points& aim, const Eigen::VectorXd& activation,
-                              const JawDynamics::Carriage& carriage,
-                              const solve::QuasiNewtonOptions& options, Points& x,
-                              JawDynamics::State& state, std::span<const Points> likely = {}) const;
+    StepStats implicit_step(FaceTissue& tissue, double h, double jaw_h, const Points& start,
+                            const Points& aim, const Eigen::VectorXd& activation,
+                            const JawDynamics::Carriage& carriage,
+                            const solve::QuasiNewtonOptions& options, Points& x,
+                            JawDynamics::State& state, std::span<const Points> likely = {}) const;
     /// Tissue and a jaw that muscles move come to rest together, in long steps of time.
-    StepFigures settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
-                       const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
-                       JawDynamics::State& state) const;
+    StepStats settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
+                     const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
+                     JawDynamics::State& state) const;
 
     /// What only a jaw that muscles move can tell.
-    void tell(const JawVector& q, FacePose& pose) const;
+    void report(const JawVector& q, FacePose& pose) const;
 
   private:
     const rig::Head& head_;

@@ -15,16 +15,16 @@ constexpr double kGain = 0.7,
 
 }  // namespace
 
-FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe prescribe, Vertices vertices,
+FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
                          Eigen::VectorXd least)
     : tissue_(tissue),
-      prescribe_(std::move(prescribe)),
+      prescribe_(std::move(set_boundary_conditions)),
       vertices_(std::move(vertices)),
       least_(std::move(least)),
       solver_(tissue) {}
 
-StepFigures FaceStatics::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
-                                Points& x) {
+StepStats FaceStatics::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
+                              Points& x) {
     moved();
     return solver_.settle(activation, options, x);
 }

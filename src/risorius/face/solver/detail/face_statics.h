@@ -35,10 +35,11 @@ class FaceStatics {
     };
 
     /// Keeps references to all. `least` is the lower limit of each column.
-    FaceStatics(FaceTissue& tissue, Prescribe prescribe, Vertices vertices, Eigen::VectorXd least);
+    FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
+                Eigen::VectorXd least);
 
     /// Moves x to the equilibrium; the tissue must be prescribed.
-    StepFigures settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
+    StepStats settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
     /// The pose is no longer the one last factored.
     void moved() { factored_ = false; }
     void forget() {

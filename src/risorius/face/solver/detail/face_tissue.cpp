@@ -124,7 +124,7 @@ void FaceTissue::build_skin() {
 
 void FaceTissue::build_tethers() {
     // Attachments to bone, and lids_ to their tarsal plates
-    std::vector<tissue::Tethers::Tether> held;
+    std::vector<tissue::ZeroLengthSprings::Tether> held;
     for (const Attachment& a : attachments_) {
         const int node = node_of(a.shell_vertex, kDeep);
         held.push_back({node, mesh_.nodes.row(node).transpose(), mesh_.direction[a.shell_vertex],
@@ -197,11 +197,11 @@ void FaceTissue::prepare(double h) {
     if (refines_mouth(h)) mouth_.emplace(make_mouth(h));
 }
 
-void FaceTissue::prescribe(const Prescribed& prescribed) {
+void FaceTissue::set_boundary_conditions(const BoundaryState& prescribed) {
     const Rigid& moved = prescribed.mandible;
     mandible_ = moved;
     gaze_ = prescribed.gaze;
-    std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
     const double chin_back = jaw_.chin_back(moved);
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Attachment& a = attachments_[i];
@@ -291,10 +291,10 @@ void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd
     solids_->begin_step(h, start, activation);
 }
 
-StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
-                                      const Eigen::VectorXd& activation,
-                                      const solve::QuasiNewtonOptions& options, Points& x,
-                                      std::span<const Points> likely) {
+StepStats FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
+                                    const Eigen::VectorXd& activation,
+                                    const solve::QuasiNewtonOptions& options, Points& x,
+                                    std::span<const Points> likely) {
     const auto energy = [&](const Points& at, Points& gradient) {
         return step_energy(h, aim, activation, at, gradient);
     };
@@ -306,7 +306,7 @@ StepFigures FaceTissue::implicit_step(double h, const Points& start, const Point
     return end_step(report, x);
 }
 
-TissuePart FaceTissue::make_mouth(double h) const {
+LocalSolve FaceTissue::make_mouth(double h) const {
     std::vector<char> moves(static_cast<std::size_t>(nodes()), 0);
     for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
         const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
@@ -317,7 +317,7 @@ TissuePart FaceTissue::make_mouth(double h) const {
     std::vector<std::pair<int, double>> touching;
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
         touching.push_back({search_.nodes()[i], kContactShare * search_.node_stiffness()[i]});
-    return TissuePart({mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_,
+    return LocalSolve({mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_,
                        *solids_, *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s},
                       moves, h, touching);
 }
@@ -333,7 +333,7 @@ void FaceTissue::refine(double h, const Points& start, const Points& aim,
     mouth_->advance({h, start, aim, activation, precision_}, own, x);
 }
 
-void FaceTissue::put_depths(const Points& x, StepFigures& figures) const {
+void FaceTissue::put_depths(const Points& x, StepStats& figures) const {
     figures.contact_depth_m = ContactSearch::deepest(contacts_.list(), x);
     figures.lip_depth_m = ContactSearch::deepest(contacts_.list(), x, kLipBody, kLipBody);
     figures.bone_depth_m = ContactSearch::deepest(contacts_.list(), x, kSkullBody, kMandibleBody);
@@ -346,8 +346,8 @@ Penetration FaceTissue::penetration(const Points& x) const {
             ContactSearch::deepest(pairs, x, kGlobeBody, kGlobeBody)};
 }
 
-StepFigures FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
-    StepFigures figures;
+StepStats FaceTissue::end_step(const solve::StepReport& report, const Points& x) {
+    StepStats figures;
     figures.iterations = report.iterations;
     figures.evaluations = report.evaluations;
     figures.last_step_rms_m = report.last_step_rms_m;

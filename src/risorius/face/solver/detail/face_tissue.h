@@ -25,8 +25,8 @@
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
 #include "risorius/face/solver/detail/contact_search.h"
+#include "risorius/face/solver/detail/local_solve.h"
 #include "risorius/face/solver/detail/separation.h"
-#include "risorius/face/solver/detail/tissue_part.h"
 #include "risorius/muscle/fibre_set.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/rig_description.h"
@@ -48,7 +48,7 @@ namespace risorius::face {
 /// Steps this long seek rest, not motion.
 inline constexpr double kSettling_s = 0.1;
 
-struct StepFigures {
+struct StepStats {
     int iterations = 0;
     int evaluations = 0;
     double last_step_rms_m = 0;
@@ -66,7 +66,7 @@ struct Penetration {
 };
 
 /// What moves by itself and takes the tissue along.
-struct Prescribed {
+struct BoundaryState {
     Rigid mandible = Rigid::Identity();
     std::array<LidPose, 2> lid;
     double mouth_pressure_pa = 0;
@@ -97,7 +97,7 @@ class FaceTissue {
     /// After the iterations of a step of motion so many more for the mouth alone, whose soft lips are the last to converge.
     void refine_mouth(int iterations) { mouth_iterations_ = iterations; }
 
-    void prescribe(const Prescribed& prescribed);
+    void set_boundary_conditions(const BoundaryState& prescribed);
 
     /// Moves nodes with their bone, as far as they follow the mandible.
     void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
@@ -114,10 +114,10 @@ class FaceTissue {
 
     /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
     /// tried first.
-    StepFigures implicit_step(double h, const Points& start, const Points& aim,
-                              const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x,
-                              std::span<const Points> likely = {});
+    StepStats implicit_step(double h, const Points& start, const Points& aim,
+                            const Eigen::VectorXd& activation,
+                            const solve::QuasiNewtonOptions& options, Points& x,
+                            std::span<const Points> likely = {});
 
     /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
@@ -134,7 +134,7 @@ class FaceTissue {
     /// The same on the way there: as in steps that have learned nothing.
     void find_soft_contacts(const Points& x);
     /// After coming to rest at x: depths and volumes, and steps from here press as hard.
-    StepFigures end_rest(const Points& x);
+    StepStats end_rest(const Points& x);
     /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
     const Rigid& mandible() const { return mandible_; }
@@ -154,9 +154,9 @@ class FaceTissue {
     void forget_mouth() { mouth_.reset(); }
     /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
     /// prescribed where the jaw begins.
-    StepFigures implicit_step(double h, const Points& start, const Points& aim,
-                              const Eigen::VectorXd& activation,
-                              const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
+    StepStats implicit_step(double h, const Points& start, const Points& aim,
+                            const Eigen::VectorXd& activation,
+                            const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
 
     /// Measures how stiff the tissue at rest holds a jaw in steps of length h. Before the first of them; leaves the tissue
     /// prescribed at rest.
@@ -192,13 +192,13 @@ class FaceTissue {
     double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
                        const Points& at, Points& gradient);
     void note_contacts();
-    void put_depths(const Points& x, StepFigures& figures) const;
+    void put_depths(const Points& x, StepStats& figures) const;
     /// Of a step of motion, after its iterations.
     void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
                 const solve::QuasiNewtonOptions& options, Points& x);
     bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
-    TissuePart make_mouth(double h) const;
-    StepFigures end_step(const solve::StepReport& report, const Points& x);
+    LocalSolve make_mouth(double h) const;
+    StepStats end_step(const solve::StepReport& report, const Points& x);
     /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
     void move_mandible(const Rigid& moved);
     /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
@@ -224,7 +224,7 @@ class FaceTissue {
     Triangles sheet_;                     // of skin nodes
     Eigen::VectorXd membrane_, bending_;  // of its triangles
     std::optional<tissue::SkinSheet> skin_;
-    std::optional<tissue::Tethers> tethers_;  // attachments, then lids
+    std::optional<tissue::ZeroLengthSprings> tethers_;  // attachments, then lids
     muscle::HillShape hill_;
     MusclePlacement muscles_;
     bool solids_relaxed_ = false;  // riding is measured on what gives way at once
@@ -244,7 +244,7 @@ class FaceTissue {
     std::vector<Metric> metrics_;                             // one per step length used
     solve::QuasiNewton newton_;
     int mouth_iterations_ = 0;
-    std::optional<TissuePart> mouth_;  // of the step length used last
+    std::optional<LocalSolve> mouth_;  // of the step length used last
     Points carried_, carried_gradient_;
 };
 

@@ -33,7 +33,7 @@ void put_jaw(const JawVector& q, Points& unknowns) {
 
 void FaceTissue::move_mandible(const Rigid& moved) {
     mandible_ = moved;
-    std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
     const double chin_back = jaw_.chin_back(moved);
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
@@ -50,7 +50,7 @@ void FaceTissue::move_mandible(const Rigid& moved) {
 
 Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) const {
     Wrench sum;
-    const std::vector<tissue::Tethers::Tether>& held = tethers_->list();
+    const std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
         const double share = attachments_[i].jaw_weight;
         const Vec3& bulge = attachments_[i].floor_bulge;
@@ -61,7 +61,7 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
             sum.add(share * gradient.row(node).transpose(),
                     mandible_ * Vec3(mesh_.nodes.row(node).transpose()));
         }
-        const tissue::Tethers::Tether& t = held[i];
+        const tissue::ZeroLengthSprings::Tether& t = held[i];
         const Vec3 off = x.row(t.node).transpose() - t.target;
         const Vec3 pull =
             t.kt_n_per_m * off + (t.kn_n_per_m - t.kt_n_per_m) * off.dot(t.normal) * t.normal;
@@ -95,7 +95,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     metric(h);
     const Points& rest = rest_;
     const Eigen::VectorXd relaxed = Eigen::VectorXd::Zero(rig_.channels().column_count());
-    prescribe({});
+    set_boundary_conditions({});
     find_contacts(rest);
     begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
@@ -112,16 +112,16 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
             along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
     }
     solids_relaxed_ = false;
-    prescribe({});
+    set_boundary_conditions({});
     stiffness = positive_part(0.5 * (stiffness + stiffness.transpose()));
     std::erase_if(ride_stiffness_, [&](const auto& known) { return known.first == h; });
     ride_stiffness_.push_back({h, stiffness});
 }
 
-StepFigures FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
-                                      const Eigen::VectorXd& activation,
-                                      const solve::QuasiNewtonOptions& options, Points& x,
-                                      JawInStep& jaw) {
+StepStats FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
+                                    const Eigen::VectorXd& activation,
+                                    const solve::QuasiNewtonOptions& options, Points& x,
+                                    JawInStep& jaw) {
     const long rows = x.rows();
     const JawJoint& joint = jaw.dynamics.joint();
     const Rigid from = joint.pose(jaw.q).motion;

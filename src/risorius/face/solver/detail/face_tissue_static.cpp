@@ -51,8 +51,8 @@ void FaceTissue::find_soft_contacts(const Points& x) {
     find_contacts(x);
 }
 
-StepFigures FaceTissue::end_rest(const Points& x) {
-    StepFigures figures;
+StepStats FaceTissue::end_rest(const Points& x) {
+    StepStats figures;
     put_depths(x, figures);
     figures.muscle_volume_error = solids_->greatest_volume_error(x);
     contacts_.remember_firm(x);

@@ -140,7 +140,7 @@ void StaticSolver::solve(const Points& b, Points& y) const {
 // Far from equilibrium iterations with the constant scalar metric of long steps get as far as those with a factor, for a
 // hundredth of its price.
 void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptions& options,
-                            Points& x, StepFigures& figures) {
+                            Points& x, StepStats& figures) {
     if (known_) {
         tissue_.begin_rest(x);
         tissue_.find_rest_contacts(x);
@@ -151,7 +151,7 @@ void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptio
     for (int round = 0; round < kRoughRounds && figures.iterations < options.iterations; ++round) {
         tissue_.find_soft_contacts(x);
         const Points start = x;
-        const StepFigures part = tissue_.implicit_step(
+        const StepStats part = tissue_.implicit_step(
             kRoughStep_s, start, start, activation,
             {.iterations = std::min(kRoughRound, options.iterations - figures.iterations),
              .memory = options.memory,
@@ -186,9 +186,9 @@ bool StaticSolver::hold_what_moved(const Points& x, double more_than_m) {
     return changed;
 }
 
-StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
-                                 Points& x) {
-    StepFigures figures;
+StepStats StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
+                               Points& x) {
+    StepStats figures;
     approach(activation, options, x, figures);
     tissue_.begin_rest(x);
     const auto energy_at = [&](const Points& at, Points& gradient) {
@@ -251,7 +251,7 @@ StepFigures StaticSolver::settle(const Eigen::VectorXd& activation, const Static
     }
     if (!springs_.empty()) known_ = false;
     springs_.clear();
-    const StepFigures last = tissue_.end_rest(x);
+    const StepStats last = tissue_.end_rest(x);
     figures.contact_depth_m = last.contact_depth_m;
     figures.lip_depth_m = last.lip_depth_m;
     figures.bone_depth_m = last.bone_depth_m;

@@ -37,7 +37,7 @@ class StaticSolver {
     ~StaticSolver();
 
     /// Moves x to the equilibrium; the tissue must be prescribed, and x's fixed rows in place. Finds contacts.
-    StepFigures settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
+    StepStats settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
 
     /// Factors H at x with the contacts as they are; an exact one that is not positive gives way to its positive part.
     void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
@@ -56,7 +56,7 @@ class StaticSolver {
     struct Linear;
     /// Moves x near the equilibrium, unless it is there.
     void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
-                  StepFigures& figures);
+                  StepStats& figures);
     /// Springs for nodes that are farther from where contacts were sought, stiffer ones for those that do not come nearer.
     /// Says whether any is new or stiffer.
     bool hold_what_moved(const Points& x, double more_than_m);

@@ -1,0 +1,41 @@
+// Progress and interruption of a long run. The caller hands in two functions; the run calls them between its steps.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <string>
+
+namespace risorius {
+
+/// Thrown when the caller asked the run to stop. Everything the run had begun to write is removed.
+class Interrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted"; }
+};
+
+struct ProgressMonitor {
+    /// Receives the fraction of the run that is done, 0 to 1, and the name of what is being done.
+    std::function<void(double fraction, const std::string& what)> progress;
+    std::function<bool()> stopped;  ///< returns true when the run should stop
+
+    /// Throws Interrupted when the run should stop.
+    void throw_if_stopped() const {
+        if (stopped && stopped()) throw Interrupted();
+    }
+    /// Reports progress. Throws Interrupted when the run should stop.
+    void report(double fraction, const std::string& what) const {
+        throw_if_stopped();
+        if (progress) progress(fraction, what);
+    }
+    /// A monitor for a part of the run: its 0 to 1 is `from` to `to` of the whole.
+    ProgressMonitor subrange(double from, double to) const {
+        ProgressMonitor out = *this;
+        if (progress)
+            out.progress = [whole = progress, from, to](double fraction, const std::string& what) {
+                whole(from + (to - from) * fraction, what);
+            };
+        return out;
+    }
+};
+
+}  // namespace risorius

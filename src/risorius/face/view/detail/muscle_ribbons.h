@@ -1,0 +1,49 @@
+// Muscles that have no volume of their own in the simulation - fibres in the tissue, and muscles that ride on bones - as
+// straps of flesh: a middle surface with thickness on both sides, as thick as keeps the volume where it shortens.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/face/muscle/detail/muscle_placement.h"
+#include "risorius/face/muscle/detail/muscle_surface.h"
+#include "risorius/face/view/detail/muscle_sheets.h"
+#include "risorius/rig/head.h"
+#include "risorius/rig/rig_description.h"
+
+namespace risorius::face {
+
+class MuscleRibbons {
+  public:
+    /// Adds a surface for every bundle of fibres, and for every muscle without any that is no solid, to `surfaces`.
+    MuscleRibbons(const rig::Head& head, const rig::RigDescription& rig,
+                  const MusclePlacement& placement, MuscleSurfaces& surfaces);
+
+    /// Writes its own rows of `vertices`. `nodes` are the nodes of the tissue now.
+    void place(const Points& nodes, const BoneMotion& bones, Points& vertices) const;
+
+  private:
+    struct Strap {
+        std::variant<FibreSheet, BoneSheet> sheet;
+        SheetSize size;
+        Eigen::Index first_vertex = 0;
+        double outward = 1;                   ///< or -1: which way rows cross columns
+        std::vector<double> over_m, under_m;  ///< thickness on the side of the skin and of the bone
+        std::vector<double> rest_area_m2;
+    };
+    void add(std::variant<FibreSheet, BoneSheet> sheet, const rig::Head& head,
+             const rig::Muscle& muscle, const Vec2& bone_ends, const geom::SurfaceTree& skin,
+             MuscleSurface& surface, MuscleSurfaces& surfaces);
+    Points place_fibre_points(const Points& nodes, const BoneMotion& bones) const;
+    void place_strap(const Strap& strap, const Points& fibre_points, const BoneMotion& bones,
+                     Points& vertices) const;
+    void place_grid(const Strap& strap, const Points& fibre_points, const BoneMotion& bones,
+                    Points& grid) const;
+
+    std::vector<muscle::FibrePoint> points_;
+    Points rest_points_;
+    std::vector<Strap> straps_;
+};
+
+}  // namespace risorius::face

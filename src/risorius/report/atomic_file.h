@@ -1,0 +1,26 @@
+// A text file that appears whole or not at all: written beside its place at once, named by commit().
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace risorius::report {
+
+class AtomicFile {
+  public:
+    /// Throws RunError when it cannot be written. Missing folders are made.
+    AtomicFile(const std::filesystem::path& file, const std::string& text);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void commit();
+
+  private:
+    std::filesystem::path file_, partial_;
+};
+
+/// One file at once.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace risorius::report

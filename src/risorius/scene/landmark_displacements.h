@@ -1,0 +1,51 @@
+// How far the landmarks of brows, eyes, nose and lips go when a head makes an expression, at the size of the atlas head: what makes
+// expressions of different heads comparable.
+//
+// File: {"format": "risorius-landmark-ways", "version": 1, "source": "...", "expressions": {name: {landmark: [x, y, z]}}}, mm.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/face/face.h"
+#include "risorius/rig/rig_description.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/track/channels.h"
+
+namespace risorius::scene {
+
+class LandmarkDisplacements {
+  public:
+    /// `face` and `rig` have to outlive it; `place` names the rig in messages.
+    LandmarkDisplacements(face::Face& face, const rig::RigDescription& rig,
+                          const std::string& place);
+
+    const std::vector<std::string>& landmarks() const { return ids_; }
+    int vertex(std::size_t landmark) const { return points_.vertex(ids_[landmark]); }
+    /// What the tables of the rig say; Error when they do not know the name.
+    track::Drive drive(const std::string& expression) const;
+    /// Settles the face in the drive, from rest: n x 3, m, at atlas size, in the order of landmarks().
+    Points settle(const track::Drive& drive, int iterations = face::kRestIterations);
+    bool came_to_rest() const { return came_to_rest_; }
+
+  private:
+    face::Face& face_;
+    const rig::RigDescription& rig_;
+    std::string place_;
+    LandmarkPoints points_;
+    std::vector<std::string> ids_;
+    track::Drive at_rest_;
+    bool came_to_rest_ = true;
+};
+
+/// Expression -> landmark -> way, m.
+using DisplacementTable = std::map<std::string, std::map<std::string, Vec3>>;
+
+/// Throws Error.
+DisplacementTable read_landmark_displacements(const std::filesystem::path& file);
+Json landmark_displacements_json(const DisplacementTable& ways, const std::string& source);
+
+}  // namespace risorius::scene

@@ -1,0 +1,82 @@
+// Shapes add up by weight, and correctives come in by the rule that files state for them.
+#include "risorius/blendshapes/detail/blend_shape_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace risorius::blendshapes {
+namespace {
+
+SparseShape one_vertex(int vertex, const Vec3& delta) {
+    SparseShape out;
+    out.vertex = {vertex};
+    out.delta = delta.transpose();
+    return out;
+}
+
+BlendShapeRig three_shapes() {
+    BlendShapeRig rig;
+    for (int k = 0; k < 3; ++k) rig.shapes.push_back(one_vertex(k, Vec3::UnitX()));
+    rig.terms = {{"0*1", {0, 1}}, {"2~2", {2}, 2}};
+    rig.correctives.push_back({"one", one_vertex(3, Vec3::UnitY()), Eigen::Vector2d(1, 0)});
+    rig.correctives.push_back({"other", one_vertex(4, Vec3::UnitZ()), Eigen::Vector2d(2, -1)});
+    return rig;
+}
+
+TEST(BlendShapeRig, AddsShapesAndWhatTheirSumLacks) {
+    Points vertices = Points::Zero(5, 3);
+    three_shapes().add_to(vertices, Eigen::Vector3d(0.5, 0.5, 0.25));
+    EXPECT_EQ(vertices(0, 0), 0.5);
+    EXPECT_EQ(vertices(2, 0), 0.25);
+    EXPECT_EQ(vertices(3, 1), 0.25);                       // the product
+    EXPECT_EQ(vertices(4, 2), 0.5 - 6 * 0.0625 * 0.5625);  // less 6 w^2 (1 - w)^2
+    const Eigen::VectorXd all = three_shapes().all_weights(Eigen::Vector3d(0.5, 0.5, 0.25));
+    ASSERT_EQ(all.size(), 5);
+    EXPECT_EQ(all[3], 0.25);
+    EXPECT_EQ(all[4], vertices(4, 2));
+}
+
+TEST(Term, OfOneShapeIsThereOnItsWayAndGoesAsOthersCome) {
+    const auto at = [](double w, int part) {
+        return Term{"", {0}, part}.value(Eigen::VectorXd::Constant(1, w));
+    };
+    // The parts of the way, and what is left for its ends, add up to 1 everywhere
+    for (const double w : {0.0, 0.1, 0.5, 0.9, 1.0})
+        EXPECT_NEAR(std::pow(1 - w, 4) + at(w, 1) + at(w, 2) + at(w, 3) + std::pow(w, 4), 1, 1e-15);
+    EXPECT_EQ(at(0.25, 1), 4 * 0.25 * 27 / 64);
+    EXPECT_EQ(at(0.5, 2), 0.375);
+    EXPECT_EQ(at(0.25, 3), at(0.75, 1));
+    const Term fading{"", {2}, 2, {0, 1}};
+    EXPECT_EQ(fading.value(Eigen::Vector3d(0, 0, 0.5)), 0.375);
+    EXPECT_EQ(fading.value(Eigen::Vector3d(0.5, 0.25, 0.5)), 0.375 * 0.375);
+    EXPECT_EQ(fading.value(Eigen::Vector3d(1, 0, 0.5)), 0.0);
+}
+
+TEST(Term, OfSeveralIsTheirProductAndMayGoBeforeTheyAreWhole) {
+    EXPECT_EQ((Term{"", {0, 1}}.value(Eigen::Vector2d(0.5, 0.25))), 0.125);
+    EXPECT_EQ((Term{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(0.5, 1))), 0.25);
+    EXPECT_EQ((Term{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(1, 1))), 0.0);
+}
+
+TEST(BlendShapeRig, LeavesWholeShapesAlone) {
+    const BlendShapeRig rig = three_shapes();
+    for (int s = 0; s < 3; ++s) {
+        const Eigen::VectorXd weights = Eigen::VectorXd::Unit(3, s);
+        Points vertices = Points::Zero(5, 3);
+        rig.add_to(vertices, weights);
+        EXPECT_EQ(vertices, rig.shapes[static_cast<std::size_t>(s)].dense(5)) << s;
+    }
+}
+
+TEST(BlendShapeRig, ErrorsAreWeightedByArea) {
+    Points one = Points::Zero(3, 3), other = Points::Zero(3, 3);
+    other(0, 0) = 3e-3;
+    other(2, 0) = 1;  // where nothing is compared
+    const FieldError error = error_between(one, other, Eigen::Vector3d(1, 8, 0));
+    EXPECT_NEAR(error.rms_m, 1e-3, 1e-15);
+    EXPECT_EQ(error.greatest_m, 3e-3);
+}
+
+}  // namespace
+}  // namespace risorius::blendshapes
