@@ -10,6 +10,7 @@
 #include "risorius/core/progress_monitor.h"
 #include "risorius/core/version.h"
 #include "tools/risorius/commands.h"
+#include "tools/risorius/manual_pages.h"
 
 namespace {
 
@@ -37,6 +38,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
         std::string listed;
         std::vector<std::string> names;
         for (const CLI::App* command : app.get_subcommands({})) {
+            if (command->get_group().empty()) continue;  // hidden
             names.push_back(command->get_name());
             listed += " " + names.back();
         }
@@ -112,6 +114,11 @@ int main(int argc, char** argv) {
     cli::add_batch(app);
     cli::add_bench(app);
     cli::add_figure(app);
+    std::string manual_folder;
+    CLI::App* manual =
+        app.add_subcommand("manual-pages", "Man pages, completions and docs/cli.md into a folder");
+    manual->group("")->add_option("FOLDER", manual_folder, "The folder")->required();  // hidden
+    manual->callback([&] { cli::write_manual_pages(app, manual_folder); });
     cli::catch_interrupts();
     try {
         app.parse(argc, argv);  // runs the command

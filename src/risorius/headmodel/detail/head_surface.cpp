@@ -50,7 +50,9 @@ std::vector<Sample> gather(const DesignTables& tables) {
             if (y < -88 && azimuth > 145) continue;
             samples.push_back({p, 0.7});
         }
-    for (const auto& [id, p] : tables.landmarks) {
+    for (const auto& landmark : tables.landmarks) {
+        const std::string& id = landmark.first;
+        const Vec3& p = landmark.second;
         if (p.x() < 0) continue;
         // Free margins and wing points lie off the bare head; the ear has its own frame.
         static const char* const kElsewhere[] = {"stos", "sto",    "stoi", "uli_l", "lli_l", "al_l",
