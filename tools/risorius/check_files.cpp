@@ -12,6 +12,7 @@
 #include "risorius/scene/rig_files.h"
 #include "risorius/stimuli/batch.h"
 #include "risorius/track/script.h"
+#include "tools/risorius/schema_check.h"
 
 namespace risorius::cli {
 
@@ -79,9 +80,9 @@ void check(CheckResult& result) {
         return check_mesh_file(result.file, result);
     }
     const JsonCursor json = JsonCursor::read_file(result.file);
+    const std::vector<std::string> formats = schema_formats();
     const std::string format =
-        json.at("format").one_of({"risorius-script", "risorius-rig", "risorius-landmarks",
-                                  "risorius-design", "risorius-experiment"});
+        json.at("format").one_of(std::vector<std::string_view>(formats.begin(), formats.end()));
     result.format = format.substr(std::string("risorius-").size());
     if (result.format == "script") check_script(result.file, result);
     if (result.format == "design") result.notes = stimuli::plan_batch(result.file).notes;
@@ -93,6 +94,8 @@ void check(CheckResult& result) {
             result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
                                    " landmarks are not given and placed by the atlas");
     }
+    // Readers say best what is wrong; the schema knows the formats that only programs write, and keys that only a run reads.
+    check_against_schema(json, format);
 }
 
 }  // namespace

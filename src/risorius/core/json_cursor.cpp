@@ -184,9 +184,15 @@ std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
     return at(key);
 }
 
+// "$schema" at the top names the schema that an editor shows help from; readers pass over it.
+static bool is_for_editors(const std::string& pointer, const std::string& key) {
+    return pointer.empty() && key == "$schema";
+}
+
 void JsonCursor::allow_keys(const std::vector<std::string_view>& known) const {
     if (!value_->is_object()) fail("an object");
     for (const auto& [key, ignored] : value_->items()) {
+        if (is_for_editors(pointer_, key)) continue;
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         const std::string near = nearest_name(key, known);
         std::string expected =
@@ -200,7 +206,8 @@ void JsonCursor::allow_keys(const std::vector<std::string_view>& known) const {
 std::vector<std::string> JsonCursor::keys() const {
     if (!value_->is_object()) fail("an object");
     std::vector<std::string> out;
-    for (const auto& [key, ignored] : value_->items()) out.push_back(key);
+    for (const auto& [key, ignored] : value_->items())
+        if (!is_for_editors(pointer_, key)) out.push_back(key);
     return out;
 }
 
