@@ -75,7 +75,8 @@ TEST(PartGuess, HidesWhatItDoesNotKnowAndSaysSo) {
     EXPECT_EQ(guess.parts.at("hidden"), std::vector<std::string>{"object7"});
     ASSERT_EQ(guess.notes.size(), 1u);
     EXPECT_EQ(guess.notes[0],
-              "group \"object7\" is hidden: its name says no part (--part role=object7 names one)");
+              "group \"object7\" is hidden: its name says no part (the option part gives it one: "
+              "role=object7)");
 }
 
 TEST(PartGuess, WhatIsGivenWins) {

@@ -192,12 +192,16 @@ TEST_F(Evaluate, BadInputLeavesNothingBehind) {
     EXPECT_EQ(complaint(asked), "only: expected names of shapes in " + made->shapes.string() +
                                     " (did you mean \"smile\"?), found \"smiel\"");
     asked = options("bad");
-    asked.rig = kRoot / "rigs/adult/rig.json";  // shapes of another head
+    Json other = JsonCursor::read_file(made->shapes).json();  // shapes of another head
+    other["shape"][1] = other["shape"][1].get<long>() - 1;
+    std::ofstream(*folder / "imani/other.json") << other.dump();
+    asked.shapes = *folder / "imani/other.json";
     EXPECT_NE(complaint(asked).find("/shape/1: expected the "), std::string::npos);
     asked = options("bad");
     asked.quality = "best";
     EXPECT_EQ(complaint(asked),
               "quality: expected \"draft\", \"preview\", \"video\" or \"fine\", found \"best\"");
+    fs::remove(*folder / "imani/other.json");
     EXPECT_EQ(folder->listing(), before);
 }
 

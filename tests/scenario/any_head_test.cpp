@@ -80,7 +80,7 @@ TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
         EXPECT_EQ(
             error.what(),
             scan.options.mesh.string() +
-                ": expected lips that can part (--cut-lips cuts them), found skin that runs on "
+                ": expected lips that can part (cut_lips cuts them), found skin that runs on "
                 "from the upper lip to the lower");
     }
     EXPECT_EQ(scan.folder.listing(), (std::set<std::string>{"head.obj", "landmarks.json"}));

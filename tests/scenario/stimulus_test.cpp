@@ -302,7 +302,7 @@ TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
     options.cameras = {"below"};
     EXPECT_NE(risorius::message_of([&] {
                   animate::make_sheet(options);
-              }).find("--cameras: expected one of"),
+              }).find("cameras: expected one of"),
               std::string::npos);
 }
 

@@ -112,7 +112,7 @@ PartGuess guess_parts(const geom::PolygonMesh& mesh,
             guess.notes.push_back(
                 "group \"" + group +
                 "\" is hidden: its name says no part (the option part gives it one: role=" + group +
-                " names one)");
+                ")");
         }
         guess.parts[role].push_back(group);
     }
