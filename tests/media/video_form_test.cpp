@@ -211,7 +211,7 @@ TEST(VideoForm, RefusesWhatAFormDoesNotHave) {
     EXPECT_EQ(refusal("a.mp4", {.keyframe_interval = 0}),
               "a.mp4: expected frames from one key frame to the next in [1, 100000], found 0");
     EXPECT_EQ(refusal("a.mp4", {.crf = 3, .lossless = true}),
-              "a.mp4: expected an option that goes with --lossless, found a quality (crf)");
+              "a.mp4: expected an option that goes with lossless, found a quality (crf)");
     EXPECT_EQ(refusal("a.mp4", {.bits = 16}),
               "a.mp4: expected a folder of PNG frames (frames/), whose bits can be chosen, found "
               "\".mp4\"");
@@ -224,7 +224,7 @@ TEST(VideoForm, RefusesWhatAFormDoesNotHave) {
               "found \".webm\"");
     EXPECT_EQ(refusal("a.mov", {.crf = 9, .alpha = true}),
               "a.mov: expected no options of H.264: transparent .mov files are ProRes 4444, or PNG "
-              "with --lossless, found a quality (crf)");
+              "with lossless, found a quality (crf)");
     EXPECT_EQ(refusal("a.webm", {.width_px = 65, .height_px = 48}),
               "a.webm: expected an even width and height for .webm (its colour is stored at half "
               "size), found 65 x 48");

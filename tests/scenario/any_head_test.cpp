@@ -77,11 +77,10 @@ TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
         fitting::fit_rig(scan.options);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(
-            error.what(),
-            scan.options.mesh.string() +
-                ": expected lips that can part (cut_lips cuts them), found skin that runs on "
-                "from the upper lip to the lower");
+        EXPECT_EQ(error.what(),
+                  scan.options.mesh.string() +
+                      ": expected lips that can part (cut_lips cuts them), found skin that runs on "
+                      "from the upper lip to the lower");
     }
     EXPECT_EQ(scan.folder.listing(), (std::set<std::string>{"head.obj", "landmarks.json"}));
 
