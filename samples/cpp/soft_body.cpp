@@ -4,6 +4,7 @@
 #include "risorius/softbody/soft_body.h"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
 #include "risorius/solve/integrator.h"
