@@ -30,8 +30,9 @@ std::pair<std::string, int> run(const std::string& command) {
 
 TEST(HouseRules, TopLevelHoldsOnlyWhatTheReadmeNames) {
     const Names allowed = {
-        "CMakeLists.txt", "CMakePresets.json", "src",     "rigs",      "models", "tools",
-        "tests",          "samples",           "LICENSE", "README.md", "out"};
+        "CMakeLists.txt", "CMakePresets.json", "src",  "rigs",    "models",    "tools",
+        "tests",          "samples",           "docs", "LICENSE", "README.md", "CONTRIBUTING.md",
+        "CHANGELOG.md",   "CITATION.cff",      "out"};
     const Names required = {"CMakeLists.txt", "CMakePresets.json", "src", "tools", "tests",
                             "LICENSE"};
     Names found;
@@ -56,7 +57,7 @@ TEST(HouseRules, NoFileNamesAMachine) {
         "p|Us"
         "ers)/");
     int files = 0;
-    for (const char* folder : {"src", "tools", "tests", "rigs", "samples", ".ci"})
+    for (const char* folder : {"src", "tools", "tests", "rigs", "samples", "docs", ".ci"})
         for (const auto& file : files_below(folder, kText)) {
             if (std::filesystem::file_size(file) > 2'000'000) continue;  // data, not prose
             ++files;
