@@ -37,5 +37,6 @@ if [[ $api == yes ]]; then
     doxygen tools/docs/Doxyfile
     rm -rf build/site/api
     mv build/api/html build/site/api
+    cp tools/docs/math_api.js build/site/api/MathJax.js
 fi
 printf 'docs: build/site/index.html\n'

@@ -56,8 +56,19 @@ def stage(page, out, done, waiting):
     target.write_text("".join(parts))
 
 
+def check_menu():
+    """Every page of docs/ has its place in the menu of the site, and the menu names no other."""
+    named = set(re.findall(r"([\w./-]+\.md)\s*$", (ROOT / "tools/docs/mkdocs.yml").read_text(), re.MULTILINE))
+    pages = {str(page.relative_to(DOCS)) for page in DOCS.rglob("*.md")} | {"cpp-api.md"}
+    complaints = [f"docs/{page} is missing in the menu (nav)" for page in sorted(pages - named)]
+    complaints += [f"the menu (nav) names {page}, which is not in docs/" for page in sorted(named - pages)]
+    if complaints:
+        sys.exit("\n".join(f"tools/docs/mkdocs.yml: {line}" for line in complaints))
+
+
 def main():
     out = pathlib.Path(sys.argv[1]).resolve()
+    check_menu()
     shutil.rmtree(out, ignore_errors=True)
     waiting = [path for path in sorted(DOCS.rglob("*")) if path.is_file()]
     done = set()
