@@ -16,6 +16,7 @@ comments on the line before a block change that:
 Exit code 1 when a command fails, 2 when a comment is not understood.
 """
 import argparse
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -98,7 +99,8 @@ def scratch_copy(folder, program):
 
 
 def run_page(page, program, verbose):
-    failures, ran, skipped = 0, 0, []
+    """What is to be printed, blocks that failed, blocks that ran, blocks that were skipped."""
+    report, failures, ran, skipped = [], 0, 0, []
     with tempfile.TemporaryDirectory(prefix="risorius-docs-") as name:
         folder = pathlib.Path(name)
         scratch_copy(folder, program)
@@ -119,19 +121,20 @@ def run_page(page, program, verbose):
             ran += 1
             good = done.returncode == block.code
             if verbose or not good:
-                print(done.stdout + done.stderr, end="")
-            print(f"{'ok  ' if good else 'FAIL'} {time.monotonic() - started:6.1f} s  {block.place()}", flush=True)
+                report.append((done.stdout + done.stderr).rstrip("\n"))
+            report.append(f"{'ok  ' if good else 'FAIL'} {time.monotonic() - started:6.1f} s  {block.place()}")
             if not good:
-                print(f"     exit code {done.returncode} where {block.code} was expected, of:\n{block.text}", flush=True)
+                report.append(f"     exit code {done.returncode} where {block.code} was expected, of:\n{block.text}")
                 failures += 1
                 break  # what follows on the page needs it
-    return failures, ran, skipped
+    return "\n".join(report), failures, ran, skipped
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("pages", nargs="*", type=pathlib.Path, help="README.md and docs/**/*.md when none is given")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/risorius")
+    parser.add_argument("--jobs", type=int, default=1, help="pages at a time")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--verbose", action="store_true", help="show what the commands print")
     options = parser.parse_args()
@@ -144,9 +147,11 @@ def main():
     if not options.program.is_file():
         sys.exit(f"{options.program} is not there: build it, or name it with --program")
     failures, ran, skipped = 0, 0, []
-    for page in pages:
-        if any(block.language == "bash" for block in blocks(page)):
-            counts = run_page(page, options.program.resolve(), options.verbose)
+    with_commands = [page for page in pages if any(block.language == "bash" for block in blocks(page))]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for report, *counts in pool.map(lambda page: run_page(page, options.program.resolve(), options.verbose), with_commands):
+            if report:
+                print(report, flush=True)
             failures, ran, skipped = failures + counts[0], ran + counts[1], skipped + counts[2]
     for line in skipped:
         print(f"skipped {line}")
