@@ -3,6 +3,7 @@
 #
 #   tools/setup.sh          what building needs
 #   tools/setup.sh test     what testing needs too
+#   tools/setup.sh docs     what tools/docs.sh needs, and nothing else
 #
 # RISORIUS_SKIP_SETUP=1 leaves the machine as it is, for systems whose packages have other names.
 set -euo pipefail
@@ -17,12 +18,14 @@ die() {
 }
 
 case $purpose in
-    build | test) ;;
-    *) die "expected build or test, found \"$purpose\"" ;;
+    build | test | docs) ;;
+    *) die "expected build, test or docs, found \"$purpose\"" ;;
 esac
 if [[ ${RISORIUS_SKIP_SETUP:-0} == 1 ]]; then exit 0; fi
 
-# The list, without comments, up to the section that is not asked for.
+# The sections that are asked for, and their packages without the comments.
+sections=" build $purpose "
+if [[ $purpose == docs ]]; then sections=" docs "; fi
 packages=()
 section=build
 while read -r line; do
@@ -31,7 +34,7 @@ while read -r line; do
     case $line in
         '') ;;
         '['*']') section=${line:1:-1} ;;
-        *) if [[ $section == build || $section == "$purpose" ]]; then packages+=("$line"); fi ;;
+        *) if [[ $sections == *" $section "* ]]; then packages+=("$line"); fi ;;
     esac
 done <"$root/tools/packages.txt"
 

@@ -92,7 +92,7 @@ std::vector<std::string> packages(bool test) {
         line = line.substr(0, line.find('#'));
         line = line.substr(0, line.find(' '));
         if (line.starts_with("["))
-            wanted = test || line == "[build]";
+            wanted = line == "[build]" || (test && line == "[test]");
         else if (!line.empty() && wanted)
             names.push_back(line);
     }
@@ -146,6 +146,17 @@ TEST(SetupScript, TestingNeedsMoreThanBuilding) {
     EXPECT_EQ(code, 0);
     EXPECT_NE(said.find("libgtest-dev"), std::string::npos);
     EXPECT_EQ(machine.setup("test").first, "");
+}
+
+TEST(SetupScript, TheManualNeedsNothingOfWhatBuildingNeeds) {
+    const Machine machine;
+    machine.has_apt();
+    machine.note("offered", {"mkdocs", "mkdocs-material", "libjs-katex", "doxygen"});
+    const auto [said, code] = machine.setup("docs");
+    EXPECT_EQ(code, 0) << said;
+    EXPECT_EQ(said,
+              "setup: installing 4 Debian packages (a few minutes at most): mkdocs "
+              "mkdocs-material libjs-katex doxygen\n");
 }
 
 TEST(SetupScript, FetchesTheListOfPackagesWhenTheMachineHasNone) {
@@ -244,7 +255,7 @@ TEST(SetupScript, WithoutAptListsWhatIsNeeded) {
 
 TEST(SetupScript, RefusesAnUnknownPurpose) {
     const auto [said, code] = Machine().setup("bild");
-    EXPECT_EQ(said, "setup: expected build or test, found \"bild\"\n");
+    EXPECT_EQ(said, "setup: expected build, test or docs, found \"bild\"\n");
     EXPECT_EQ(code, 1);
 }
 
