@@ -18,7 +18,7 @@ inline constexpr long kMostConditions = 100000;
 
 struct Condition {
     std::string
-        clip;  ///< letters and digits, as BIDS wants of a stim-<label>; no two alike but for case
+        clip;  ///< letters and digits, as BIDS wants of a stim-LABEL; no two alike but for case
     std::string set;
     Control control;
     std::string of;  ///< the clip that it is a control of; itself when it is none

@@ -17,7 +17,7 @@ namespace risorius::figures {
 
 enum class Origin { kThesis, kBeyond, kOwn };  ///< kOwn: none that comes with the program
 
-/// A figure that comes with the program: samples/figures/<id>/experiment.json.
+/// A figure that comes with the program: samples/figures/ID/experiment.json.
 struct Figure {
     std::string_view id;     ///< "9b"
     std::string_view title;  ///< one line, what it shows

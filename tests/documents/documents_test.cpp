@@ -1,0 +1,86 @@
+// What the manual shows is what happens: its commands run, its examples are accepted, its links lead somewhere.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "message_of.h"
+#include "paths.h"
+#include "risorius/core/json_cursor.h"
+#include "temporary_folder.h"
+#include "tools/risorius/schema_check.h"
+
+namespace risorius {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = RISORIUS_SOURCE_DIR;
+
+struct Said {
+    int code = -1;
+    std::string text;
+};
+
+Said run(const std::string& command) {
+    std::FILE* pipe = ::popen(("cd '" + kRoot.string() + "' && " + command + " 2>&1").c_str(), "r");
+    Said said;
+    std::array<char, 4096> block;
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
+        said.text.append(block.data(), got);
+    said.code = WEXITSTATUS(::pclose(pipe));
+    return said;
+}
+
+TEST(Documents, EveryCommandOfReadmeAndManualRuns) {
+    const Said said =
+        run("tools/docs/run_examples.py --program '" RISORIUS_BINARY_DIR "/risorius'");
+    EXPECT_EQ(said.code, 0) << said.text;
+}
+
+TEST(Documents, LinksLeadSomewhere) {
+    const Said said = run("tools/docs.sh --links");
+    EXPECT_EQ(said.code, 0) << said.text;
+}
+
+TEST(Documents, PageOfTheCommandLineSaysWhatHelpSays) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(
+        run("'" RISORIUS_BINARY_DIR "/risorius' manual-pages '" + folder.path().string() + "'")
+            .code,
+        0);
+    EXPECT_TRUE(bytes_of(folder / "cli.md") == bytes_of(kRoot / "docs/cli.md"))
+        << "docs/cli.md is not what the program says of itself; to make it anew: "
+           "build/risorius manual-pages DIR && cp DIR/cli.md docs/";
+}
+
+TEST(Documents, ReadmeIsShort) {
+    const std::string text = bytes_of(kRoot / "README.md");
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 200);
+}
+
+// Examples that say which format they are follow its schema.
+TEST(Documents, ExamplesOfFormatsFollowTheirSchema) {
+    const std::regex example("<!-- schema: (risorius-[a-z-]+) -->\n```json\n([^`]*)```");
+    int examples = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
+        if (entry.path().extension() != ".md") continue;
+        const std::string text = bytes_of(entry.path());
+        for (std::sregex_iterator i(text.begin(), text.end(), example), end; i != end; ++i) {
+            const JsonCursor json = JsonCursor::from_json(Json::parse((*i)[2].str()), "example");
+            EXPECT_EQ(message_of([&] { cli::check_against_schema(json, (*i)[1]); }), "no error")
+                << entry.path();
+            ++examples;
+        }
+    }
+    EXPECT_GT(examples, 5);
+}
+
+}  // namespace
+}  // namespace risorius
