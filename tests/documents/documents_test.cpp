@@ -67,7 +67,7 @@ TEST(Documents, ReadmeIsShort) {
 
 // Examples that say which format they are follow its schema.
 TEST(Documents, ExamplesOfFormatsFollowTheirSchema) {
-    const std::regex example("<!-- schema: (risorius-[a-z-]+) -->\n```json\n([^`]*)```");
+    const std::regex example("<!-- schema: (risorius-[a-z-]+) -->\n(?:<!-- [^\n]* -->\n)*```json\n([^`]*)```");
     int examples = 0;
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
         if (entry.path().extension() != ".md") continue;
