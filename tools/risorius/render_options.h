@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "risorius/animate/animate.h"
+#include "risorius/animate/render_request.h"
 
 namespace risorius::cli {
 

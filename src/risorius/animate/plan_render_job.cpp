@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "risorius/animate/detail/pass_writer.h"
+// Plans a render: reads every input once, and checks it and the request.
 #include "risorius/animate/render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
@@ -13,6 +14,7 @@
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
+#include "risorius/rig/rig_description.h"
 
 namespace risorius::animate {
 

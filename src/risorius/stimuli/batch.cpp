@@ -86,9 +86,10 @@ void note_twins(BatchPlan& plan) {
 void check_batch_folder(const fs::path& out) {
     if (!fs::exists(out)) return;
     if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
-    if (!fs::is_empty(out) && !fs::exists(out / "dataset_description.json") &&
-        !fs::exists(out / "code") && !fs::exists(out / "stimuli") &&
-        !fs::exists(out / kIntermediateFolders[0]))
+    const char* const begun[] = {"dataset_description.json", "code", "stimuli",
+                                 kIntermediateFolders[0], kIntermediateFolders[1]};
+    const auto is_there = [&](const char* name) { return fs::exists(out / name); };
+    if (!fs::is_empty(out) && std::none_of(std::begin(begun), std::end(begun), is_there))
         throw Error(out.string(), "an empty folder, or one that `batch` has begun",
                     "a folder with other files");
 }
