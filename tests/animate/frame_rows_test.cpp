@@ -11,10 +11,10 @@ TEST(Moments, AreOfTheLandmarkThatGoesFarthest) {
         "frame\ttime_s\tpg.x_mm\tpg.y_mm\tpg.z_mm\tpg.u_px\n0\t0\t1\t2\t3\t9\n1\t0.1\t1\t2."
         "1\t3\t8\n"
         "2\t0.2\t1\t5\t7\t7\n3\t0.3\t1\t2\t4\t6\n");
-    const std::vector<double> ways = landmark_ways(rows);
-    ASSERT_EQ(ways.size(), 4u);
-    EXPECT_NEAR(ways[2], 5e-3, 1e-12);
-    const Moments moments = moments_of(ways);
+    const std::vector<double> displacements = max_landmark_displacements(rows);
+    ASSERT_EQ(displacements.size(), 4u);
+    EXPECT_NEAR(displacements[2], 5e-3, 1e-12);
+    const Moments moments = moments_of(displacements);
     EXPECT_EQ(moments.onset, 2);
     EXPECT_EQ(moments.apex, 2);
     EXPECT_EQ(moments_of({0, 0}).onset, 0);

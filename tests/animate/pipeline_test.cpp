@@ -65,7 +65,7 @@ TEST(ThreeStages, MakingNeverRunsFarAhead) {
             ++used;
         });
     EXPECT_GE(farthest, 2);
-    EXPECT_LE(farthest, 2 + kMostWaiting + 1);  // and one in use
+    EXPECT_LE(farthest, 2 + kMaxWaiting + 1);  // and one in use
 }
 
 TEST(ThreeStages, AFailureOfAnyStageEndsAllAndIsPassedOn) {
@@ -92,7 +92,7 @@ TEST(ThreeStages, AFailureOfAnyStageEndsAllAndIsPassedOn) {
                 EXPECT_EQ(error.what(), stage);
             }
             EXPECT_LT(last_used, 7);
-            EXPECT_LE(last_made, 7 + workers + kMostWaiting);
+            EXPECT_LE(last_made, 7 + workers + kMaxWaiting);
         }
     }
 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paths.h"
-#include "risorius/animate/shot.h"
+#include "risorius/animate/render_job.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
@@ -266,13 +266,13 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     moved.vertices.col(1).array() += 1e-3;
     EXPECT_THROW(read_shapes_of_file(file, files, moved), Error);
     // What no blend shape can show is refused before anything is built
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = fs::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json";
     options.out = folder().path() / "linear.mp4";
     options.shapes = file;
-    EXPECT_NO_THROW(animate::plan_shot(options));
+    EXPECT_NO_THROW(animate::plan_render_job(options));
     options.show = "muscles";
-    EXPECT_THROW(animate::plan_shot(options), Error);
+    EXPECT_THROW(animate::plan_render_job(options), Error);
 }
 
 TEST_F(BakedShapes, AreSolvedBackToWhatMadeThem) {

@@ -140,7 +140,7 @@ TEST_F(Designs, RefuseWhatCannotBeMeant) {
     json["parameters"]["onset_s"] = "= hold_s * 2";
     EXPECT_EQ(
         complaint(json),
-        "design.json:/parameters/hold_s: expected a value that does not hang on itself, found "
+        "design.json:/parameters/hold_s: expected a value that does not depend on itself, found "
         "hold_s -> onset_s -> hold_s");
     EXPECT_EQ(
         complaint(design(R"({"clip": "${expression}"})")),
@@ -160,7 +160,7 @@ TEST_F(Designs, RefuseWhatCannotBeMeant) {
     EXPECT_EQ(complaint(design(R"({"controls": ["reverse"]})")).substr(0, 44),
               "design.json:/sets/0/controls/0: expected one");
     EXPECT_EQ(complaint(design(R"({"factors": {"intensity": []}})")),
-              "design.json:/sets/0/factors/intensity: expected a value at least, found none");
+              "design.json:/sets/0/factors/intensity: expected at least one value, found none");
     EXPECT_EQ(complaint(design(R"({"factor": {}})")).substr(0, 24), "design.json:/sets/0/fact");
 }
 
@@ -197,7 +197,7 @@ TEST_F(Designs, FractionsAreLatinSquaresAndOrthogonalArrays) {
                         .dump()))
             .sets[0],
         1);
-    EXPECT_EQ(balance.wanted, 8);
+    EXPECT_EQ(balance.used, 8);
     EXPECT_EQ(balance.strength, 2);
     // 2^(4-1) of resolution IV: every three factors in all combinations
     balance = balance_of(
@@ -211,7 +211,7 @@ TEST_F(Designs, FractionsAreLatinSquaresAndOrthogonalArrays) {
                                          .dump()))
                              .sets[0],
                          1);
-    EXPECT_EQ(balance.wanted, 9);
+    EXPECT_EQ(balance.used, 9);
     EXPECT_EQ(balance.strength, 2);
     // By chance they are not even
     Json drawn = design(crossed(3, 3, R"([{"sum": ["p", "q"], "modulo": 3}])").dump());
@@ -230,11 +230,11 @@ TEST_F(Designs, FractionsAreRefusedWithTheirPlace) {
     EXPECT_EQ(complains(R"([{"sum": ["p", "p"], "modulo": 3}])"),
               place + "/sum/1: expected every factor once, found \"p\" again");
     EXPECT_EQ(complains(R"([{"sum": ["p"], "modulo": 3}])").substr(0, 60),
-              (place + "/sum: expected two factors at least").substr(0, 60));
+              (place + "/sum: expected at least two factors").substr(0, 60));
     EXPECT_EQ(complains(R"([{"sum": ["p", "q"], "modulo": 1}])").substr(0, place.size() + 8),
               place + "/modulo:");
     EXPECT_EQ(complains(R"([{"sum": ["p", "q"], "modulo": 100, "remainder": 99}])"),
-              "design.json:/sets/0/fraction: expected a condition at least, found none");
+              "design.json:/sets/0/fraction: expected at least one condition, found none");
 }
 
 TEST_F(Designs, SoundIsOfTheCondition) {
@@ -291,7 +291,7 @@ TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {
               "\"escape\"");
     EXPECT_EQ(
         with(R"({"answers": {}})"),
-        "design.json:/experiment/answers: expected a key to answer with at least, found none");
+        "design.json:/experiment/answers: expected at least one key to answer with, found none");
     EXPECT_EQ(with(R"({"sets": ["fases"]})").substr(0, 32), "design.json:/experiment/sets/0: ");
     EXPECT_NE(with(R"({"programs": ["e-prime"]})").find("/experiment/programs/0: expected one of"),
               std::string::npos);
@@ -317,10 +317,11 @@ TEST_F(Designs, HostileOnesAreRefusedInTheirPlace) {
     many["sets"][1]["name"] = "again";
     EXPECT_EQ(complaint(many), "design.json:/sets: expected 100000 clips at most, found more");
     // Circles, the shortest and one through a row of the table
-    EXPECT_NE(complaint(design(R"({"parameters": {"hold_s": "= hold_s + 1"}})"))
-                  .find("/sets/0/parameters/hold_s: expected a value that does not hang on itself, "
-                        "found hold_s -> hold_s"),
-              std::string::npos);
+    EXPECT_NE(
+        complaint(design(R"({"parameters": {"hold_s": "= hold_s + 1"}})"))
+            .find("/sets/0/parameters/hold_s: expected a value that does not depend on itself, "
+                  "found hold_s -> hold_s"),
+        std::string::npos);
     write("people.tsv", "expression\tside\nfear\t${expression2}\n");
     EXPECT_NE(
         complaint(design(R"({"conditions": "people.tsv", "factors": {"expression2": ["${side}"]},

@@ -90,7 +90,7 @@ TEST(BrokenInput, EveryScriptIsRefusedByRender) {
     expect_every_file_refused("scripts",
                               {.call =
                                    [&](const std::string& file) {
-                                       animate::AnimateOptions options;
+                                       animate::RenderRequest options;
                                        options.script = file;
                                        options.out = out / "x.mp4";
                                        animate::animate(options);
@@ -108,7 +108,7 @@ TEST(BrokenInput, EveryRigIsRefusedByRender) {
     expect_every_file_refused("rigs",
                               {.call =
                                    [&](const std::string& file) {
-                                       animate::AnimateOptions options;
+                                       animate::RenderRequest options;
                                        options.script = script;
                                        options.rig = file;
                                        options.out = out / "x.mp4";
@@ -181,7 +181,7 @@ TEST(BrokenInput, EveryMeshIsRefusedByTheRigThatNamesIt) {
             at != std::string::npos)
             text.replace(text.find(in_quotes, at), in_quotes.size(),
                          "\"" + (kBroken / "meshes" / file).string() + "\"");
-        animate::AnimateOptions options;
+        animate::RenderRequest options;
         options.script = kRoot / "samples/smile/script.json";
         options.rig = rigs / "rig.json";
         options.out = out / "x.mp4";

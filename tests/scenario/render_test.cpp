@@ -69,7 +69,7 @@ Json without_timing(const fs::path& record) {
 
 TEST(Render, LeavesAVideoARecordAndATable) {
     const Folder folder;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = short_hello(folder, 0.2, 30);
     options.out = folder / "hello.mp4";
     options.landmarks = true;
@@ -130,7 +130,7 @@ TEST(Render, DoesNotWriteItsRecordOverAScriptOfThatName) {
     const Folder folder;
     const fs::path script = short_hello(folder, 0.1, 30);
     const std::string before = text_of(script);
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = script;
     options.out = folder / "hello/";
     try {
@@ -147,7 +147,7 @@ TEST(Render, DoesNotWriteItsRecordOverAScriptOfThatName) {
 
 TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
     const Folder folder;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = short_hello(folder, 0.1, 60);
     const auto render = [&](const char* name, int threads) {
         options.out = folder / name;
@@ -173,7 +173,7 @@ TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
 // sim_test holds the face to this at many more rates.
 TEST(Render, FrameRatesShareTheirCommonTimes) {
     const Folder folder;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = short_hello(folder, 0.25, 60);
     options.size = animate::PictureSize{32, 32};
     options.landmarks = true;
@@ -195,7 +195,7 @@ TEST(Render, FrameRatesShareTheirCommonTimes) {
 
 TEST(Render, AStillIsTheFrameOfItsTime) {
     const Folder folder;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = short_hello(folder, 0.2, 60);
     options.out = folder / "frames" / "";
     animate::animate(options);
@@ -216,7 +216,7 @@ TEST(Render, ShowsTheMusclesWhenTheScriptOrTheCommandAsks) {
     Json json = Json::parse(text_of(script));
     json["view"]["show"] = "muscles";
     std::ofstream(script) << json.dump();
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = script;
     options.still_s = 0.0;
     options.out = folder / "muscles.png";
@@ -244,11 +244,11 @@ TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
         {"duration_s", 0.3},
         {"view",
          {{"width_px", 64}, {"height_px", 64}}}}.dump();
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = folder / "neutral.json";
     options.out = folder / "neutral.mkv";
     const animate::RunRecord record = animate::animate(options);
-    EXPECT_EQ(record.solver.most_inverted_tets, 0);
+    EXPECT_EQ(record.solver.max_inverted_tets, 0);
     media::VideoReader video(options.out);
     ASSERT_EQ(video.frames(), 9);
     const Image first = video.frame(0);
@@ -261,7 +261,7 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     script["channels"] = {{"masseter_deep.l", {{"keys", {{0, 0.5}}}}},
                           {"zygomaticus_major", {{"keys", {{0, 0}}}}}};
     std::ofstream(folder / "jaw.json") << script.dump();
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = folder / "jaw.json";
     options.out = folder / "jaw.mkv";
     const animate::RunRecord record = animate::animate(options);
@@ -270,7 +270,7 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
               "channel masseter_deep.l: does not move the jaw, which follows jaw_open, jaw_forward "
               "and jaw_side unless the script says \"jaw\": \"muscles\"");
     EXPECT_EQ(record.jaw, "channels");
-    EXPECT_EQ(record.greatest_bite_n, 0.0);
+    EXPECT_EQ(record.max_tooth_force_n, 0.0);
 
     script["jaw"] = "muscles";
     std::ofstream(folder / "jaw.json") << script.dump();
@@ -278,12 +278,12 @@ TEST(Render, SaysThatMusclesOfTheJawDoNotMoveItUnlessTheyAreToldTo) {
     EXPECT_TRUE(bitten.warnings.empty());
     EXPECT_EQ(bitten.jaw, "muscles");
     // Half of one deep masseter, 82 N in the table, near the hinge; at rest teeth touch with 5 N.
-    EXPECT_GT(bitten.greatest_bite_n, 12);
+    EXPECT_GT(bitten.max_tooth_force_n, 12);
 }
 
 TEST(Render, AnInterruptedRunLeavesNothing) {
     const Folder folder, out;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     options.script = short_hello(folder, 0.5, 60);
     for (int threads : {1, 2}) {
         options.threads = threads;

@@ -81,7 +81,7 @@ TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
     slurm.retries = 0;
     stimuli::BatchReport report = stimuli::make_batch_on_slurm(there, slurm);
     EXPECT_FALSE(report.complete);
-    EXPECT_EQ(report.made, 0) << "pictures are matched when all films are there";
+    EXPECT_EQ(report.made, 0) << "pictures are matched when all conditions are rendered";
     EXPECT_EQ(report.unmeasured, 1);
     ASSERT_EQ(report.failed.size(), 1u);
     EXPECT_FALSE(fs::exists(there.out / "SHA256SUMS"));

@@ -86,7 +86,7 @@ class Stimulus : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder = new Folder;
-        animate::AnimateOptions options;
+        animate::RenderRequest options;
         options.script = smile_of(*folder, "smile.json", 0.9);
         options.out = *folder / "a.mkv";
         options.quality = "preview";
@@ -212,7 +212,7 @@ TEST_F(Stimulus, PassesAgreeWithOneAnotherAndAreListed) {
 
 TEST(Comparison, ShowsBothScriptsInEveryFrameUntilTheLongerEnds) {
     const Folder folder;
-    animate::AnimateOptions left, right;
+    animate::RenderRequest left, right;
     left.script = smile_of(folder, "weak.json", 0.2);
     right.script = smile_of(folder, "strong.json", 1);
     Json shorter = Json::parse(text_of(right.script));
@@ -321,9 +321,10 @@ TEST(StimulusOptions, OfNoUseTogetherAreRefusedWithTheirPlace) {
     EXPECT_EQ(refused("-o a.png --still 0 --audio '" + wav + "'"),
               "risorius: --audio: expected a video to encode, found --still\n");
     EXPECT_EQ(refused("-o a.mp4 --audio-offset 5"),
-              "risorius: --audio-offset: expected a recording to place, by --audio, found none\n");
+              "risorius: --audio-offset: expected a recording, by --audio, found none\n");
     EXPECT_EQ(refused("-o a.mp4 --audio '" + wav + "' --audio-offset -4000"),
-              "risorius: --audio-offset: expected some of the recording within the video, found "
+              "risorius: --audio-offset: expected an offset with which the video contains some of "
+              "the recording, found "
               "-4000 samples, -0.5 s\n");
     EXPECT_EQ(refused("-o a.mp4 --photodiode lower_left --photodiode-size 90"),
               "risorius: --photodiode-size: expected pixels in [2, 60], half the smaller side of "

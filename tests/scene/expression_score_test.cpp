@@ -23,7 +23,7 @@ TEST(ExpressionScore, OfTheSameFieldIsPerfect) {
     EXPECT_NEAR(s.cosine, 1, 1e-15);
     EXPECT_EQ(s.relative, 0);
     EXPECT_EQ(s.rms_m, 0);
-    EXPECT_EQ(s.greatest_m, 0);
+    EXPECT_EQ(s.max_m, 0);
     EXPECT_EQ(s.landmark_m, 0);
     EXPECT_DOUBLE_EQ(s.peak_m, 0.003);
 }
@@ -34,7 +34,7 @@ TEST(ExpressionScore, OfAFaceThatDoesNotMoveIsOne) {
     EXPECT_EQ(s.cosine, 0);
     EXPECT_DOUBLE_EQ(s.relative, 1);
     EXPECT_NEAR(s.rms_m, 0.005 / std::sqrt(2.0), 1e-15);
-    EXPECT_DOUBLE_EQ(s.greatest_m, 0.004);
+    EXPECT_DOUBLE_EQ(s.max_m, 0.004);
     EXPECT_DOUBLE_EQ(s.landmark_m, 0.004);
     EXPECT_EQ(s.simulated_peak_m, 0);
 }
@@ -60,7 +60,7 @@ TEST(ExpressionScore, VerticesCountByTheirArea) {
     // A vertex of no area is not there; three times the area counts as three vertices
     const Points u = field({0.001, 0, 0}, {5, 5, 5}), g = field({0.002, 0, 0}, {0, 0, 0});
     EXPECT_NEAR(score(u, g, Eigen::Vector2d(1, 0), {}).relative, 0.5, 1e-15);
-    EXPECT_EQ(score(u, g, Eigen::Vector2d(1, 0), {}).greatest_m, 0.001);
+    EXPECT_EQ(score(u, g, Eigen::Vector2d(1, 0), {}).max_m, 0.001);
     const Points v = field({0.001, 0, 0}, {0, 0, 0}), h = field({0, 0, 0}, {0.001, 0, 0});
     EXPECT_NEAR(score(v, h, Eigen::Vector2d(3, 1), {}).relative, std::sqrt(4.0), 1e-12);
 }

@@ -11,7 +11,7 @@ TEST(FaceOval, RowsHoldWhatItHolds) {
     for (int y = -1; y < 42; ++y) {
         const FaceOval::Span row = oval.pixels_of_row(y, 34);  // cuts its right edge
         for (int x = 0; x < 34; ++x) {
-            const bool held = oval.holds({x + 0.5, y + 0.5});
+            const bool held = oval.contains({x + 0.5, y + 0.5});
             EXPECT_EQ(held, x >= row.first && x < row.end) << x << " " << y;
             inside += held ? 1 : 0;
         }
@@ -22,7 +22,7 @@ TEST(FaceOval, RowsHoldWhatItHolds) {
 
 TEST(FaceOval, OfTwoPointsHoldsNothing) {
     const FaceOval oval({{1, 1}, {5, 5}});
-    EXPECT_FALSE(oval.holds({3, 3}));
+    EXPECT_FALSE(oval.contains({3, 3}));
     EXPECT_EQ(oval.pixels_of_row(3, 10).end, oval.pixels_of_row(3, 10).first);
 }
 

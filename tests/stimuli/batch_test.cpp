@@ -58,8 +58,8 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     BatchOptions options{.design = file,
                          .out = folder().path() / "one",
                          .workers = 1,
-                         .told = [&](const std::string& clip, const std::string& state,
-                                     const std::string&) { told[clip] = state; }};
+                         .report_clip = [&](const std::string& clip, const std::string& state,
+                                            const std::string&) { told[clip] = state; }};
     const BatchReport first = make_batch(options);
     EXPECT_EQ(first.made, 10);
     EXPECT_TRUE(first.complete);
@@ -160,7 +160,7 @@ TEST_F(Batch, MatchesLuminanceOverTheSetAlsoInParts) {
     EXPECT_NEAR(report["after"]["sd"].get<double>(), 0.08, 2e-3);
     EXPECT_EQ(report["greatest_cut_off"], 0);
     EXPECT_TRUE(fs::exists(options.out / "luminance/mean.svg"));
-    EXPECT_FALSE(fs::exists(options.out / "takes"));
+    EXPECT_FALSE(fs::exists(options.out / "intermediate"));
 
     // The table tells of the pictures as they are shown; the photodiode stays black and white
     media::VideoReader video(options.out / "stimuli/stim-smile1_video.mkv");
@@ -181,10 +181,20 @@ TEST_F(Batch, MatchesLuminanceOverTheSetAlsoInParts) {
     parts.parts = parts.part = 2;
     const BatchReport half = make_batch(parts);
     EXPECT_EQ(half.made, 0);
-    EXPECT_EQ(half.unmeasured, 1) << "of two films";
+    EXPECT_EQ(half.unmeasured, 1) << "of two conditions";
     EXPECT_FALSE(half.complete);
+    EXPECT_TRUE(fs::exists(parts.out / "intermediate"));
+    // Earlier versions kept unmatched renders in the folder "takes"; a set that they have begun is continued
+    fs::rename(parts.out / "intermediate", parts.out / "takes");
     parts.parts = parts.part = 1;
+    int rendered = 0;
+    parts.report_clip = [&](const std::string&, const std::string& state, const std::string&) {
+        rendered += state == "filmed";
+    };
     EXPECT_TRUE(make_batch(parts).complete);
+    EXPECT_EQ(rendered, 1);
+    EXPECT_FALSE(fs::exists(parts.out / "takes"));
+    EXPECT_FALSE(fs::exists(parts.out / "intermediate"));
     EXPECT_EQ(text_of(parts.out / "SHA256SUMS"), text_of(options.out / "SHA256SUMS"));
     EXPECT_EQ(make_batch(parts).kept, 4);
 }
@@ -213,7 +223,7 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
               std::string::npos);
     Json turning = Json::parse(R"({"head_yaw_deg": {"keys": [[0, 0], [0.4, 10]]}})");
     json["sets"][0]["controls"] = {"flipped"};
-    EXPECT_NE(with("/sets/0/script/channels", turning).find("a head that keeps still"),
+    EXPECT_NE(with("/sets/0/script/channels", turning).find("a head that does not move"),
               std::string::npos);
     json["sets"][0]["controls"] = Json::array();
     EXPECT_NE(with("/sets/0/script/fps", 0).find("/fps: expected"), std::string::npos);
@@ -244,7 +254,7 @@ TEST_F(Batch, NotesWhatMayNotBeMeant) {
         notes[0],
         "experiment: none of the answers is correct for 2 of the clips shown, smile125 the first");
     EXPECT_EQ(notes[1],
-              "2 clips are the same films as others (smile0p550 is smile0p525 again): does the "
+              "2 clips show the same as others (smile0p550 is smile0p525 again): does the "
               "script use every factor?");
     std::ofstream(folder().path() / "late.json")
         << Json{{"format", "risorius-script"},

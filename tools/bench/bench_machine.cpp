@@ -33,7 +33,7 @@ namespace {
 
 constexpr double kTrack_s = 4.0;
 
-// A smile, raised brows, a blink, an open jaw, a frown: whatever is slow about a face happens in it.
+// A smile, raised brows, a blink, an open jaw and a frown: all that is slow in a face.
 Json bench_script(const std::string& rig, double duration_s) {
     return Json::parse(R"({
         "format": "risorius-script", "version": 1, "rig": ")" +
@@ -72,7 +72,7 @@ double peak_memory_mb() {
     return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux gives kB
 }
 
-/// A folder that goes away with everything in it.
+/// A temporary folder, removed with its contents.
 class ScratchFolder {
   public:
     ScratchFolder()
@@ -101,7 +101,7 @@ struct Bench {
         return [this](double t_s) { return timeline.at(t_s); };
     }
 
-    // All steps of the track on one core.
+    // Steps through the whole track on one core.
     Json simulate(const std::string& quality) const {
         monitor.report(0, "simulating, " + quality);
         face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
@@ -124,7 +124,7 @@ struct Bench {
                 {"mean_iterations", static_cast<double>(iterations) / steps}};
     }
 
-    // The same track with and without the standard volume muscles, step by step in turn, so that both meet the same machine.
+    // The same track with and without the standard volume muscles. Steps alternate, so that both run under the same load.
     Json compare_solids() const {
         monitor.report(0.25, "volume muscles");
         rig::RigDescription bundles = files.rig, solids = files.rig;
@@ -168,21 +168,20 @@ struct Bench {
     // One second from script to video
     Json whole_way(const ScratchFolder& scratch) const {
         monitor.report(0.7, "from script to video");
-        const fs::path script = scratch / "script.json";
-        report::write_text(script,
+        animate::RenderRequest request;
+        request.script = scratch / "script.json";
+        report::write_text(request.script,
                            bench_script(fs::absolute(files.file).generic_string(), 1.0).dump());
-        animate::AnimateOptions options;
-        options.script = script;
-        options.out = scratch / "video.mp4";
-        options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
+        request.out = scratch / "video.mp4";
+        request.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
         ProgressMonitor inner = monitor;
         if (monitor.progress)
-            inner.progress = [this](double share, const std::string&) {
-                monitor.progress(0.7 + 0.3 * share, "from script to video");
+            inner.progress = [this](double fraction, const std::string&) {
+                monitor.progress(0.7 + 0.3 * fraction, "from script to video");
             };
-        const animate::RunRecord record = animate::animate(options, inner);
+        const animate::RunRecord record = animate::animate(request, inner);
         return {{"seconds_of_video", 1.0},
-                {"threads", options.threads},
+                {"threads", request.threads},
                 {"total_s", record.timing.total_s},
                 {"build_s", record.timing.build_s},
                 {"simulate_s", record.timing.simulate_s},
@@ -273,7 +272,7 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
     out["toolkit"] = kVersion;
     out["machine"] = describe_machine();
     for (const fs::path& rig : rigs)
-        scene::read_rig_files(rig);  // what is wrong is told before anything is measured
+        scene::read_rig_files(rig);  // reports errors before anything is measured
 
     if (options.stress_steps > 0) {
         out["stress"] = Json::array();
@@ -291,8 +290,8 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
     for (std::size_t i = 0; i < rigs.size(); ++i) {
         ProgressMonitor one = monitor;
         if (monitor.progress)
-            one.progress = [&, i](double share, const std::string& what) {
-                monitor.progress((static_cast<double>(i) + share) / parts,
+            one.progress = [&, i](double fraction, const std::string& what) {
+                monitor.progress((static_cast<double>(i) + fraction) / parts,
                                  rigs[i].string() + ", " + what);
             };
         out["rigs"].push_back(bench_rig(rigs[i], options, one));
@@ -302,8 +301,8 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
         return out;
     ProgressMonitor solids = monitor;
     if (monitor.progress)
-        solids.progress = [&](double share, const std::string& what) {
-            monitor.progress((parts - 1 + share) / parts, what);
+        solids.progress = [&](double fraction, const std::string& what) {
+            monitor.progress((parts - 1 + fraction) / parts, what);
         };
     out["solids"] = {bench_solids({}, solids),
                      bench_solids({.nodes_per_edge = {13, 22}, .psi_n_per_m5 = 10}, solids)};

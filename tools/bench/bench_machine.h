@@ -1,4 +1,4 @@
-// How fast this machine steps solids, and simulates, draws and writes faces: medians, so that one slow moment does not count.
+// Benchmark of this machine: steps of solids, and simulation, drawing and encoding of faces. Times are medians.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,17 @@
 namespace risorius::bench {
 
 struct BenchOptions {
-    std::vector<std::filesystem::path> rigs;  ///< empty: the adult of this toolkit
-    bool faces = true;                        ///< or only solids
-    int stress_steps =
-        0;         ///< > 0: only drive the faces at random for so many steps (face/solver/stress.h)
-    int seed = 1;  ///< of that
-    std::string quality = "preview";    ///< of that
-    bool only_steps = false;            ///< of the faces
-    bool only_poses = false;            ///< likewise; nothing else measures equilibria
-    bool only_pictures = false;         ///< and pictures (bench_pictures.h)
-    bool only_shapes = false;           ///< and blend shapes (bench_shapes.h)
-    std::filesystem::path shapes = {};  ///< of only_shapes; empty: linear ones
+    std::vector<std::filesystem::path> rigs;  ///< empty: the adult rig of this toolkit
+    bool faces = true;                        ///< false: measure only solids
+    int stress_steps = 0;  ///< > 0: only a stress test of this many steps (face/solver/stress.h)
+    int seed = 1;          ///< of the stress test
+    std::string quality = "preview";  ///< of the stress test
+    bool only_steps = false;          ///< measure only steps of the faces
+    bool only_poses =
+        false;  ///< measure only equilibria (bench_poses.h), which no other option does
+    bool only_pictures = false;         ///< measure only pictures (bench_pictures.h)
+    bool only_shapes = false;           ///< measure only blend shapes (bench_shapes.h)
+    std::filesystem::path shapes = {};  ///< file for only_shapes; empty: linear shapes of ARKit
 };
 
 /// The report: machine, solids of cells (bench_solids.h), and per rig the size of the model, ms per simulated step of 1/60 s at every quality,

@@ -5,14 +5,13 @@
 #include <thread>
 
 #include "risorius/animate/animate.h"
-#include "risorius/animate/film.h"
-#include "risorius/animate/shot.h"
+#include "risorius/animate/render_job.h"
+#include "risorius/animate/run_render_job.h"
 #include "risorius/face/face.h"
 #include "risorius/media/luminance.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/offscreen_view.h"
-#include "risorius/report/atomic_file.h"
 #include "risorius/report/median.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/scene_from_rig.h"
@@ -25,8 +24,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr animate::PictureSize kSizes[] = {{512, 512}, {1024, 1024}, {1920, 1080}};
-constexpr std::size_t kWarmUp = 12;  ///< frames until every thread has its view and programs
-constexpr int kDrawnEvery = 4;       ///< of the frames, for times of single frames
+constexpr std::size_t kWarmUp =
+    12;  ///< frames until every thread has made its view and compiled its shaders
+constexpr int kDrawnEvery = 4;  ///< every fourth frame is drawn when stages are timed alone
 
 Json script_of(const fs::path& rig) {
     Json script = Json::parse(R"({
@@ -39,19 +39,16 @@ Json script_of(const fs::path& rig) {
     return script;
 }
 
-// One stage after another, so that each is timed by itself.
-Json stages(const animate::AnimateOptions& options, const scene::RigFiles& files) {
-    const animate::Shot shot = animate::plan_shot(options);
+// Runs the stages of a job one after another, so that each is timed alone.
+Json stages(const animate::RenderJob& job) {
+    const scene::RigFiles& files = job.rig->files;
     const track::ChannelTable channels = files.rig.channels();
-    const track::Timeline timeline(
-        track::read_script(options.script, channels, files.rig.facs, files.rig.expressions),
-        channels);
+    const track::Timeline timeline(job.script, channels);
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
-    face::Face face(files.rig, files.mesh, face::quality_named(animate::quality_of(options)),
-                    files.place());
+    face::Face face(files.rig, files.mesh, face::quality_named(job.quality), files.place());
     render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
     scene::add_wrinkles(face.wrinkle_lines(), scene);
-    render::OffscreenView view(scene, shot.view);
+    render::OffscreenView view(scene, job.view);
 
     std::vector<double> simulate, draw, read_back, measure;
     std::vector<Image> images;
@@ -59,12 +56,12 @@ Json stages(const animate::AnimateOptions& options, const scene::RigFiles& files
     media::Sha256 hash;
     face.start(drive);
     const auto ms = [](const auto& stopwatch) { return 1e3 * stopwatch.seconds(); };
-    for (int frame = 0; frame < shot.frames; ++frame) {
+    for (int frame = 0; frame < job.frames; ++frame) {
         const report::ProcessStopwatch simulating;
-        const render::Pose pose = scene::pose_for_view(face.pose_at(shot.time_s(frame), drive));
+        const render::Pose pose = scene::pose_for_view(face.pose_at(job.time_s(frame), drive));
         if (frame > 0) simulate.push_back(ms(simulating));
         if (frame % kDrawnEvery != 0) continue;
-        if (frame == 0) view.draw(pose);  // the driver compiles
+        if (frame == 0) view.draw(pose);  // the driver compiles its shaders
         const report::ProcessStopwatch drawing;
         images.push_back(view.draw(pose));
         const double drawn_ms = ms(drawing);
@@ -76,37 +73,39 @@ Json stages(const animate::AnimateOptions& options, const scene::RigFiles& files
         measure.push_back(ms(measuring));
     }
     const report::ProcessStopwatch encoding;
-    media::VideoWriter video(options.out, shot.video);
-    for (int frame = 0; frame < shot.frames; ++frame)
+    media::VideoWriter video(job.out, job.video);
+    for (int frame = 0; frame < job.frames; ++frame)
         video.append(images[static_cast<std::size_t>(frame / kDrawnEvery)]);
     video.finish();
     return {{"simulate_ms", report::median(simulate)},
             {"draw_ms", report::median(draw)},
             {"read_back_ms", report::median(read_back)},
             {"measure_ms", report::median(measure)},
-            {"encode_ms", ms(encoding) / shot.frames}};
+            {"encode_ms", ms(encoding) / job.frames}};
 }
 
 }  // namespace
 
 Json bench_pictures(const scene::RigFiles& files, const fs::path& folder,
                     const ProgressMonitor& monitor) {
-    animate::AnimateOptions options;
-    options.script = folder / "pictures.json";
-    options.out = folder / "pictures.mp4";
-    report::write_text(options.script, script_of(files.file).dump());
+    animate::RenderRequest request;
+    request.script = folder / "pictures.json";
+    request.script_in_memory =
+        JsonCursor::from_json(script_of(files.file), request.script.string());
+    request.out = folder / "pictures.mp4";
+    animate::RenderInputs inputs;
     Json out = Json::array();
     for (const animate::PictureSize& size : kSizes)
         for (const bool draft : {false, true}) {
             monitor.report(static_cast<double>(out.size()) / 6, "pictures");
-            options.size = size;
-            options.draft = draft;
-            // The driver's threads are chosen once in a process: with all of them both times.
-            options.threads = static_cast<int>(std::max(2U, std::thread::hardware_concurrency()));
+            request.size = size;
+            request.draft = draft;
+            // The number of driver threads is fixed by the first view of a process: all of them, for both measurements.
+            request.threads = static_cast<int>(std::max(2U, std::thread::hardware_concurrency()));
             std::vector<double> shown_s;
             const report::Stopwatch since;
             const animate::RunRecord record =
-                animate::animate(options, {[&](double, const std::string& what) {
+                animate::animate(request, {[&](double, const std::string& what) {
                                                if (what == animate::kRendering)
                                                    shown_s.push_back(since.seconds());
                                            },
@@ -116,7 +115,7 @@ Json bench_pictures(const scene::RigFiles& files, const fs::path& folder,
                      {"draft", draft},
                      {"fps", (record.frames - static_cast<double>(kWarmUp)) /
                                  (since.seconds() - shown_s[kWarmUp])}};
-            one.update(stages(options, files));
+            one.update(stages(animate::plan_render_job(request, inputs)));
             out.push_back(std::move(one));
         }
     return out;

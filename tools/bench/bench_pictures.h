@@ -1,5 +1,5 @@
-// How fast pictures of a face come out, from simulation to video file: at 512 x 512, 1024 x 1024 and 1920 x 1080, as usual
-// and as drafts (AnimateOptions::draft).
+// Benchmark of rendering, from simulation to video file, at 512 x 512, 1024 x 1024 and 1920 x 1080, with and without
+// RenderRequest::draft.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace risorius::bench {
 
-/// Two seconds of 30 frames a second: a smile, surprise, a blink, idling. Per size and draft or not: `fps`, frames over wall time
-/// on all cores, once all threads have drawn; and of one frame the processor time of all threads, ms, medians:
-/// `simulate_ms`, `draw_ms`, `read_back_ms` (samples to pixels, into memory), `measure_ms` (luminance, hash), `encode_ms` (mean). Scratch
-/// files go to the folder.
+/// Renders two seconds at 30 frames per second: a smile, surprise, a blink and idle motion. For each size, with and without draft:
+/// `fps`, frames per second of wall time on all cores, measured once all threads have drawn; and medians of the processor time of a
+/// frame, all threads, ms: `simulate_ms`, `draw_ms`, `read_back_ms` (from samples to pixels in memory), `measure_ms` (luminance and
+/// hash) and `encode_ms` (a mean). Temporary files are written to the folder.
 Json bench_pictures(const scene::RigFiles& files, const std::filesystem::path& folder,
                     const ProgressMonitor& monitor);
 

@@ -1,6 +1,6 @@
-// How static equilibria are found on shells of growing size: iterations, time, and what is left where it says that it rests.
+// Benchmark of static equilibria on shells of increasing size: iterations, time and remaining error.
 //
-//   left    how far any node still goes when the pose is settled once more, from where it stood and ended a hundred times closer
+//   left    maximum motion of a node when the equilibrium is solved again from the solution, with a tolerance 100 times smaller
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct PoseBench {
     std::vector<std::string> units{"AU12", "AU9", "AU26", "AU18", "AU28_lower"};
 };
 
-/// Per shell: shell_vertices, nodes, tets and poses, each with name, iterations, seconds (of one core), at_rest, inverted
+/// For each shell: shell_vertices, nodes, tets and poses, each with name, iterations, seconds (of one core), at_rest, inverted
 /// (tetrahedra) and left_mm. Throws Error when the rig's tables do not know a unit.
 Json bench_poses(const scene::RigFiles& files, const PoseBench& bench = {},
                  const ProgressMonitor& monitor = {});

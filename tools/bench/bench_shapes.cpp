@@ -14,7 +14,7 @@ namespace risorius::bench {
 
 namespace {
 
-constexpr double kTurned_rad = 0.2;  // the head, which costs a turn of every vertex
+constexpr double kTurned_rad = 0.2;  // the head is turned, so that every vertex is rotated
 
 blendshapes::ShapesOfFile linear_shapes(const scene::RigFiles& files, face::Face& face) {
     blendshapes::ShapesOfFile out;

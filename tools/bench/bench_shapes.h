@@ -1,4 +1,4 @@
-// What a frame of blend shapes costs: weights from a drive, shapes added up, eyes, head and neck turned.
+// Benchmark of a frame of blend shapes: weights from a drive, the sum of the shapes, and rotation of eyes, head and neck.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,10 @@
 
 namespace risorius::bench {
 
-/// The shapes of `file` (shapes.glb of `risorius shapes`) with their correctives play the track of bench_steps.h on a head that is
-/// turned. Without a file, the 52 shapes of ARKit, taken to be linear in their drives, which tells as well as solved ones do how many
-/// vertices each moves, takes seconds to make, and has no correctives. `shapes`, `correctives`, `vertices`, `moved_vertices` (of all
-/// shapes and correctives), `frames`; processor time of one core, ms: `frame_ms` (median), `slowest_frame_ms`, `weights_ms` (median,
-/// of that).
+/// The shapes of `file` (shapes.glb of `risorius shapes`) and their correctives play the track of bench_steps.h on a turned head.
+/// Without a file, the 52 shapes of ARKit are used, linear in their drives: they move as many vertices as solved shapes, take seconds
+/// to make and have no correctives. Returns `shapes`, `correctives`, `vertices`, `moved_vertices` (of all shapes and correctives) and
+/// `frames`; processor time of one core, ms: `frame_ms` (median), `slowest_frame_ms` and `weights_ms` (the part of the weights, median).
 Json bench_shapes(const scene::RigFiles& files, const std::filesystem::path& file,
                   const ProgressMonitor& monitor);
 

@@ -18,7 +18,7 @@ namespace risorius::bench {
 namespace {
 
 constexpr double kStep_s = 1.0 / 60, kEdge_m = 3;
-constexpr int kFewestIterations = 2, kMostIterations = 30;
+constexpr int kMinIterations = 2, kMaxIterations = 30;
 
 /// The cube of figures 5 and 9: 4 kg, lambda 1.5 N/m^3, omega 0.1 N s/m^3, held at its highest plane of a3.
 struct HangingCube {
@@ -62,8 +62,8 @@ struct Fall {
     std::vector<double> step_ms, converged_ms, error;
 };
 
-/// Falls with so many iterations per step; every so often the same step is converged too. Ends early once an error exceeds
-/// what is accepted.
+/// Lets the cube fall with a number of iterations for each step; some steps are also converged, to measure the error. Stops early
+/// when an error exceeds what is accepted.
 Fall fall(const HangingCube& cube,
           const std::shared_ptr<tissue::CellPreconditioner>& preconditioner, int iterations,
           const SolidBenchOptions& options) {
@@ -100,7 +100,7 @@ double newton_ms(const HangingCube& cube) {
                                                 .length_scale_m = kEdge_m,
                                                 .newton_tolerance = 1e-7});
     solve::MotionState state = cube.at_rest;
-    newton->advance(cube.system, state, kStep_s);  // orders the factor
+    newton->advance(cube.system, state, kStep_s);  // the first step also orders the matrix
     const report::CoreStopwatch stopwatch;
     newton->advance(cube.system, state, 2 * kStep_s);
     return 1e3 * stopwatch.seconds();
@@ -116,20 +116,20 @@ Json bench_solids(const SolidBenchOptions& options, const ProgressMonitor& monit
     out["cases"] = Json::array();
     out["growth_exponents"] = Json::array();
     double nodes_before = 0, ms_before = 0;
-    int iterations = kFewestIterations;  // finer grids need no fewer
+    int iterations = kMinIterations;  // finer grids need at least as many
     for (std::size_t i = 0; i < options.nodes_per_edge.size(); ++i) {
         const int edge = options.nodes_per_edge[i];
-        const double share =
+        const double fraction =
             static_cast<double>(i) / static_cast<double>(options.nodes_per_edge.size());
         const std::string name = "solid of " + std::to_string(edge) + "^3 nodes";
-        monitor.report(share, name);
+        monitor.report(fraction, name);
         const HangingCube cube(edge, options.psi_n_per_m5);
         const auto preconditioner =
             std::make_shared<tissue::CellPreconditioner>(cube.system, cube.solid, kStep_s);
 
         Fall run = fall(cube, preconditioner, iterations, options);
-        while (!(run.error.back() <= options.accuracy) && iterations < kMostIterations) {
-            monitor.report(share, name);
+        while (!(run.error.back() <= options.accuracy) && iterations < kMaxIterations) {
+            monitor.report(fraction, name);
             run = fall(cube, preconditioner, ++iterations, options);
         }
         const double nodes = cube.system.size(), ms = middle_of(run.step_ms);

@@ -1,8 +1,7 @@
-// How fast this machine steps deformable solids of cells in real time: the thesis' cube under a ceiling, let go at rest and
-// measured while it swings.
+// Benchmark of deformable solids of cells: a cube that hangs from a ceiling is released at rest and measured while it swings.
 //
 //   accuracy   |x - x_c| / |x_c - x_n|, RMS over nodes: x_c is the same step from the same state, converged
-//   time       processor time of one core per step
+//   time       processor time of one core for a step
 #pragma once
 
 #include <vector>
@@ -15,11 +14,12 @@ namespace risorius::bench {
 struct SolidBenchOptions {
     std::vector<int> nodes_per_edge = {13, 22, 46};  ///< ascending
     double psi_n_per_m5 = 100;  ///< volume parameter psi_c; K / mu = 2 psi_c L^2 / lambda = 1200
-    double accuracy = 0.01;  ///< the fewest iterations are taken that keep every checked step below
-    int first_step = 10, steps = 30;  ///< measured ones
-    int check_every = 6;              ///< of the measured steps, how often the accuracy is
+    double accuracy =
+        0.01;  ///< the least number of iterations is used that keeps the error of every checked step below this
+    int first_step = 10, steps = 30;  ///< unmeasured steps at the beginning, and measured steps
+    int check_every = 6;              ///< the accuracy of every sixth measured step is checked
     int newton_nodes_per_edge =
-        13;  ///< up to here a converged step of Newton's method is timed too
+        13;  ///< up to this size a converged step of Newton's method is timed too
 };
 
 /// "cases": nodes, iterations, step_ms (median), least_step_ms, median_error, worst_error, converged_step_ms, newton_step_ms

@@ -19,14 +19,14 @@ namespace {
 constexpr double kTurn = 2 * 3.14159265358979323846;
 constexpr double kPose_s = 0.5, kSwitch_s = 0.02, kJaw_hz = 2;
 constexpr int kPoses = 4;
-// Until an iteration moves the nodes by less than 0.02 micrometres, RMS: what is left is far below any figure reported.
+// Converged: an iteration moves the nodes by less than 0.02 micrometres RMS, far below any reported error.
 constexpr double kConverged_m = 2e-8;
 constexpr int kConvergedIterations = 400;
-// Of "preview" on more skin nodes than its own: as close to converged as six are on its own. Five are not, there.
+// Iterations of "preview" on more skin nodes than usual: as close to convergence as six on the usual number.
 constexpr int kIterationsOfFinerShells = 5;
 constexpr int kTimesPlayed = 3;
 
-// Keys of a unit that is on in one of the poses.
+// Keys of a unit that is active in one of the poses.
 Json pose_keys(int pose, double value) {
     Json keys = Json::array();
     if (pose > 0) keys.push_back({0.0, 0.0});
@@ -40,7 +40,7 @@ Json pose_keys(int pose, double value) {
     return {{"keys", keys}, {"interpolation", "linear"}};
 }
 
-// It opens by three quarters in its own pose, by a quarter in the others.
+// The jaw opens by three quarters in its own pose and by a quarter in the others.
 Json jaw_keys() {
     Json keys = Json::array();
     for (int k = 0; k <= static_cast<int>(std::lround(kStepTrack_s * 30)); ++k) {
@@ -51,7 +51,7 @@ Json jaw_keys() {
     return {{"keys", keys}};
 }
 
-using SkinTrack = std::vector<Points>;  // skin nodes after every step
+using SkinTrack = std::vector<Points>;  // positions of the skin nodes after each step
 
 struct StepRun {
     SkinTrack skin;
@@ -130,7 +130,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
     const track::Timeline timeline(step_track(files), files.rig.channels());
     const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
     std::map<std::tuple<int, int, double>, SkinTrack>
-        converged;  // by size of the shell, steps, pieces
+        converged;  // by size of the shell, number of steps and length of a substep
     const auto key = [](const StepBench& one) {
         return std::tuple(one.quality.shell_vertices, one.steps, one.quality.longest_piece_s);
     };
@@ -144,7 +144,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
         converged[key(one)] = play(files, drive, {exact, one.steps}, monitor).skin;
     }
 
-    // Every case before any comes again: a machine that others share is slow for seconds on end.
+    // All cases run before any is repeated, since a shared machine can be slow for seconds.
     std::vector<StepRun> runs(cases.size());
     std::vector<std::vector<double>> least_ms(cases.size());
     for (int time = 0; time < kTimesPlayed; ++time)

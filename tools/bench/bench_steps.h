@@ -1,9 +1,9 @@
-// How fast and how true the steps of a face are, on a track that is hard to follow: smile, sneer, open jaw and pucker in turn
-// every half second, the jaw swinging twice a second, blinks.
+// Benchmark of the time and the error of steps of a face, on a demanding track: smile, sneer, open jaw and pucker alternate every half
+// second, the jaw opens twice a second, and the eyes blink.
 //
-//   error   of skin nodes over all steps, against the same track with every step converged: lag that adds up counts in full
-//   time    processor time of one core per step of 1/60 s: median and mean over the steps of three runs, and the median of
-//           what each step takes at least in one of the three, which is the program's own where others share the machine
+//   error   of skin nodes over all steps, against the same track with every step converged; errors that accumulate are included
+//   time    processor time of one core for a step of 1/60 s: median and mean over the steps of three runs; and the median over
+//           steps of the minimum of the three runs, which depends least on the load of the machine
 #pragma once
 
 #include <vector>
@@ -26,12 +26,12 @@ struct StepBench {
     int steps = 240;  ///< of the track, from its start
 };
 
-/// Per entry: quality, nodes, tets, most_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
+/// For each entry: quality, nodes, tets, most_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
 /// largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cases,
                  const ProgressMonitor& monitor = {});
 
-/// The qualities to choose from, then shells of about 10 and 20 thousand nodes at the iterations of "fine" for the first
+/// The qualities of face::quality_named, then shells of about 10 and 20 thousand nodes with the iterations of "fine", for the first
 /// second.
 std::vector<StepBench> usual_step_benches();
 

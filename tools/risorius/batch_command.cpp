@@ -36,16 +36,16 @@ std::string time_text(double seconds) {
 Json balance_json(const std::string& set, const design::Balance& balance) {
     Json factors = Json::object();
     for (const auto& factor : balance.factors)
-        factors[factor.name] = {{"least", factor.least}, {"most", factor.most}};
+        factors[factor.name] = {{"least", factor.min}, {"most", factor.max}};
     return {{"set", set},
-            {"conditions", balance.wanted},
+            {"conditions", balance.used},
             {"of", balance.all},
             {"times_of_a_level", factors},
-            {"times_of_a_pair", {{"least", balance.pair_least}, {"most", balance.pair_most}}},
+            {"times_of_a_pair", {{"least", balance.pair_min}, {"most", balance.pair_max}}},
             {"strength", balance.strength}};
 }
 
-void tell_plan(const BatchArguments& arguments) {
+void print_plan(const BatchArguments& arguments) {
     const stimuli::BatchPlan plan = stimuli::plan_batch(arguments.options.design);
     long frames = 0;
     for (const stimuli::ClipPlan& clip : plan.clips) frames += clip.frames;
@@ -92,7 +92,7 @@ void read_part(const std::string& text, stimuli::BatchOptions& options) {
 
 void run(BatchArguments& arguments) {
     stimuli::BatchOptions& options = arguments.options;
-    if (arguments.plan || arguments.list) return tell_plan(arguments);
+    if (arguments.plan || arguments.list) return print_plan(arguments);
     if (options.out.empty()) throw Error("--out", "the folder of the set", "none");
     if (options.workers < 1 || options.workers > 256)
         throw Error("--workers", "clips made at once, 1 to 256", std::to_string(options.workers));
@@ -107,8 +107,8 @@ void run(BatchArguments& arguments) {
         arguments.slurm.workers = options.workers;
     }
     if (arguments.common.json)
-        options.told = [](const std::string& clip, const std::string& state,
-                          const std::string& why) {
+        options.report_clip = [](const std::string& clip, const std::string& state,
+                                 const std::string& why) {
             Json event{{"event", state}, {"stim_id", clip}};
             if (!why.empty()) event["why"] = why;
             std::printf("%s\n", event.dump().c_str());
@@ -128,15 +128,16 @@ void run(BatchArguments& arguments) {
                     report.made, report.kept, report.failed.size(),
                     time_text(report.seconds).c_str());
         if (report.complete)
-            std::printf("look at %s\n", (options.out / "index.html").string().c_str());
+            std::printf("open %s\n", (options.out / "index.html").string().c_str());
         else if (report.unmeasured > 0)
             std::printf(
-                "%d conditions of other parts are not filmed yet; luminance is matched when all "
-                "are: then the same command again\n",
+                "%d conditions of other parts are not rendered yet. Luminance can be matched when "
+                "all "
+                "are: then run the same command again\n",
                 report.unmeasured);
         else if (report.elsewhere > 0)
             std::printf(
-                "%d clips belong to other parts; the same command without --part finishes "
+                "%d clips belong to other parts. Run the same command without --part to complete "
                 "the set\n",
                 report.elsewhere);
     }
@@ -149,44 +150,43 @@ void run(BatchArguments& arguments) {
 }  // namespace
 
 void add_batch(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("batch", "All clips of an experiment's design");
+    CLI::App* command =
+        app.add_subcommand("batch", "Make all clips of the design of an experiment");
     auto arguments = std::make_shared<BatchArguments>();
     stimuli::BatchOptions& options = arguments->options;
     options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     command->add_option("DESIGN", options.design, "The design")->required();
     command->add_option("-o,--out", options.out,
-                        "Folder of the set. Clips that are in it already and have not changed are "
-                        "kept: a run that was ended goes on where it was");
-    command->add_flag("--plan", arguments->plan,
-                      "Only check the design and say how many clips, how long and how large");
-    command->add_flag("--list", arguments->list, "Only the names of the clips, a line each");
+                        "The folder of the set. Clips that are in it and have not changed are "
+                        "kept, so an interrupted run can be continued");
+    command->add_flag(
+        "--plan", arguments->plan,
+        "Only check the design and print the number of clips, and estimates of time and size");
+    command->add_flag("--list", arguments->list, "Only print the names of the clips, one a line");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
-    command->add_option(
-        "--part", arguments->part,
-        "On several machines with one file system: which share of the clips to make "
-        "here, as 2/8; run it without --part at the end");
+    command->add_option("--part", arguments->part,
+                        "On several machines with one file system: make only this part of the "
+                        "clips, as 2/8. At the end, run the command without --part");
     constexpr const char* kCluster = "On a cluster";
     command
         ->add_option("--engine", arguments->engine,
                      "local, or slurm: a job array makes the clips, --workers at once in each "
-                     "task; it is followed, "
-                     "and tried again where it failed")
+                     "task. Tasks that fail are submitted again")
         ->capture_default_str()
         ->group(kCluster);
-    command->add_option("--tasks", arguments->slurm.tasks, "Of the job array")
+    command->add_option("--tasks", arguments->slurm.tasks, "Number of tasks of the job array")
         ->capture_default_str()
         ->group(kCluster);
     command
         ->add_option("--retries", arguments->slurm.retries,
-                     "How often tasks whose clips are not all there are sent again")
+                     "How often tasks with missing clips are submitted again")
         ->capture_default_str()
         ->check(CLI::Range(0, 100))
         ->group(kCluster);
-    command->add_option("--account", arguments->slurm.account, "Handed on to sbatch")
+    command->add_option("--account", arguments->slurm.account, "Option of sbatch")->group(kCluster);
+    command->add_option("--partition", arguments->slurm.partition, "Option of sbatch")
         ->group(kCluster);
-    command->add_option("--partition", arguments->slurm.partition, "Handed on to sbatch")
-        ->group(kCluster);
-    command->add_option("--time", arguments->slurm.time, "Handed on to sbatch")->group(kCluster);
+    command->add_option("--time", arguments->slurm.time, "Option of sbatch")->group(kCluster);
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius batch samples/stimuli/design.json --plan\n"

@@ -22,7 +22,7 @@ void print_solids(const Json& report) {
     std::printf("solids of cells, hanging cube, psi_c = %g: steps of 1/60 s within %g %%\n",
                 report["psi_n_per_m5"].get<double>(), 100 * report["accuracy"].get<double>());
     std::printf(
-        "    nodes  iterations  ms, median  least  error, median  worst  converged  growth\n");
+        "    nodes  iterations  ms, median    min  error, median    max  converged  growth\n");
     for (std::size_t i = 0; i < report["cases"].size(); ++i) {
         const Json& one = report["cases"][i];
         std::printf("  %7d  %10d  %10.2f  %5.1f  %11.2f %%  %4.2f %%  %6.0f ms",
@@ -45,9 +45,10 @@ void print_stress(const Json& one) {
     std::printf("  %d broken; of %d tets at most %d inverted, %.2f on average\n",
                 one["broken_steps"].get<int>(), one["tets"].get<int>(),
                 one["most_inverted_tets"].get<int>(), one["mean_inverted_tets"].get<double>());
-    std::printf("  skin moved by %.1f mm at most; at rest again %d inverted, %.3f mm left\n",
-                one["furthest_mm"].get<double>(), one["inverted_at_rest"].get<int>(),
-                one["left_at_rest_mm"].get<double>());
+    std::printf(
+        "  maximum motion of the skin %.1f mm; back at rest %d inverted, residual %.3f mm\n",
+        one["furthest_mm"].get<double>(), one["inverted_at_rest"].get<int>(),
+        one["left_at_rest_mm"].get<double>());
     const Json &usual = one["usual_penetration_mm"], &deepest = one["deepest_penetration_mm"];
     std::printf(
         "  penetration, 99 of 100 steps (all): lips %.2f (%.2f), bone %.2f (%.2f), eyeball "
@@ -60,8 +61,8 @@ void print_stress(const Json& one) {
 void print_steps(const Json& cases) {
     std::printf(
         "  steps of 1/60 s: smile, sneer, jaw, pucker every half second; error of the skin\n"
-        "                                nodes  iterations  ms, median   mean  least of 3  RMS mm  "
-        "largest mm  inverted\n");
+        "                                nodes  iterations  ms, median   mean    min of 3  RMS mm  "
+        "    max mm  inverted\n");
     for (const Json& one : cases)
         std::printf("    %-26s %6d  %10.1f  %10.2f  %5.2f  %10.2f  %6.3f  %10.2f  %8d\n",
                     one["quality"].get<std::string>().c_str(), one["nodes"].get<int>(),
@@ -73,9 +74,9 @@ void print_steps(const Json& cases) {
 
 void print_poses(const Json& shells) {
     std::printf(
-        "  equilibria: iterations and seconds of one core to rest; left: how far a node still goes "
-        "when it is settled\n"
-        "  once more, a hundred times closer\n"
+        "  equilibria: iterations and seconds of one core; left: maximum motion of a node when the "
+        "equilibrium is solved again\n"
+        "  with a tolerance 100 times smaller\n"
         "                      nodes  iterations  seconds  at rest  inverted  left mm\n");
     for (const Json& shell : shells)
         for (const Json& one : shell["poses"])
@@ -88,9 +89,10 @@ void print_poses(const Json& shells) {
 
 void print_pictures(const Json& cases) {
     std::printf(
-        "  pictures, simulated, drawn and encoded: frames per second of wall time on all cores; of "
-        "one frame, ms of\n"
-        "  processor time, medians:             simulation  drawing  reading back  measuring  "
+        "  pictures: frames per second of wall time on all cores, simulated, drawn and encoded; "
+        "then "
+        "processor time of a frame,\n"
+        "  medians in ms:                       simulation  drawing  reading back  measuring  "
         "encoding\n");
     for (const Json& one : cases)
         std::printf("    %4d x %-4d %-8s %6.1f fps  %11.1f %8.1f %13.1f %10.1f %9.1f\n",
@@ -104,7 +106,7 @@ void print_pictures(const Json& cases) {
 void print_shapes(const Json& one) {
     std::printf(
         "  a frame of %d blend shapes and %d correctives on %d vertices: %.2f ms, weights %.2f of "
-        "them; %.2f at most\n",
+        "it; maximum %.2f ms\n",
         one["shapes"].get<int>(), one["correctives"].get<int>(), one["vertices"].get<int>(),
         one["frame_ms"].get<double>(), one["weights_ms"].get<double>(),
         one["slowest_frame_ms"].get<double>());
@@ -158,28 +160,27 @@ void run(const BenchArguments& arguments) {
 }  // namespace
 
 void add_bench(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "How fast this machine is");
+    CLI::App* command = app.add_subcommand("bench", "Measure how fast this machine is");
     auto arguments = std::make_shared<BenchArguments>();
-    command->add_option("--rig", arguments->options.rigs, "A rig to measure; the adult when none");
+    command->add_option("--rig", arguments->options.rigs, "A rig to measure; default: the adult");
     command
         ->add_flag("--solids", arguments->only_solids,
-                   "Only deformable solids of 13^3, 22^3 and 46^3 nodes, no face")
+                   "Measure only deformable solids of 13^3, 22^3 and 46^3 nodes, without a face")
         ->excludes("--rig");
     command
         ->add_flag("--steps", arguments->options.only_steps,
-                   "Only how long the steps of the rigs take and how true they are")
+                   "Measure only the time and the error of steps of the rigs")
         ->excludes("--solids");
     command
         ->add_flag("--poses", arguments->options.only_poses,
-                   "Only how equilibria are found on meshes of 2 to 20 thousand nodes; takes "
-                   "minutes")
+                   "Measure only the solution of equilibria on meshes of 2 to 20 thousand nodes; "
+                   "takes minutes")
         ->excludes("--solids")
         ->excludes("--steps");
     command
-        ->add_flag(
-            "--pictures", arguments->options.only_pictures,
-            "Only how many frames a second are simulated, drawn and encoded, at 512 x 512, 1024 x "
-            "1024 and 1920 x 1080, as usual and with --draft")
+        ->add_flag("--pictures", arguments->options.only_pictures,
+                   "Measure only the frames per second that are simulated, drawn and encoded, at "
+                   "512 x 512, 1024 x 1024 and 1920 x 1080, with and without --draft")
         ->excludes("--solids")
         ->excludes("--steps")
         ->excludes("--poses");
@@ -190,9 +191,8 @@ void add_bench(CLI::App& app) {
                 arguments->options.only_shapes = true;
                 arguments->options.shapes = file;
             },
-            "Only what a frame of blend shapes costs; with a shapes.glb of risorius shapes, of "
-            "those "
-            "and their correctives")
+            "Measure only the time for a frame of blend shapes; with a shapes.glb of risorius "
+            "shapes, of those and their correctives")
         ->expected(0, 1)
         ->type_name("[FILE]")
         ->excludes("--solids")
@@ -201,15 +201,16 @@ void add_bench(CLI::App& app) {
         ->excludes("--pictures");
     command
         ->add_option("--stress", arguments->options.stress_steps,
-                     "Only drive the face at random for so many steps, and say what comes of it")
+                     "Only drive the face at random for this many steps and report inversions and "
+                     "penetration")
         ->check(CLI::Range(1, 1000000))
         ->excludes("--solids")
         ->excludes("--poses");
-    command->add_option("--seed", arguments->options.seed, "Of --stress")->needs("--stress");
-    command->add_option("--quality", arguments->options.quality, "Of --stress")
+    command->add_option("--seed", arguments->options.seed, "Seed of --stress")->needs("--stress");
+    command->add_option("--quality", arguments->options.quality, "Quality of --stress")
         ->check(CLI::IsMember({"preview", "video", "fine"}))
         ->needs("--stress");
-    command->add_option("-o,--out", arguments->out, "Write the report here, as JSON");
+    command->add_option("-o,--out", arguments->out, "The report to write, JSON");
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");
     command->callback([arguments] { run(*arguments); });

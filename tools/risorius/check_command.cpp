@@ -16,7 +16,7 @@ struct CheckArguments {
     std::vector<std::filesystem::path> files;
 };
 
-// Every file is looked at, so that one call tells all; the messages are those a run would stop with.
+// All files are checked, so that one call reports all errors. The messages are those of a run with the same file.
 void run(const CheckArguments& arguments) {
     Json report = Json::array();
     int broken = 0;
@@ -41,9 +41,9 @@ void run(const CheckArguments& arguments) {
 
 void add_check(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "check", "Validate scripts, rigs, landmarks, designs, experiments and meshes");
+        "check", "Check scripts, rigs, landmarks, designs, experiments and meshes");
     auto arguments = std::make_shared<CheckArguments>();
-    command->add_option("FILE", arguments->files, "What to check")->required();
+    command->add_option("FILE", arguments->files, "The files to check")->required();
     add_common(*command, arguments->common);
     command->footer(
         "A script is read with its rig, a rig with its mesh and a design with every condition. "

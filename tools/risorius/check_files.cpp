@@ -25,8 +25,8 @@ rig::Head check_rig(const fs::path& file) {
     return rig::place_head(files.rig, files.mesh, files.place());
 }
 
-/// What a script asks for after its last frame.
-void note_what_comes_late(const track::ScriptDescription& script, CheckResult& result) {
+/// Notes what a script asks for after its last frame.
+void note_late_events(const track::ScriptDescription& script, CheckResult& result) {
     const double end_s = script.header.duration_s;
     const auto note = [&](const std::string& what, const std::string& does, double at_s) {
         if (at_s <= end_s + 1e-9) return;
@@ -43,12 +43,12 @@ void note_what_comes_late(const track::ScriptDescription& script, CheckResult& r
             note("\"" + event.expression + "\"", "has gone back", until + event.offset_s);
 }
 
-void check_script(const fs::path& file, CheckResult& result) {
-    const track::ScriptHeader header = track::read_script_header(file);
-    existing_file(JsonCursor::read_file(file).at("rig"));
+void check_script(const JsonCursor& json, CheckResult& result) {
+    const track::ScriptHeader header = track::read_script_header(json);
+    existing_file(json.at("rig"));
     const scene::RigFiles files = scene::read_rig_files(header.rig_file);
-    note_what_comes_late(
-        track::read_script(file, files.rig.channels(), files.rig.facs, files.rig.expressions),
+    note_late_events(
+        track::read_script(json, files.rig.channels(), files.rig.facs, files.rig.expressions),
         result);
     rig::place_head(files.rig, files.mesh, files.place());
 }
@@ -61,7 +61,7 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
         if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
 }
 
-// Eyes and teeth may be open, intersecting pieces; the skin has to be a sound surface.
+// Only the skin has to be a manifold surface. Eyes and teeth may be open and intersect.
 void check_mesh_file(const fs::path& file, CheckResult& result) {
     const geom::PolygonMesh mesh = io::read_mesh(file);
     geom::MeshCheckOptions options;
@@ -84,7 +84,7 @@ void check(CheckResult& result) {
     const std::string format =
         json.at("format").one_of(std::vector<std::string_view>(formats.begin(), formats.end()));
     result.format = format.substr(std::string("risorius-").size());
-    if (result.format == "script") check_script(result.file, result);
+    if (result.format == "script") check_script(json, result);
     if (result.format == "design") result.notes = stimuli::plan_batch(result.file).notes;
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);

@@ -1,4 +1,4 @@
-// Reads files of any format of the toolkit with every check, without running anything.
+// Reads and checks files of all formats of the toolkit without running anything.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@ namespace risorius::cli {
 
 struct CheckResult {
     std::filesystem::path file;
-    std::string format;  ///< "script", "rig", "run" ... or "mesh"; "" when it cannot be told
-    std::string error;   ///< empty when the file can be used
-    std::vector<std::string> notes;  ///< worth knowing
+    /// "script", "rig", "run" ... or "mesh"; "" when it is unknown.
+    std::string format;
+    std::string error;               ///< empty when the file can be used
+    std::vector<std::string> notes;  ///< what is allowed, but may be a mistake
     bool ok() const { return error.empty(); }
 };
 
-/// A script is read with its rig, a rig with its mesh, landmarks against the standard anatomy, a design with all its
-/// conditions, an experiment with the bodies it describes. Every JSON file is then held against the schema of its format. Its
-/// key "format" says what it is; a file with another ending is a mesh.
+/// Reads a script with its rig, a rig with its mesh, landmarks against the standard anatomy, a design with all its conditions and an
+/// experiment with the bodies that it describes. Every JSON file is then held against the schema of its
+/// format, which its key "format" names; any other file is a mesh.
 CheckResult check_file(const std::filesystem::path& file);
 
 }  // namespace risorius::cli

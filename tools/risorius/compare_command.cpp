@@ -13,20 +13,20 @@ namespace {
 
 struct CompareArguments {
     Common common;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     std::vector<std::filesystem::path> scripts, rigs;
     std::string size;
 };
 
 void run_compare(CompareArguments& arguments) {
-    settle_view(arguments.options, arguments.size);
+    finish_view(arguments.options, arguments.size);
     const auto &scripts = arguments.scripts, &rigs = arguments.rigs;
     if (scripts.size() > 2)
         throw Error("compare", "one or two scripts", std::to_string(scripts.size()));
     if (rigs.size() > 2) throw Error("--rig", "at most two of them", std::to_string(rigs.size()));
     if (scripts.size() < 2 && rigs.size() < 2)
         throw Error("compare", "two scripts, or one and two times --rig", "nothing to tell apart");
-    animate::AnimateOptions left = arguments.options, right = arguments.options;
+    animate::RenderRequest left = arguments.options, right = arguments.options;
     left.script = scripts.front();
     right.script = scripts.back();
     if (!rigs.empty()) {
@@ -48,19 +48,23 @@ void run_compare(CompareArguments& arguments) {
 }  // namespace
 
 void add_compare(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compare", "Two scripts or two heads side by side");
+    CLI::App* command =
+        app.add_subcommand("compare", "Render two scripts or two heads side by side");
     auto arguments = std::make_shared<CompareArguments>();
-    animate::AnimateOptions& options = arguments->options;
-    command->add_option("SCRIPT", arguments->scripts, "One script or two: left, right")->required();
+    animate::RenderRequest& options = arguments->options;
+    command->add_option("SCRIPT", arguments->scripts, "One script, or two: left, right")
+        ->required();
     command
         ->add_option("-o,--out", options.out,
-                     "What to write, as risorius render does. Beside it come OUT.json, "
-                     "OUT.left.frames.tsv and OUT.right.frames.tsv")
+                     "The file to write, as for risorius render. OUT.json, OUT.left.frames.tsv and "
+                     "OUT.right.frames.tsv are written beside it")
         ->required();
     command->add_option("--rig", arguments->rigs,
-                        "Another rig than the script's; given twice: left, right");
-    command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
-    command->add_option("--show", options.show, "skin, muscles, skull, wire, strain or landmarks");
+                        "Use this rig instead of the script's; given twice: left, right");
+    command->add_option("--fps", options.fps,
+                        "Frames per second instead of the script's, 1 to 240");
+    command->add_option("--show", options.show,
+                        "What to show: skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_common(*command, arguments->common);

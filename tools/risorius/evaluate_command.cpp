@@ -56,7 +56,7 @@ void print(const inverse::Evaluation& evaluation, const inverse::EvaluateOptions
                 "landm", options.fit ? "   | fitted: cos, rel, rms, max, landm" : "");
     const auto numbers = [](const scene::ExpressionScore& score) {
         std::printf("%6.3f %6.3f %6.2f %6.1f %6.2f", score.cosine, score.relative,
-                    1e3 * score.rms_m, 1e3 * score.greatest_m, 1e3 * score.landmark_m);
+                    1e3 * score.rms_m, 1e3 * score.max_m, 1e3 * score.landmark_m);
     };
     for (const inverse::EvaluatedExpression& one : evaluation.expressions) {
         std::printf("  %-20s ", one.name.c_str());
@@ -113,34 +113,34 @@ void run(EvaluateArguments& arguments) {
 
 void add_evaluate(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("evaluate", "Simulated expressions against measured ones");
+        app.add_subcommand("evaluate", "Compare simulated expressions with measured ones");
     auto arguments = std::make_shared<EvaluateArguments>();
     inverse::EvaluateOptions& options = arguments->options;
-    command->add_option("RIG", options.rig, "The rig whose expressions are tried")->required();
+    command->add_option("RIG", options.rig, "The rig whose expressions are evaluated")->required();
     command->add_option("--shapes", options.shapes,
-                        "Measured displacements of the vertices of the rig's mesh: JSON beside raw "
-                        "numbers, see \"Measured shapes\" in README.md");
+                        "Measured displacements of the vertices of the rig's mesh: JSON with a "
+                        "file of raw numbers, see \"Measured shapes\" in README.md");
     command->add_option(
         "--like", arguments->like,
-        "Another rig, in place of --shapes: do both heads make the same expressions?");
+        "Instead of --shapes: another rig, whose expressions are compared with those of RIG");
     command->add_option("-o,--out", options.out,
-                        "Folder of the report: index.html, contact sheets, pictures, results.json, "
-                        "scores.tsv; without it numbers are printed only");
+                        "The folder of the report: index.html, contact sheets, pictures, "
+                        "results.json, scores.tsv. Without it, numbers are only printed");
     command
         ->add_option("--only", options.only,
-                     "Names of expressions, separated by commas; all when not given")
+                     "Names of expressions, separated by commas. Default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
     command->add_flag("--fit", options.fit,
-                      "Also search the activations that come nearest, few and within [0, 1], "
-                      "setting out from the rig's table");
-    command->add_flag("--apart", options.apart,
-                      "Left and right shapes by themselves; otherwise x_L and x_R are added to x");
+                      "Also fit activations in [0, 1], sparse, starting from the rig's table");
+    command->add_flag(
+        "--apart", options.apart,
+        "Evaluate left and right shapes separately; otherwise x_L and x_R are added to x");
     command
         ->add_option("--quality", options.quality,
-                     "\"preview\", \"video\" or \"fine\": how fine a mesh")
+                     "Quality of the simulation: \"preview\", \"video\" or \"fine\"")
         ->capture_default_str();
-    command->add_flag("--no-pictures", arguments->no_pictures, "A report of numbers alone");
+    command->add_flag("--no-pictures", arguments->no_pictures, "Write the report without pictures");
     add_common(*command, arguments->common);
     command->footer(
         "Cosine similarity says how alike the simulated and the measured displacement of the skin "

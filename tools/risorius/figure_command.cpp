@@ -94,20 +94,21 @@ void run(const FigureArguments& arguments) {
 
 void add_figure(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "figure", "Run an experiment of samples/figures against what was published");
+        "figure", "Run an experiment of samples/figures and compare it with the published result");
     auto arguments = std::make_shared<FigureArguments>();
-    command->add_option("FIGURE", arguments->options.figure,
-                        "An id of --list, several (8a,8b), all, or the path of an experiment.json");
     command->add_option(
-        "-o,--out", arguments->options.out,
-        "Folder of the results: new, empty, or with former results, which are replaced; it appears "
-        "whole or not at all");
-    command->add_flag("--list", arguments->list, "Ids, titles and about how long each takes");
+        "FIGURE", arguments->options.figure,
+        "An id of --list, several ids (8a,8b), all, or the path of an experiment.json");
+    command->add_option("-o,--out", arguments->options.out,
+                        "The folder to write: new, empty, or with earlier results, which are "
+                        "replaced. It appears whole or not at all");
+    command->add_flag("--list", arguments->list, "Print ids, titles and estimated times");
     command->add_option("--from", arguments->options.from,
-                        "Folder with a folder per id; samples/figures when not given");
+                        "Folder with a folder for each id; default: samples/figures");
     command
-        ->add_option("--threads", arguments->options.threads,
-                     "0 = as many as the machine has; the results are the same")
+        ->add_option(
+            "--threads", arguments->options.threads,
+            "Number of threads; 0: one for each core. The results are the same for any number")
         ->type_name("INT");
     add_common(*command, arguments->common);
     command->footer(

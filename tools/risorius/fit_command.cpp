@@ -94,35 +94,36 @@ void run(FitArguments& arguments) {
 }  // namespace
 
 void add_fit(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("fit", "A face mesh with landmarks to a muscle rig");
+    CLI::App* command = app.add_subcommand("fit", "Fit a muscle rig to a face mesh with landmarks");
     auto arguments = std::make_shared<FitArguments>();
     fitting::FitOptions& options = arguments->options;
-    command->add_option("MESH", options.mesh, "The face: OBJ, PLY, glTF, FBX, ...")->required();
-    command->add_option("--landmarks", options.landmarks, "Where its landmarks are")->required();
+    command->add_option("MESH", options.mesh, "The mesh of the face: OBJ, PLY, glTF, FBX, ...")
+        ->required();
+    command->add_option("--landmarks", options.landmarks, "The file of its landmarks")->required();
     command->add_option("-o,--out", options.out, "The rig to write")->required();
     command->add_option("--metres-per-unit", options.metres_per_unit,
-                        "0.01 for a mesh in cm; told from the landmarks when not given");
-    command->add_option("--name", options.name, "What to call the rig; else as the mesh file");
+                        "0.01 for a mesh in cm; estimated from the landmarks when not given");
+    command->add_option("--name", options.name, "Name of the rig; default: that of the mesh file");
     command->add_option(
         "--part", arguments->parts,
-        "ROLE=GROUP,GROUP: what groups of the mesh are, where their names do not say it");
+        "ROLE=GROUP,GROUP: the role of groups of the mesh whose names do not tell it");
     command
         ->add_option("--tables", arguments->tables,
-                     "Standard anatomy \"inline\", or by \"reference\" to its files")
+                     "Write the standard anatomy \"inline\", or as a \"reference\" to its files")
         ->capture_default_str();
     command->add_option("--standard", options.standard, "Folder of the standard anatomy");
     command->add_flag("--solids", arguments->options.solids,
                       "Make the muscles of standard/muscle_solids.json volume-preserving solids");
-    command->add_flag(
-        "--cut-lips", arguments->options.cut_lips,
-        "Cut lips that a scan has grown together; writes the cut mesh beside the rig");
+    command->add_flag("--cut-lips", arguments->options.cut_lips,
+                      "Cut lips that are joined in a scan; the cut mesh is written beside the rig");
     command->add_option("--report", options.report,
-                        "A folder for pictures and figures of the fit, to be looked at");
+                        "A folder for a report of the fit with pictures and numbers");
     command->add_flag("--no-calibrate", arguments->no_calibrate,
                       "Keep the standard strengths of the muscles (fastest)");
-    command->add_flag("--muscles-apart", arguments->muscles_apart,
-                      "Only make each muscle shorten as it should, without scaling all together "
-                      "until expressions come out as on the standard head (three times as fast)");
+    command->add_flag(
+        "--muscles-apart", arguments->muscles_apart,
+        "Calibrate each muscle only by its shortening, without scaling all muscles together until "
+        "expressions match those of the standard head (three times as fast)");
     add_common(*command, arguments->common);
     std::string required;
     for (const std::string& id : rig::required_landmarks()) required += " " + id;

@@ -62,33 +62,31 @@ std::string footer() {
 }  // namespace
 
 void add_head(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "head", "A head of your own making, with its rig: average, named or drawn");
+    CLI::App* command =
+        app.add_subcommand("head", "Make a head with its rig: average, named or random");
     auto arguments = std::make_shared<HeadArguments>();
     headmodel::IdentityChoice& choice = arguments->choice;
     command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
     command->add_option("--identity", choice.identity,
-                        "A name of models/identities, or a file like them (.json)");
-    command->add_option("--seed", choice.seed, "Somebody drawn from the spread of adults");
-    command->add_option("--sex", choice.sex, "-1 woman to 1 man");
-    command->add_option("--age", choice.age, "20 to 80 years");
-    command->add_option("--shape", choice.shape, "PARAMETER=NUMBER, as often as there are any");
-    command->add_option("--skin", choice.skin, "Tone of the skin, by name");
-    command->add_option("--iris", choice.iris, "Colour of the eyes, by name");
-    command->add_option("--hair", choice.hair, "Colour of brows and hair, by name");
+                        "A name of models/identities, or a file of that format (.json)");
+    command->add_option("--seed", choice.seed, "Draw a random adult with this seed");
+    command->add_option("--sex", choice.sex, "From -1, female, to 1, male");
+    command->add_option("--age", choice.age, "Age, 20 to 80 years");
+    command->add_option("--shape", choice.shape, "PARAMETER=NUMBER; may be given several times");
+    command->add_option("--skin", choice.skin, "Name of a skin tone");
+    command->add_option("--iris", choice.iris, "Name of an eye colour");
+    command->add_option("--hair", choice.hair, "Name of a colour of brows and hair");
     command
-        ->add_option(
-            "--texture", arguments->options.texture_px,
-            "Write colours on the texture coordinates too, for other programs: skin.png, so "
-            "many pixels wide and high (256 to 4096), eyes, teeth, gums, tongue and lashes half "
-            "of it, and head.mtl, which names them")
+        ->add_option("--texture", arguments->options.texture_px,
+                     "Also write textures for other programs: skin.png with this width and height "
+                     "in pixels (256 to 4096), textures of eyes, teeth, gums, tongue and lashes "
+                     "with half of it, and head.mtl, which names them")
         ->check(CLI::Range(256, 4096))
         ->excludes(command->add_flag("--mesh-only", arguments->options.mesh_only,
-                                     "Mesh and landmarks alone, without rig and pictures"));
-    command->add_flag(
-        "--calibrate", arguments->options.calibrate,
-        "Make each muscle as strong as it has to be on this head, which takes minutes; "
-        "else they are as strong as the adult's");
+                                     "Write only mesh and landmarks, without rig and pictures"));
+    command->add_flag("--calibrate", arguments->options.calibrate,
+                      "Calibrate the strength of each muscle on this head, which takes minutes. "
+                      "Otherwise muscles are as strong as those of the adult");
     add_common(*command, arguments->common);
     command->footer(footer);
     command->callback([arguments] { run(*arguments); });

@@ -64,7 +64,8 @@ void run(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "Channels, muscles, parts and sizes of a rig");
+    CLI::App* command =
+        app.add_subcommand("info", "Print channels, muscles, parts and sizes of a rig");
     auto arguments = std::make_shared<InfoArguments>();
     command->add_option("RIG", arguments->rig, "The rig")->required();
     add_common(*command, arguments->common);

@@ -1,4 +1,4 @@
-// The command line: turns arguments into calls of src/app and what they throw into messages and exit codes.
+// The command line: turns arguments into calls of the libraries, and exceptions into messages and exit codes.
 #include <algorithm>
 #include <cstdio>
 #include <regex>
@@ -32,7 +32,7 @@ std::string flag_of(const std::string& field) {
     return "--" + flag;
 }
 
-// Mistakes on the command line in the form of all messages: place, expected, found.
+// Errors of the command line in the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
     if (app.get_subcommands().empty()) {
         std::string listed;

@@ -12,12 +12,12 @@ namespace {
 
 struct RenderArguments {
     Common common;
-    animate::AnimateOptions options;
+    animate::RenderRequest options;
     std::string size;
 };
 
 void run(RenderArguments& arguments) {
-    settle_view(arguments.options, arguments.size);
+    finish_view(arguments.options, arguments.size);
     animate::RunRecord record;
     {
         ProgressBar bar(arguments.common);
@@ -43,25 +43,24 @@ void add_marks(CLI::App& command, animate::SyncMarks& marks) {
     constexpr const char* kMarks = "Marks for machines that watch the screen";
     command
         .add_option("--photodiode", marks.photodiode,
-                    "A square in a corner, black or white: upper_left, upper_right, lower_left or "
-                    "lower_right")
+                    "Draw a black or white square in a corner: upper_left, upper_right, lower_left "
+                    "or lower_right")
         ->group(kMarks);
     command
-        .add_option(
-            "--photodiode-shows", marks.photodiode_shows,
-            "When it is white: frames, in every other one, or events, in the frame with which "
-            "an expression or blink begins")
+        .add_option("--photodiode-shows", marks.photodiode_shows,
+                    "When the square is white. frames: in every other frame; events: in the frame "
+                    "with which an expression or blink begins")
         ->capture_default_str()
         ->group(kMarks);
-    command.add_option("--photodiode-size", marks.photodiode_px, "Side of the square, pixels")
+    command.add_option("--photodiode-size", marks.photodiode_px, "Side of the square in pixels")
         ->capture_default_str()
         ->group(kMarks);
     command
         .add_option("--frame-counter", marks.frame_counter,
-                    "The frame's number in a corner, as 24 black and white cells: white, black, 20 "
-                    "bits, a cell that makes the white bits even, white")
+                    "Draw the number of the frame in a corner, as 24 black and white cells: white, "
+                    "black, 20 bits, a parity cell, white")
         ->group(kMarks);
-    command.add_option("--frame-counter-size", marks.frame_counter_px, "Side of a cell, pixels")
+    command.add_option("--frame-counter-size", marks.frame_counter_px, "Side of a cell in pixels")
         ->capture_default_str()
         ->group(kMarks);
 }
@@ -69,53 +68,53 @@ void add_marks(CLI::App& command, animate::SyncMarks& marks) {
 }  // namespace
 
 void add_render(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("render", "Script to video, PNG frames or a still");
+    CLI::App* command =
+        app.add_subcommand("render", "Render a script to a video, PNG frames or a still");
     auto arguments = std::make_shared<RenderArguments>();
-    animate::AnimateOptions& options = arguments->options;
+    animate::RenderRequest& options = arguments->options;
     command->add_option("SCRIPT", options.script, "The script")->required();
     command
         ->add_option(
             "-o,--out", options.out,
-            "What to write: .mp4 or .mov (H.264), .mkv (lossless), .webm (VP9), a folder of "
-            "PNG frames when it ends in /, or .png with --still. Beside it come OUT.json, how it "
-            "was made, and OUT.frames.tsv, a row "
-            "per frame")
+            "The file to write: .mp4 or .mov (H.264), .mkv (lossless), .webm (VP9), a folder of "
+            "PNG frames when it ends in /, or .png with --still. OUT.json, the record of the run, "
+            "and OUT.frames.tsv, a table with a row for each frame, are written beside it")
         ->required();
-    command->add_option("--rig", options.rig, "Another rig than the script's");
+    command->add_option("--rig", options.rig, "Use this rig instead of the script's");
     command->add_option("--shapes", options.shapes,
-                        "shapes.glb of risorius shapes: the script's drives become weights of "
-                        "these blend shapes and "
-                        "their correctives, and nothing is simulated");
-    command->add_option("--fps", options.fps, "Another frame rate, 1 to 240");
-    command->add_option(
-        "--show", options.show,
-        "Another sight of the face: skin; muscles, coloured by their activation under "
-        "translucent skin; wire, the edges of the mesh; strain of the skin; error, the "
-        "distance from another script's face; landmarks");
-    command->add_option("--against", options.against, "With --show error: the other script");
+                        "A file shapes.glb of risorius shapes: its blend shapes and correctives "
+                        "play the script, and nothing is simulated");
+    command->add_option("--fps", options.fps,
+                        "Frames per second instead of the script's, 1 to 240");
+    command->add_option("--show", options.show,
+                        "What to show: skin; muscles, coloured by activation under translucent "
+                        "skin; skull; wire, the edges of the mesh; strain of the skin; error, the "
+                        "distance from the face of another script; landmarks");
+    command->add_option("--against", options.against,
+                        "With --show error: the script to compare with");
     command->add_option(
         "--scale", options.scale,
-        "With --show strain or error: where its colours end, a ratio (0.4) or mm (5)");
-    command->add_option("--still", options.still_s, "One picture, of this time in seconds");
+        "With --show strain or error: the value at which the colours end, a ratio (0.4) or mm (5)");
+    command->add_option("--still", options.still_s, "Render one picture, at this time in seconds");
     command->add_option(
         "--turntable", options.turntable_s,
-        "The face of this time, in seconds, turned once round while the video lasts");
+        "Show the face at this time in seconds, and turn the head once round during the video");
     command->add_option("--shutter", options.shutter_deg,
-                        "Motion blur: how long the shutter is open, 0 to 360 degrees of a frame, "
-                        "around the frame's time; 180 is usual");
+                        "Motion blur: the time for which the shutter is open, 0 to 360 degrees of "
+                        "a frame, centred on the frame's time; 180 is common");
     command->add_flag("--landmarks", options.landmarks,
-                      "Write the landmarks into the table too: mm in space and pixels");
+                      "Add the positions of the landmarks to the table, in mm and in pixels");
     command->add_flag("--emg", options.emg,
-                      "Write into the table what surface electrodes would record of every muscle");
+                      "Add a simulated surface electromyogram of every muscle to the table");
     add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_marks(*command, options.marks);
     command
         ->add_option("--passes", options.passes,
-                     "Ground truth of every frame into the folder OUT.passes: segmentation, depth, "
-                     "normals, flow (pixels to the next frame, from the mesh itself), masks (face "
-                     "oval, eyes, mouth); several with commas. PNG and OpenEXR, results.json names "
-                     "the parts")
+                     "Write ground truth of every frame into the folder OUT.passes: segmentation, "
+                     "depth, normals, flow (pixels to the next frame, computed from the mesh), "
+                     "masks (face oval, eyes, mouth); separate several with commas. Files are PNG "
+                     "and OpenEXR; results.json names the parts")
         ->delimiter(',')
         ->allow_extra_args(false);
     add_common(*command, arguments->common);

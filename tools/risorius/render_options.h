@@ -1,20 +1,21 @@
-// Options that several commands share: how a picture is seen and how a video is coded.
+// Options that several commands share: the view and the encoding.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "risorius/animate/animate.h"
+#include "risorius/animate/render_request.h"
 
 namespace risorius::cli {
 
-/// "1024x1024". Throws Error.
+/// Reads "1024x1024". Throws Error.
 animate::PictureSize size_from(const std::string& text);
 
-void add_coding(CLI::App& command, animate::AnimateOptions& options);
-/// --size, --camera, --quality, --threads.
-void add_view(CLI::App& command, animate::AnimateOptions& options, std::string& size);
-/// After parsing: checks the number of threads and takes over the size.
-void settle_view(animate::AnimateOptions& options, const std::string& size);
+/// Adds --crf, --preset, --pixels, --keyframe-interval, --lossless, --bits, --audio and --audio-offset.
+void add_coding(CLI::App& command, animate::RenderRequest& options);
+/// Adds --size, --camera, --quality, --antialiasing, --draft, --gl and --threads.
+void add_view(CLI::App& command, animate::RenderRequest& options, std::string& size);
+/// After parsing: checks the number of threads and sets the size.
+void finish_view(animate::RenderRequest& options, const std::string& size);
 
 }  // namespace risorius::cli

@@ -82,17 +82,15 @@ void run(ShapesArguments& arguments) {
 }  // namespace
 
 void add_shapes(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("shapes", "Blend shapes from physics, with a certificate");
+    CLI::App* command = app.add_subcommand(
+        "shapes", "Make blend shapes from the simulation, with a report of their accuracy");
     auto arguments = std::make_shared<ShapesArguments>();
     blendshapes::ShapesOptions& options = arguments->options;
-    command->add_option("RIG", options.rig, "The rig whose face is to have blend shapes")
-        ->required();
+    command->add_option("RIG", options.rig, "The rig of the face")->required();
     command
-        ->add_option(
-            "-o,--out", options.out,
-            "Folder: shapes.glb, obj/, shapes.json with shapes.f32 (--formats), and always the "
-            "certificate as index.html and results.json")
+        ->add_option("-o,--out", options.out,
+                     "The folder to write: shapes.glb, obj/, shapes.json with shapes.f32 (see "
+                     "--formats), and always the accuracy report as index.html and results.json")
         ->required();
     command
         ->add_option(
@@ -101,59 +99,55 @@ void add_shapes(CLI::App& app) {
             "left and right; \"muscles\": every muscle; \"visemes\": mouth shapes of speech")
         ->capture_default_str();
     command
-        ->add_option(
-            "--only", options.only,
-            "Names of shapes of the set, separated by commas, mouthSmile for both its sides; all "
-            "when not given")
+        ->add_option("--only", options.only,
+                     "Names of shapes of the set, separated by commas; mouthSmile means both "
+                     "sides. Default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
-        ->add_option(
-            "--formats", options.formats,
-            "Of \"glb\", \"obj\", \"table\" and, with --script, \"csv\" and \"cache\", separated "
-            "by commas; all but \"cache\" when not given")
+        ->add_option("--formats", options.formats,
+                     "Any of \"glb\", \"obj\", \"table\" and, with --script, \"csv\" and "
+                     "\"cache\", separated by commas. Default: all but \"cache\"")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
         ->add_option("--quality", options.quality,
-                     "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")
+                     "Quality of the simulation: \"preview\", \"video\" or \"fine\"")
         ->capture_default_str();
-    command->add_option(
-        "--script", options.script,
-        "A script whose frames become weights: an animation in shapes.glb, "
-        "live_link.csv (of arkit52) and, with --formats cache, every vertex in every frame");
+    command->add_option("--script", options.script,
+                        "A script to convert to weights: an animation in shapes.glb, live_link.csv "
+                        "(for arkit52) and, with --formats cache, the vertices in every frame");
     command->add_flag("!--no-correctives", options.correctives,
-                      "Shapes alone, without looking for what their sums get wrong");
+                      "Make only shapes, without correctives for the errors of their sums");
     command
-        ->add_option("--pairs", options.pairs,
-                     "Pairs of shapes simulated together at most: those that move the same skin "
-                     "farthest, or meet in "
-                     "the script (48; of facs 160)")
+        ->add_option(
+            "--pairs", options.pairs,
+            "Maximum number of pairs of shapes that are simulated together: those that move the "
+            "same skin farthest, or occur together in the script (48; for facs 160)")
         ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
         [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
-        "Sums that err by less get no corrective (0.3)");
+        "Sums with a smaller error get no corrective (0.3)");
     command->add_option_function<double>(
         "--corrective-megabytes",
         [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
-        "Room for correctives in shapes.glb (0.8; of facs 2): they leave out the finer the less it "
-        "is");
+        "Size limit of the correctives in shapes.glb (0.8; for facs 2): with less space they keep "
+        "less detail");
     command
-        ->add_option(
-            "--test-frames", options.test_frames,
-            "Frames of random weights, and of the script, on which the linear rig is compared "
-            "with the simulation; 0: none")
+        ->add_option("--test-frames", options.test_frames,
+                     "Number of frames of random weights, and of the script, for which blend "
+                     "shapes are compared with the simulation; 0: none")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
     command->add_flag("--floats", options.floats,
-                      "Floats in shapes.glb instead of whole numbers of 16 bits, for programs that "
-                      "do not know KHR_mesh_quantization");
-    command->add_flag("--no-pictures", arguments->no_pictures, "A certificate of numbers alone");
-    command->add_option(
-        "--threads", options.threads,
-        "Poses solved at a time; 0: as many as the machine has cores. The files are the "
-        "same for any number");
+                      "Write floats into shapes.glb instead of 16-bit integers, for programs "
+                      "without KHR_mesh_quantization");
+    command->add_flag("--no-pictures", arguments->no_pictures,
+                      "Write the accuracy report without pictures");
+    command->add_option("--threads", options.threads,
+                        "Poses solved at the same time; 0: one for each core. The files are the "
+                        "same for any number");
     add_common(*command, arguments->common);
     command->footer(
         "Every shape is the face at rest under the muscles that the rig's tables give it, on the "

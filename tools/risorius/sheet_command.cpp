@@ -17,7 +17,7 @@ struct SheetArguments {
 };
 
 void run_sheet(SheetArguments& arguments) {
-    settle_view(arguments.options.view, arguments.size);
+    finish_view(arguments.options.view, arguments.size);
     Json record;
     {
         ProgressBar bar(arguments.common);
@@ -33,36 +33,40 @@ void run_sheet(SheetArguments& arguments) {
 }  // namespace
 
 void add_sheet(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("sheet", "Moments of scripts on one picture, a row per script and head");
+    CLI::App* command = app.add_subcommand(
+        "sheet", "Show frames of scripts on one picture, a row for each script and head");
     auto arguments = std::make_shared<SheetArguments>();
     animate::SheetOptions& options = arguments->options;
-    command->add_option("SCRIPT", options.scripts, "One script or more")->required();
-    command->add_option("--times", options.times_s, "Moments, seconds, with commas: a column each")
+    command->add_option("SCRIPT", options.scripts, "One or more scripts")->required();
+    command
+        ->add_option("--times", options.times_s,
+                     "Times in seconds, separated by commas: a column for each")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->required();
     command
-        ->add_option("-o,--out", options.out,
-                     "The picture, .png. Beside it comes OUT.json, how it was made")
+        ->add_option(
+            "-o,--out", options.out,
+            "The picture to write, .png. OUT.json, the record of the runs, is written beside it")
         ->required();
-    command->add_option("--rig", options.rigs,
-                        "Another rig than the scripts'; given several times: a row each");
+    command->add_option(
+        "--rig", options.rigs,
+        "Use this rig instead of the scripts'; given several times: a row for each");
     command
         ->add_option("--cameras", options.cameras,
-                     "Views, with commas, a column each: front, three_quarter, profile, top, eye, "
-                     "nose, mouth, ear ...")
+                     "Views, separated by commas: a column for each. front, three_quarter, "
+                     "profile, top, eye, nose, mouth, ear ...")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
         ->add_option("--beside", options.beside,
-                     "Pictures (.png) to compare with, with commas, in a row of their own")
+                     "Pictures (.png) to compare with, separated by commas, in rows of their own")
         ->delimiter(',')
         ->allow_extra_args(false);
     command->add_option("--show", options.view.show,
-                        "skin, muscles, skull, wire, strain or landmarks");
+                        "What to show: skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options.view, arguments->size);
-    command->get_option("--size")->description("Of one picture")->capture_default_str();
+    command->get_option("--size")->description("Size of one picture")->capture_default_str();
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius sheet samples/smile/script.json samples/jaw/script.json --times "

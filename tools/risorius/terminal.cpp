@@ -39,11 +39,11 @@ ProgressBar::~ProgressBar() {
 }
 
 ProgressMonitor ProgressBar::monitor() {
-    return {.progress = [this](double share, const std::string& what) { show(share, what); },
+    return {.progress = [this](double fraction, const std::string& what) { show(fraction, what); },
             .stopped = [] { return interrupted != 0; }};
 }
 
-void ProgressBar::show(double share, const std::string& what) {
+void ProgressBar::show(double fraction, const std::string& what) {
     if (!wanted_) return;
     const std::lock_guard lock(mutex_);
     const Clock::time_point now = Clock::now();
@@ -55,12 +55,12 @@ void ProgressBar::show(double share, const std::string& what) {
     last_ = now;
     shown_ = true;
     constexpr int kWidth = 30;
-    const int full = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
+    const int full = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
     const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
                             std::string(static_cast<std::size_t>(kWidth - full), '.');
     const std::string left =
-        share > 0.01 ? time_text(since(begin_) * (1 - share) / share) + " left" : "";
-    const int percent = static_cast<int>(100 * share);
+        fraction > 0.01 ? time_text(since(begin_) * (1 - fraction) / fraction) + " left" : "";
+    const int percent = static_cast<int>(100 * fraction);
     if (on_terminal_)
         std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s  %s", bar.c_str(), percent, left.c_str(),
                      what.c_str());

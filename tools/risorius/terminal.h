@@ -1,4 +1,4 @@
-// What the program says while it works: a progress bar with the time left, and whether Ctrl-C was pressed.
+// The progress bar of the program, and its reaction to Ctrl-C.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ class App;
 
 namespace risorius::cli {
 
-/// Every command has these.
+/// Options that every command has.
 struct Common {
     bool quiet = false;  ///< no progress, no summary
     bool json = false;   ///< the report as JSON on standard output
@@ -22,18 +22,19 @@ struct Common {
 /// Adds --quiet and --json to a command.
 void add_common(CLI::App& command, Common& common);
 
-/// Lets SIGINT and SIGTERM end the run between two frames instead of killing it.
+/// From now on SIGINT and SIGTERM end a run between two frames, and the program removes what is incomplete.
 void catch_interrupts();
 
-/// On standard error, for runs longer than two seconds; where that is not a terminal but a log, a line every half minute.
+/// Shows progress on standard error for runs longer than two seconds. If that is not a terminal, it writes a line every half minute.
 class ProgressBar {
   public:
     explicit ProgressBar(const Common& common);
     ~ProgressBar();
+    /// Reports progress to this bar, and asks to stop after Ctrl-C.
     ProgressMonitor monitor();
 
   private:
-    void show(double share, const std::string& what);
+    void show(double fraction, const std::string& what);
 
     using Clock = std::chrono::steady_clock;
     bool wanted_, on_terminal_;

@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "risorius/animate/film.h"
-#include "risorius/animate/shot.h"
+#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/video_writer.h"
@@ -18,11 +17,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A video, or for a still a single picture.
+// The main output: a video, or a single picture for a still.
 class Output {
   public:
-    Output(const fs::path& out, const Shot& shot, bool still) : out_(out) {
-        if (!still) video_.emplace(out, shot.video);
+    explicit Output(const RenderJob& job) : out_(job.out) {
+        if (!job.still) video_.emplace(job.out, job.video);
     }
     void append(Image image) {
         if (video_)
@@ -47,33 +46,35 @@ class Output {
 
 }  // namespace
 
-RunRecord animate(const AnimateOptions& options, const ProgressMonitor& monitor) {
+RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) {
     const report::Stopwatch total;
-    if (options.out.extension() == ".png" && !options.still_s)
+    if (request.out.extension() == ".png" && !request.still_s)
         throw Error(
-            options.out.string(),
+            request.out.string(),
             option_name("still_s") +
                 " with it, the name of a video, or of a folder of PNG frames, which ends in /",
             "\".png\" alone");
-    const Shot shot = plan_shot(options);
-    report::check_record(report::output_path(options.out, ".json"));
-    report::check_table(report::output_path(options.out, ".frames.tsv"));
-    Output output(options.out, shot, options.still_s.has_value());
+    const RenderJob job = plan_render_job(request);
+    const fs::path record_file = report::output_path(job.out, ".json"),
+                   table_file = report::output_path(job.out, ".frames.tsv");
+    report::check_record(record_file);
+    report::check_table(table_file);
+    Output output(job);
 
     // One picture per frame
-    FilmExtras extras;
-    extras.passes_folder = report::output_path(options.out, ".passes");
-    RunRecord record = film(
-        options, shot, [&](Image image) { output.append(std::move(image)); }, extras, monitor);
+    RenderSession session;
+    RenderResult result = run_render_job(
+        job, session, [&](Image image) { output.append(std::move(image)); }, monitor);
 
-    // Leave everything or nothing
-    report::AtomicFile frame_table(report::output_path(options.out, ".frames.tsv"), extras.table);
+    // All files appear, or none
+    report::AtomicFile frame_table(table_file, result.table);
     const report::Stopwatch closing;
     output.finish();
-    if (extras.passes) extras.passes->commit();
+    if (result.passes) result.passes->commit();
+    RunRecord& record = result.record;
     record.timing.encode_s += closing.seconds();
     record.timing.total_s = total.seconds();
-    report::write_text(report::output_path(options.out, ".json"), record.json().dump(2) + "\n");
+    report::write_text(record_file, record.json().dump(2) + "\n");
     frame_table.commit();
     monitor.report(1, "done");
     return record;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "risorius/animate/film.h"
+#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kGap_px = 4;
 
-/// The pictures of the left side until those of the right are there: without loss, gone with its owner.
+/// A lossless video of the left side, kept until the right side is rendered. The file is removed with this object.
 class SideFile {
   public:
     explicit SideFile(const fs::path& out)
@@ -50,10 +50,10 @@ Image joined(const Image& left, const Image& right) {
     return out;
 }
 
-/// What tells the sides apart.
-std::string caption_of(const AnimateOptions& side, const AnimateOptions& other, const Shot& shot) {
-    const fs::path& file =
-        side.script != other.script ? side.script : fs::path(shot.script.rig_file);
+/// The name of what differs between the sides: the script, or else the rig.
+std::string caption_of(const RenderJob& side, const RenderJob& other) {
+    const fs::path& file = side.script_file.path != other.script_file.path ? side.script_file.path
+                                                                           : side.rig->files.file;
     const fs::path whole = fs::absolute(file).lexically_normal();
     return whole.parent_path().filename().string() + "/" + whole.stem().string();
 }
@@ -66,19 +66,20 @@ void write_caption(const std::string& text, Image& image) {
 
 }  // namespace
 
-Json compare(const AnimateOptions& left, const AnimateOptions& right,
+Json compare(const RenderRequest& left_request, const RenderRequest& right_request,
              const ProgressMonitor& monitor) {
     // Plan both, alike but for what is compared
-    const Shot first = plan_shot(left);
-    AnimateOptions other = right;
-    other.out = left.out;
-    other.fps = first.script.fps;
-    other.size = PictureSize{first.view.width_px, first.view.height_px};
-    other.camera = first.view.camera;
-    other.marks = {};  // one clock is enough
-    const Shot second = plan_shot(other);
-    media::VideoOptions coding = first.video;
-    coding.width_px = 2 * first.view.width_px + kGap_px;
+    RenderInputs inputs;
+    const RenderJob left = plan_render_job(left_request, inputs);
+    RenderRequest alike = right_request;
+    alike.out = left.out;
+    alike.fps = left.fps;
+    alike.size = PictureSize{left.view.width_px, left.view.height_px};
+    alike.camera = left.view.camera;
+    alike.marks = {};  // marks on the left side are enough
+    const RenderJob right = plan_render_job(alike, inputs);
+    media::VideoOptions coding = left.video;
+    coding.width_px = 2 * left.view.width_px + kGap_px;
     media::check_target(left.out, coding);
     const fs::path record = report::output_path(left.out, ".json"),
                    tables[] = {report::output_path(left.out, ".left.frames.tsv"),
@@ -90,28 +91,27 @@ Json compare(const AnimateOptions& left, const AnimateOptions& right,
     const auto half = [&](double begun) {
         ProgressMonitor part = monitor;
         if (monitor.progress)
-            part.progress = [&monitor, begun](double share, const std::string& what) {
-                monitor.progress(begun + 0.5 * share, what);
+            part.progress = [&monitor, begun](double fraction, const std::string& what) {
+                monitor.progress(begun + 0.5 * fraction, what);
             };
         return part;
     };
+    const auto run = [&](const RenderJob& job, const ProgressMonitor& part, const auto& use) {
+        RenderSession session;
+        return run_render_job(job, session, use, part);
+    };
     const SideFile kept(left.out);
-    FilmExtras extras[2];
-    const std::string captions[] = {caption_of(left, other, first),
-                                    caption_of(other, left, second)};
-    RunRecord records[2];
+    const std::string captions[] = {caption_of(left, right), caption_of(right, left)};
+    RenderResult results[2];
     {
-        media::VideoWriter side(kept.path(), {.width_px = first.view.width_px,
-                                              .height_px = first.view.height_px,
-                                              .fps = first.script.fps,
-                                              .alpha = first.video.alpha});
-        records[0] = film(
-            left, first,
-            [&](Image image) {
-                write_caption(captions[0], image);
-                side.append(image);
-            },
-            extras[0], half(0));
+        media::VideoWriter side(kept.path(), {.width_px = left.view.width_px,
+                                              .height_px = left.view.height_px,
+                                              .fps = left.fps,
+                                              .alpha = left.video.alpha});
+        results[0] = run(left, half(0), [&](Image image) {
+            write_caption(captions[0], image);
+            side.append(image);
+        });
         side.finish();
     }
     media::VideoReader before(kept.path());
@@ -122,22 +122,19 @@ Json compare(const AnimateOptions& left, const AnimateOptions& right,
         video.append(joined(on_left, on_right));
         ++shown;
     };
-    records[1] = film(
-        other, second,
-        [&](Image image) {
-            write_caption(captions[1], image);
-            on_right = std::move(image);
-            show();
-        },
-        extras[1], half(0.5));
+    results[1] = run(right, half(0.5), [&](Image image) {
+        write_caption(captions[1], image);
+        on_right = std::move(image);
+        show();
+    });
     while (shown < before.frames()) show();
 
-    // Leave everything or nothing
+    // All files appear, or none
     Json json{{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}};
-    json["left"] = records[0].json();
-    json["right"] = records[1].json();
-    report::AtomicFile table_left(tables[0], extras[0].table),
-        table_right(tables[1], extras[1].table), both(record, json.dump(2) + "\n");
+    json["left"] = results[0].record.json();
+    json["right"] = results[1].record.json();
+    report::AtomicFile table_left(tables[0], results[0].table),
+        table_right(tables[1], results[1].table), both(record, json.dump(2) + "\n");
     video.finish();
     table_left.commit();
     table_right.commit();

@@ -1,18 +1,18 @@
 // Two scripts, or two heads under one script, side by side in one video.
 #pragma once
 
-#include <filesystem>
-
-#include "risorius/animate/animate.h"
+#include "risorius/animate/render_request.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::animate {
 
-/// Left and right: `script` and `rig` may differ. Size, rate, coding and sound are those of the left one; the video lasts as long
-/// as the longer of both, the other one stays as it was in its last frame.
+/// The two sides may differ in script and rig. Size, rate, coding and sound are those of the left side. The video lasts as long as
+/// the longer side; the shorter one stays at its last frame.
 ///
-/// Writes left.out, and beside it OUT.json (both records), OUT.left.frames.tsv and OUT.right.frames.tsv. Throws Error, RunError,
+/// Writes left.out, OUT.json (the records of both sides), OUT.left.frames.tsv and OUT.right.frames.tsv. Throws Error, RunError and
 /// Interrupted.
-Json compare(const AnimateOptions& left, const AnimateOptions& right,
+Json compare(const RenderRequest& left, const RenderRequest& right,
              const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

@@ -8,8 +8,8 @@ namespace risorius::animate {
 
 namespace {
 
-constexpr double kOnset_m = 0.3e-3, kOnsetShare = 0.05;
-constexpr double kApexShare = 0.99;  // a held face creeps on by micrometres
+constexpr double kOnset_m = 0.3e-3, kOnsetFraction = 0.05;
+constexpr double kApexFraction = 0.99;  // a held face still creeps by micrometres
 
 std::vector<std::string> split(const std::string& text, char by) {
     std::vector<std::string> out;
@@ -49,7 +49,7 @@ FrameRows frame_rows(const std::string& table) {
     return out;
 }
 
-std::vector<double> landmark_ways(const FrameRows& rows) {
+std::vector<double> max_landmark_displacements(const FrameRows& rows) {
     std::vector<double> out(rows.cells.size(), 0);
     for (std::size_t c = 0; c + 2 < rows.names.size(); ++c) {
         if (!ends_with(rows.names[c], ".x_mm")) continue;
@@ -59,24 +59,24 @@ std::vector<double> landmark_ways(const FrameRows& rows) {
                 const int column = static_cast<int>(c) + k;
                 squared += std::pow(rows.number(r, column) - rows.number(0, column), 2);
             }
-            double& way = out[static_cast<std::size_t>(r)];
-            way = std::max(way, 1e-3 * std::sqrt(squared));
+            double& displacement = out[static_cast<std::size_t>(r)];
+            displacement = std::max(displacement, 1e-3 * std::sqrt(squared));
         }
     }
     return out;
 }
 
-Moments moments_of(const std::vector<double>& ways_m) {
+Moments moments_of(const std::vector<double>& displacements_m) {
     Moments out;
-    if (ways_m.empty()) return out;
-    const auto farthest = std::max_element(ways_m.begin(), ways_m.end());
-    const double there = kApexShare * *farthest;
-    out.apex = static_cast<int>(
-        std::find_if(ways_m.begin(), ways_m.end(), [&](double way) { return way >= there; }) -
-        ways_m.begin());
-    const double begun = std::min(kOnset_m, kOnsetShare * *farthest);
-    for (std::size_t i = 0; i < ways_m.size() && begun > 0; ++i)
-        if (ways_m[i] > begun) {
+    if (displacements_m.empty()) return out;
+    const auto max = std::max_element(displacements_m.begin(), displacements_m.end());
+    const double there = kApexFraction * *max;
+    out.apex = static_cast<int>(std::find_if(displacements_m.begin(), displacements_m.end(),
+                                             [&](double one) { return one >= there; }) -
+                                displacements_m.begin());
+    const double begun = std::min(kOnset_m, kOnsetFraction * *max);
+    for (std::size_t i = 0; i < displacements_m.size() && begun > 0; ++i)
+        if (displacements_m[i] > begun) {
             out.onset = static_cast<int>(i);
             break;
         }

@@ -1,4 +1,4 @@
-// A table of frames taken apart again: rows of numbers under names.
+// Reads a table of frames (frame_table.h) back into rows of cells under column names.
 #pragma once
 
 #include <string>
@@ -9,23 +9,24 @@ namespace risorius::animate {
 struct FrameRows {
     std::vector<std::string> names;
     std::vector<std::vector<std::string>>
-        cells;  ///< as written, rows of as many as there are names
+        cells;  ///< text as written; a row has one cell for each name
 
     int rows() const { return static_cast<int>(cells.size()); }
-    int column(const std::string& name) const;  ///< -1: none
+    int column(const std::string& name) const;  ///< -1 when there is no such column
     double number(int row, int column) const;
 };
 
-/// What FrameTable::text() wrote.
+/// `table`: the text of FrameTable::text().
 FrameRows frame_rows(const std::string& table);
 
-/// Of every frame, m: how far the landmark that moved farthest is from where it was in the first. Zeros without landmarks.
-std::vector<double> landmark_ways(const FrameRows& rows);
+/// For each frame: the maximum displacement of a landmark from the first frame, m. Zeros without landmarks.
+std::vector<double> max_landmark_displacements(const FrameRows& rows);
 
-/// First frame in which a landmark has moved by 0.3 mm, or 5 % of the farthest way; first in which one has gone 99 % of it.
+/// Onset: the first frame in which a landmark has moved by 0.3 mm, or by 5 % of its maximum if that is less. Apex: the first frame
+/// with 99 % of the maximum.
 struct Moments {
     int onset = 0, apex = 0;
 };
-Moments moments_of(const std::vector<double>& ways_m);
+Moments moments_of(const std::vector<double>& displacements_m);
 
 }  // namespace risorius::animate

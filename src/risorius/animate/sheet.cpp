@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "risorius/animate/film.h"
-#include "risorius/animate/studio.h"
+#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
 #include "risorius/media/image_file.h"
@@ -16,7 +15,7 @@ namespace risorius::animate {
 
 namespace {
 
-constexpr int kMostPictures = 400;
+constexpr int kMaxPictures = 400;
 
 void check_sheet(const SheetOptions& options) {
     if (options.out.extension() != ".png")
@@ -27,23 +26,23 @@ void check_sheet(const SheetOptions& options) {
     const std::size_t pictures = options.scripts.size() * options.times_s.size() *
                                  std::max<std::size_t>(1, options.cameras.size()) *
                                  std::max<std::size_t>(1, options.rigs.size());
-    if (pictures > kMostPictures)
+    if (pictures > kMaxPictures)
         throw Error(option_name("times_s"),
-                    "at most " + std::to_string(kMostPictures) + " pictures on a sheet",
+                    "at most " + std::to_string(kMaxPictures) + " pictures on a sheet",
                     std::to_string(pictures));
     for (const std::string& camera : options.cameras)
         index_of_name(option_name("cameras"), camera, render::camera_names());
     report::check_record(report::output_path(options.out, ".json"));
 }
 
-/// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the folder where all files have one name.
+/// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the name of the folder when the file has the usual name.
 std::string short_name(const std::filesystem::path& file, const char* usual) {
     const std::string stem = file.stem().string();
     const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
     return stem == usual ? folder : stem;
 }
 
-/// As large as fits into a picture of the sheet, on white.
+/// The picture shrunk until it fits into a cell of the sheet, on white.
 Image fitted(const Image& picture, int width_px, int height_px) {
     const double scale = std::min({static_cast<double>(width_px) / picture.width_px,
                                    static_cast<double>(height_px) / picture.height_px, 1.0});
@@ -58,7 +57,7 @@ Image fitted(const Image& picture, int width_px, int height_px) {
     return out;
 }
 
-/// Of pictures from elsewhere, as many to a row as the sheet has columns.
+/// Rows of pictures from elsewhere, as many to a row as the sheet has columns.
 std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::path>& files,
                                             std::size_t columns, int width_px, int height_px) {
     std::vector<report::ContactRow> rows;
@@ -76,73 +75,79 @@ std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::p
     return rows;
 }
 
-std::vector<AnimateOptions> runs_of(const SheetOptions& options) {
-    std::vector<AnimateOptions> runs;
+/// A job for each script and rig. All have the size of the first one.
+std::vector<RenderJob> plan_jobs(const SheetOptions& options) {
+    RenderRequest request = options.view;
+    request.out = options.out;
+    request.times_s = options.times_s;
+    std::sort(request.times_s.begin(), request.times_s.end());
+    RenderInputs inputs;
+    std::vector<RenderJob> jobs;
+    const auto plan = [&] {
+        jobs.push_back(plan_render_job(request, inputs));
+        request.size = PictureSize{jobs[0].view.width_px, jobs[0].view.height_px};
+    };
     for (const std::filesystem::path& script : options.scripts) {
-        AnimateOptions run = options.view;
-        run.script = script;
-        run.out = options.out;
-        run.times_s = options.times_s;
-        std::sort(run.times_s.begin(), run.times_s.end());
-        if (options.rigs.empty()) runs.push_back(run);
+        request.script = script;
+        if (options.rigs.empty()) plan();
         for (const std::filesystem::path& rig : options.rigs) {
-            run.rig = rig;
-            runs.push_back(run);
+            request.rig = rig;
+            plan();
         }
     }
-    return runs;
+    return jobs;
+}
+
+std::vector<std::string> column_names(const SheetOptions& options,
+                                      const std::vector<std::string>& cameras) {
+    std::vector<std::string> names;
+    for (const std::string& camera : cameras)
+        for (const double time_s : options.times_s)
+            names.push_back(options.cameras.empty() ? format_number(time_s) + " s"
+                            : options.times_s.size() > 1
+                                ? camera + ", " + format_number(time_s) + " s"
+                                : camera);
+    return names;
 }
 
 }  // namespace
 
 Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
     check_sheet(options);
-    const std::vector<AnimateOptions> runs = runs_of(options);
-    std::vector<Shot> shots;
-    for (const AnimateOptions& run : runs) shots.push_back(plan_shot(run));
-    for (Shot& shot : shots) {  // one size on a sheet
-        shot.view.width_px = shots.front().view.width_px;
-        shot.view.height_px = shots.front().view.height_px;
-    }
-
-    report::ContactSheet sheet;
+    std::vector<RenderJob> jobs = plan_jobs(options);
+    const render::ViewOptions& first = jobs.front().view;
     std::vector<std::string> cameras = options.cameras;
-    if (cameras.empty()) cameras = {shots.front().view.camera};
-    for (const std::string& camera : cameras)
-        for (const double time_s : options.times_s)
-            sheet.columns.push_back(options.cameras.empty() ? format_number(time_s) + " s"
-                                    : options.times_s.size() > 1
-                                        ? camera + ", " + format_number(time_s) + " s"
-                                        : camera);
+    if (cameras.empty()) cameras = {first.camera};
+    report::ContactSheet sheet;
+    sheet.columns = column_names(options, cameras);
     const std::vector<report::ContactRow> others =
-        rows_beside(options.beside, sheet.columns.size(), shots.front().view.width_px,
-                    shots.front().view.height_px);
+        rows_beside(options.beside, sheet.columns.size(), first.width_px, first.height_px);
+
     Json record{{"format", "risorius-sheet"}, {"version", 1}, {"runs", Json::array()}};
-    Studio studio;
+    RenderSession session;
     double begun = 0;
-    const double all = static_cast<double>(runs.size() * cameras.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double all = static_cast<double>(jobs.size() * cameras.size());
+    for (RenderJob& job : jobs) {
         report::ContactRow row;
-        row.name = short_name(runs[i].script, "script");
+        row.name = short_name(job.script_file.path, "script");
         for (const std::string& camera : cameras) {
-            if (!options.cameras.empty()) shots[i].view.camera = camera;
+            if (!options.cameras.empty()) job.view.camera = camera;
             std::vector<Image> pictures;
-            FilmExtras extras;
             ProgressMonitor part = monitor;
             if (monitor.progress)
-                part.progress = [&](double share, const std::string& what) {
-                    monitor.progress((begun + share) / all, what);
+                part.progress = [&](double fraction, const std::string& what) {
+                    monitor.progress((begun + fraction) / all, what);
                 };
-            const RunRecord run = film(
-                runs[i], shots[i], [&](Image image) { pictures.push_back(std::move(image)); },
-                extras, part, studio);
+            const RunRecord run =
+                run_render_job(
+                    job, session, [&](Image image) { pictures.push_back(std::move(image)); }, part)
+                    .record;
             record["runs"].push_back(run.json());
             row.numbers = short_name(run.rig.path, "rig");
             for (const double time_s : options.times_s) {
-                const auto at =
-                    std::lower_bound(runs[i].times_s.begin(), runs[i].times_s.end(), time_s);
+                const auto at = std::lower_bound(job.times_s.begin(), job.times_s.end(), time_s);
                 row.pictures.push_back(
-                    pictures[static_cast<std::size_t>(at - runs[i].times_s.begin())]);
+                    pictures[static_cast<std::size_t>(at - job.times_s.begin())]);
             }
             begun += 1;
         }

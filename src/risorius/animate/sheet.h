@@ -1,27 +1,29 @@
-// Moments of scripts on one picture: a row per script and head, a column per time.
+// Frames of scripts side by side on one picture: a row for each script and head, a column for each time.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "risorius/animate/animate.h"
+#include "risorius/animate/render_request.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/core/progress_monitor.h"
 
 namespace risorius::animate {
 
 struct SheetOptions {
     std::vector<std::filesystem::path> scripts;  ///< at least one
-    std::vector<std::filesystem::path> rigs;     ///< none: each script's own
+    std::vector<std::filesystem::path> rigs;     ///< empty: each script with its own rig
     std::vector<double> times_s;                 ///< at least one, in the order of the columns
     std::vector<std::string>
-        cameras;  ///< none: that of the view; else columns for each, by all times
+        cameras;  ///< empty: the one of `view`; else every time is shown by each
     std::vector<std::filesystem::path>
-        beside;                 ///< pictures (.png) to compare with, in a row of their own
+        beside;                 ///< .png files to compare with, in rows of their own
     std::filesystem::path out;  ///< .png
-    AnimateOptions view;        ///< size, camera, show, quality and threads of it count
+    RenderRequest view;         ///< only size, camera, show, quality and threads are used
 };
 
-/// Writes OUT and OUT.json, the records of all runs. Throws Error, RunError, Interrupted.
+/// Writes OUT and OUT.json, the records of all runs. Throws Error, RunError and Interrupted.
 Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_text.h"
 
 namespace risorius {
 
@@ -108,7 +109,7 @@ JsonCursor::JsonCursor(std::shared_ptr<const Json> document, std::filesystem::pa
       pointer_(std::move(pointer)),
       value_(value) {}
 
-JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
+std::string read_json_text(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
         throw Error(file.string(), "a JSON file", "no such file");
@@ -119,35 +120,39 @@ JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
     text << stream.rdbuf();
     if (!stream) throw Error(file.string(), "a readable JSON file", "a file that cannot be read");
     if (text.str().empty()) throw Error(file.string(), "a JSON file", "an empty file");
+    return text.str();
+}
 
+JsonCursor parse_json_text(const std::string& text, const std::filesystem::path& name) {
     DuplicateKeyFinder duplicates;
-    auto document = std::make_shared<Json>();
+    Json document;
     try {
-        *document = Json::parse(text.str(), std::ref(duplicates));
+        document = Json::parse(text, std::ref(duplicates));
     } catch (const Json::parse_error& error) {
-        const std::string content = text.str();
         const std::size_t at =
-            std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, content.size());
-        const auto line =
-            1 + std::count(content.begin(), content.begin() + static_cast<long>(at), '\n');
-        const std::size_t line_start = at == 0 ? std::string::npos : content.rfind('\n', at - 1);
+            std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+        const std::size_t line_start = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
         const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
-        const std::string found =
-            at < content.size() ? describe_character(content[at]) + " that does not belong there"
-                                : "the end of the file";
-        throw Error(file.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
+        const std::string found = at < text.size()
+                                      ? describe_character(text[at]) + " that does not belong there"
+                                      : "the end of the file";
+        throw Error(name.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "valid JSON", found);
     } catch (const Json::out_of_range& error) {
         // Its text ends with the number in quotes: "number overflow parsing '1e999'".
         const std::string text_of_error = error.what();
-        throw Error(file.string(), "numbers within +-1.8e308",
+        throw Error(name.string(), "numbers within +-1.8e308",
                     text_of_error.substr(std::min(text_of_error.find('\''), text_of_error.size())));
     }
     if (!duplicates.duplicate.empty())
-        throw Error(file.string(), "every key once in its object",
+        throw Error(name.string(), "every key once in its object",
                     "\"" + duplicates.duplicate + "\" twice");
-    const Json* root = document.get();
-    return JsonCursor(std::move(document), file, "", root);
+    return JsonCursor::from_json(std::move(document), name.string());
+}
+
+JsonCursor JsonCursor::read_file(const std::filesystem::path& file) {
+    return parse_json_text(read_json_text(file), file);
 }
 
 JsonCursor JsonCursor::from_json(Json json, const std::string& name) {

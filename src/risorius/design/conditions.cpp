@@ -13,7 +13,7 @@ namespace risorius::design {
 
 namespace {
 
-constexpr std::size_t kLongestClip = 100;
+constexpr std::size_t kMaxClipName = 100;
 
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -39,7 +39,7 @@ void append_word(std::string word, std::string& name) {
     name += word;
 }
 
-/// A clip's name, its words filled in one by one so that numbers and signs become letters.
+/// The name of a clip. Values are converted by clip_word() one by one, so that signs and points become letters.
 std::string clip_name(const ConditionSet& set, const Parameters& values) {
     std::string out;
     const std::string place = set.place + "/clip";
@@ -58,13 +58,13 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
     }
     if (out.empty())
         throw Error(place, "a name with letters or digits", risorius::in_quotes(set.clip));
-    if (out.size() > kLongestClip)
-        throw Error(place, "a name of " + std::to_string(kLongestClip) + " letters at most",
+    if (out.size() > kMaxClipName)
+        throw Error(place, "a name of " + std::to_string(kMaxClipName) + " letters at most",
                     risorius::in_quotes(out));
     return out;
 }
 
-/// A recording may be none for some of the conditions: null, or no text.
+/// Some conditions may have no recording: the value is null or empty text.
 void add_sound(const ConditionSet& set, const Parameters& values, Condition& condition) {
     if (!set.audio) return;
     const Json file = values.filled(*set.audio);
@@ -77,7 +77,7 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     condition.audio_start_s = start.get<double>();
 }
 
-/// A clip that may not be named like another one, also where file names know no case.
+/// Adds a clip and checks that its name is unique, also without regard to case.
 class Names {
   public:
     void add(const std::string& clip, const std::string& place) {
@@ -123,9 +123,9 @@ std::vector<Condition> conditions_of(const Design& design) {
     for (const ConditionSet& set : design.sets) {
         wanted.push_back(wanted_conditions(set, design.seed));
         all += static_cast<long>(wanted.back().size() * (1 + set.controls.size()));
-        if (all > kMostConditions)
+        if (all > kMaxConditions)
             throw Error(design.file.string() + ":/sets",
-                        std::to_string(kMostConditions) + " clips at most", "more");
+                        std::to_string(kMaxConditions) + " clips at most", "more");
     }
     std::vector<Condition> out;
     Names names;
@@ -166,7 +166,7 @@ std::vector<Condition> conditions_of(const Design& design) {
                 beside.control = control;
                 append_word(control.name(), beside.clip);
                 beside.script = controlled(script, control);
-                // By its name, so that other conditions do not change it
+                // The seed follows from the name, so that other conditions do not change it
                 std::seed_seq seed(beside.clip.begin(), beside.clip.end());
                 std::array<unsigned, 1> drawn_seed{};
                 seed.generate(drawn_seed.begin(), drawn_seed.end());

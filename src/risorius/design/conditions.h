@@ -1,4 +1,4 @@
-// Every clip that a design asks for: its name, its values and its script. Checked as a whole.
+// The clips that a design asks for, each with its name, its values and its script.
 #pragma once
 
 #include <filesystem>
@@ -13,24 +13,24 @@
 
 namespace risorius::design {
 
-/// More are refused; a crossing is counted before it is made.
-inline constexpr long kMostConditions = 100000;
+/// The maximum number of clips. A crossing is counted before it is made.
+inline constexpr long kMaxConditions = 100000;
 
 struct Condition {
     std::string
-        clip;  ///< letters and digits, as BIDS wants of a stim-LABEL; no two alike but for case
+        clip;  ///< the name: letters and digits, as in stim-LABEL of BIDS; unique without regard to case
     std::string set;
     Control control;
-    std::string of;  ///< the clip that it is a control of; itself when it is none
-    std::vector<std::pair<std::string, Json>> values;  ///< of all parameters, by name
-    Json script;                                       ///< filled in, as the control wants it
-    std::filesystem::path folder;                      ///< where its relative paths start
-    unsigned seed = 0;                                 ///< of what the control draws
-    std::optional<std::filesystem::path> audio;        ///< a recording to be heard
-    double audio_start_s = 0;                          ///< when its first sample is
+    std::string of;  ///< the clip that this one is a control of; its own name when it is no control
+    std::vector<std::pair<std::string, Json>> values;  ///< all parameters, by name
+    Json script;                   ///< with all values filled in, and changed for the control
+    std::filesystem::path folder;  ///< where its relative paths start
+    unsigned seed = 0;             ///< of the random numbers of the control
+    std::optional<std::filesystem::path> audio;  ///< the recording that is heard
+    double audio_start_s = 0;                    ///< the time of its first sample
 };
 
-/// Throws Error for names that are no file names or taken twice, unknown parameters, and too many.
+/// Throws Error for names that are not valid or not unique, for unknown parameters and for too many conditions.
 std::vector<Condition> conditions_of(const Design& design);
 
 /// Text as a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".

@@ -27,7 +27,7 @@ std::vector<Given> read_values(const JsonCursor& json) {
     return out;
 }
 
-/// Values of their own, as if each were written in the file.
+/// The values of a list, each with its place in the file.
 std::vector<JsonCursor> made_levels(const std::vector<double>& values, const JsonCursor& from) {
     std::vector<JsonCursor> out;
     for (const double value : values)
@@ -35,14 +35,14 @@ std::vector<JsonCursor> made_levels(const std::vector<double>& values, const Jso
     return out;
 }
 
-// The same number for the same design whatever else is drawn
+// The number depends only on its arguments, not on other random numbers of the design
 double chance(int seed, const std::string& name, int index) {
     CounterRng place(static_cast<std::uint64_t>(seed));
     for (const char c : name) place.at(static_cast<unsigned char>(c));
     return place.at(static_cast<std::uint64_t>(index)).uniform();
 }
 
-constexpr int kMostLevels = 100000;
+constexpr int kMaxLevels = 100000;
 constexpr double kBroadcastLufs = -23;  // EBU R 128
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
@@ -52,16 +52,16 @@ Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     } else if (json.is_object() && json.has("draw")) {
         json.allow_keys({"draw", "count"});
         const std::vector<JsonCursor> ends = json.at("draw").items();
-        if (ends.size() != 2) json.at("draw").fail("[least, most]");
-        const double least = ends[0].number(), most = ends[1].number();
+        if (ends.size() != 2) json.at("draw").fail("[min, max]");
+        const double min = ends[0].number(), max = ends[1].number();
         std::vector<double> values;
-        for (int i = 0; i < json.at("count").integer(1, kMostLevels); ++i)
-            values.push_back(least + (most - least) * chance(seed, name, i));
+        for (int i = 0; i < json.at("count").integer(1, kMaxLevels); ++i)
+            values.push_back(min + (max - min) * chance(seed, name, i));
         factor.levels = made_levels(values, json);
     } else if (json.is_object()) {
         json.allow_keys({"from", "to", "steps"});
         const double from = json.at("from").number(), to = json.at("to").number();
-        const int steps = json.at("steps").integer(2, kMostLevels);
+        const int steps = json.at("steps").integer(2, kMaxLevels);
         std::vector<double> values;
         for (int i = 0; i < steps; ++i)
             values.push_back(i + 1 == steps ? to : from + (to - from) * i / (steps - 1));
@@ -69,7 +69,7 @@ Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     } else {
         json.fail("a list of values, {\"from\", \"to\", \"steps\"} or {\"draw\", \"count\"}");
     }
-    if (factor.levels.empty()) json.fail("a value at least", "none");
+    if (factor.levels.empty()) json.fail("at least one value", "none");
     return factor;
 }
 
@@ -77,7 +77,7 @@ std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
     if (json.is_string()) return read_table(existing_file(json));
     std::vector<std::vector<Given>> rows;
     for (const JsonCursor& row : json.items()) rows.push_back(read_values(row));
-    if (rows.empty()) json.fail("a condition at least", "none");
+    if (rows.empty()) json.fail("at least one condition", "none");
     return rows;
 }
 
@@ -117,7 +117,7 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
     }
     if (set.audio_start_s && !set.audio) set.audio_start_s->fail("\"audio\" beside it", "none");
     if (const auto v = json.find("draw"))
-        set.draw = v->integer(1, static_cast<int>(kMostConditions));
+        set.draw = v->integer(1, static_cast<int>(kMaxConditions));
     if (const auto v = json.find("overrides"))
         for (const JsonCursor& one : v->items()) {
             one.allow_keys({"when", "set"});
@@ -171,17 +171,17 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     ExperimentOptions out;
     for (const JsonCursor& one : json.at("programs").items())
         out.programs.push_back(one.one_of({"psychopy", "jspsych"}));
-    if (out.programs.empty()) json.at("programs").fail("a program at least", "none");
+    if (out.programs.empty()) json.at("programs").fail("at least one program", "none");
     if (const auto v = json.find("question")) out.question = v->string();
     const JsonCursor answers = json.at("answers");
     for (const std::string& key : answers.keys()) {
-        // What both programs and every keyboard call the same
+        // Names that both programs use, of keys that every keyboard has
         if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
                                  std::isdigit(static_cast<unsigned char>(key[0]))))
             answers.at(key).fail("a key from a to z or 0 to 9", risorius::in_quotes(key));
         out.answers.emplace_back(key, answers.at(key).string());
     }
-    if (out.answers.empty()) answers.fail("a key to answer with at least", "none");
+    if (out.answers.empty()) answers.fail("at least one key to answer with", "none");
     if (const auto v = json.find("correct")) out.correct = v->string();
     if (const auto v = json.find("sets"))
         for (const JsonCursor& one : v->items()) out.sets.push_back(one.string());
@@ -192,7 +192,7 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     return out;
 }
 
-/// What the experiment names must be in the design.
+/// Checks that the design has what the experiment names.
 void check_experiment(const JsonCursor& json, const Design& design) {
     std::vector<std::string> names;
     for (const ConditionSet& set : design.sets) names.push_back(set.name);
@@ -224,7 +224,7 @@ Design read_design(const std::filesystem::path& file) {
             set.at("name").fail("every set's name once",
                                 risorius::in_quotes(design.sets.back().name) + " again");
     }
-    if (design.sets.empty()) json.at("sets").fail("a set of conditions at least", "none");
+    if (design.sets.empty()) json.at("sets").fail("at least one set of conditions", "none");
     if (design.experiment) check_experiment(json.at("experiment"), design);
     return design;
 }

@@ -1,4 +1,4 @@
-// A design as read: which scripts with which values, what is shown beside them, and how the clips are written.
+// A design as read from its file: scripts and the values that vary in them, controls, and how clips are written.
 // JSON format "risorius-design", version 1; field names are its keys.
 #pragma once
 
@@ -14,32 +14,32 @@
 
 namespace risorius::design {
 
-/// One thing that varies: every level is a value of a parameter.
+/// A factor of the experiment. Each level is a value of a parameter.
 struct Factor {
     std::string name;
     std::vector<JsonCursor> levels;
 };
 
-/// For the conditions that have all values of "when": other values of parameters.
+/// Values of parameters for the conditions that have all values of `when`.
 struct Override {
     std::vector<Given> when, set;
 };
 
-/// Conditions of one script: every level of every factor with every other, for every row of the table.
+/// The conditions of one script: all combinations of the levels of its factors, for each row of its table.
 struct ConditionSet {
     std::string name;
     JsonCursor script;              ///< the template
-    std::vector<Given> parameters;  ///< of this set, over those of the design
+    std::vector<Given> parameters;  ///< of this set; they replace those of the design
     std::vector<Factor> factors;
     std::vector<std::vector<Given>>
-        rows;  ///< of "conditions"; one row of nothing when there is none
-    std::vector<Relation> fraction = {};  ///< of the crossing, those that all of them keep
-    std::optional<int> draw;              ///< so many of these, by chance
+        rows;  ///< the table "conditions"; without one, a single empty row
+    std::vector<Relation> fraction = {};  ///< only combinations that satisfy all of these relations
+    std::optional<int> draw;              ///< a random choice of this many of them
     std::vector<Override> overrides;
-    std::string clip;  ///< pattern of names
+    std::string clip;  ///< pattern of the names of clips
     std::vector<Control> controls;
-    std::optional<JsonCursor> audio;          ///< a WAV or FLAC file, with ${names} in it
-    std::optional<JsonCursor> audio_start_s;  ///< of its first sample, or a formula
+    std::optional<JsonCursor> audio;          ///< a WAV or FLAC file; may contain ${names}
+    std::optional<JsonCursor> audio_start_s;  ///< time of its first sample, or a formula
     std::string place;
 };
 
@@ -49,36 +49,37 @@ struct ClipOptions {
     std::string quality = "video";
     std::optional<int> crf;
     bool lossless = false;
-    bool landmarks = true;  ///< in the table of frames
+    bool landmarks = true;  ///< their places in the table of frames
     std::optional<std::string> photodiode;
 };
 
-/// Pictures of the same mean and spread of luminance (media/luminance.h): an affine map of linear light, for all frames of all
-/// clips, or for all of each clip. Measured are the conditions; their controls are shown through the same map.
+/// Matches mean and standard deviation of luminance (media/luminance.h) by an affine map of linear light, one for all clips or one for
+/// each clip. Only conditions are measured; their controls are shown through the same map.
 struct LuminanceMatch {
-    bool within_face = false;  ///< measured in the oval of the face, else in the whole picture
+    bool within_face =
+        false;  ///< measured within the oval of the face, or else in the whole picture
     bool per_clip = false;
-    std::optional<double> mean, sd;  ///< (0, 1); those of the set where they are not given
+    std::optional<double> mean, sd;  ///< the target, (0, 1); not given: that of the set
 };
 
 struct Match {
     std::optional<LuminanceMatch> luminance;
-    std::optional<double> loudness_lufs;  ///< of every clip's sound
+    std::optional<double> loudness_lufs;  ///< the target loudness of the sound of each clip
 };
 
-/// What an example of an experiment with the set asks of a participant.
+/// The example experiment: what a participant sees, and is asked.
 struct ExperimentOptions {
     std::vector<std::string> programs;  ///< "psychopy", "jspsych"
     std::string question = "Which one was it?";
     std::vector<std::pair<std::string, std::string>> answers;  ///< key to press, what it stands for
     std::optional<std::string>
-        correct;                    ///< parameter of the design whose value is the right answer
-    std::vector<std::string> sets;  ///< clips of these; all when empty
-    bool controls = true;           ///< are shown too
+        correct;                    ///< the parameter of the design whose value is the right answer
+    std::vector<std::string> sets;  ///< the sets whose clips are shown; empty: all
+    bool controls = true;           ///< whether controls are shown too
     int repetitions = 1;
     double fixation_s = 0.5;
     std::string jspsych_from =
-        "https://cdn.jsdelivr.net/npm";  ///< packages of jsPsych, a URL or a folder
+        "https://cdn.jsdelivr.net/npm";  ///< packages of jsPsych: a URL or a folder
 };
 
 struct Design {

@@ -1,4 +1,5 @@
-// A text file that appears whole or not at all: written beside its place at once, named by commit().
+// A text file that appears whole or not at all. It is written at once under another name in the same folder; commit() gives it its
+// own name.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,7 @@ class AtomicFile {
     std::filesystem::path file_, partial_;
 };
 
-/// One file at once.
+/// Writes one file whole or not at all. Throws RunError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace risorius::report

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kExpected =
     "a new folder, an empty one, or one with nothing but results of an earlier run";
 
-/// What results.json says is there; nothing when there is no such file.
+/// The files that results.json lists; empty when there is no such file.
 std::set<std::string> listed_files(const fs::path& folder) {
     std::set<std::string> files;
     try {
@@ -41,7 +41,7 @@ void check_replaceable(const fs::path& folder, const std::string& shown) {
         if (!results.contains(file)) throw Error(shown, kExpected, "\"" + file + "\" in it");
 }
 
-/// Absolute, without links, "." and a slash at the end.
+/// The absolute path, without links, "." and a final slash.
 fs::path settled(const fs::path& folder) {
     fs::path path = fs::weakly_canonical(fs::absolute(folder)).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
@@ -74,11 +74,11 @@ AtomicFolder::~AtomicFolder() {
     std::error_code ignored;
     fs::remove_all(partial_, ignored);
     for (auto parent = made_.rbegin(); parent != made_.rend(); ++parent)
-        fs::remove(*parent, ignored);  // which leaves one that is not empty
+        fs::remove(*parent, ignored);  // fails, as it should, when the folder is not empty
 }
 
 void AtomicFolder::commit() {
-    // Looked at again: a run may take minutes.
+    // Checked again, since a run may take minutes.
     check_replaceable(folder_, folder_.string());
     fs::path former = partial_;
     former += ".former";

@@ -1,7 +1,8 @@
-// A folder of results that appears whole or not at all: filled beside its place, named by commit().
+// A folder of results that appears whole or not at all. It is filled under another name beside its place; commit() gives it its own
+// name.
 //
-// A former folder of results is replaced, and told from any other by its results.json, which lists its files: a folder
-// with one file more is somebody's own and refused.
+// An earlier folder of results is replaced. It is recognised by its results.json, which lists its files: a folder with any other
+// file is refused.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,7 @@ namespace risorius::report {
 
 class AtomicFolder {
   public:
-    /// Throws Error when `folder` is there and is neither empty nor results only, or cannot be made.
+    /// Throws Error when `folder` cannot be made, or exists and holds other files than results.
     explicit AtomicFolder(const std::filesystem::path& folder);
     ~AtomicFolder();
     AtomicFolder(const AtomicFolder&) = delete;
@@ -21,7 +22,7 @@ class AtomicFolder {
     /// Where to write until commit().
     const std::filesystem::path& partial() const { return partial_; }
 
-    /// Throws RunError when it cannot take its place; the former folder then stays.
+    /// Throws RunError when the folder cannot be renamed; the earlier folder then stays.
     void commit();
 
   private:
@@ -30,7 +31,7 @@ class AtomicFolder {
     bool committed_ = false;
 };
 
-/// The name under which results.json lists every file beside and below it, itself included.
+/// The key of results.json that lists all files of the folder, itself included.
 inline constexpr const char* kFilesKey = "files";
 
 }  // namespace risorius::report

@@ -17,7 +17,7 @@ constexpr int kMargin = 24, kGap = 3, kBetweenBlocks = 30, kHeading = 26, kBelow
 constexpr int kTitle = 82, kColumnNames = 22, kScaleLength = 220, kScaleHeight = 12;
 constexpr render::TextStyle kTitleText{.height_px = 17}, kNameText{.height_px = 12},
     kNumberText{.height_px = 10, .ink = 0.30};
-constexpr double kWidest = 1.6;  ///< of a sheet, against its height
+constexpr double kMaxAspect = 1.6;  ///< width of a sheet over its height
 
 void paste(const Image& picture, int left, int top, Image& sheet) {
     for (int y = 0; y < picture.height_px; ++y)
@@ -30,7 +30,7 @@ std::string number(double value) {
     return text;
 }
 
-/// Its name, and the bar with its numbers below.
+/// Draws the name of the colour scale, and its bar with numbers below.
 void draw_scale(const render::SkinValues& scale, int left, int top, Image& sheet) {
     const std::string name = scale.name + ", " + scale.unit;
     render::write_text(name, {static_cast<double>(left), top + 12.0}, kNameText, sheet);
@@ -43,10 +43,10 @@ void draw_scale(const render::SkinValues& scale, int left, int top, Image& sheet
                 sheet.pixel(left + x, top + y)[k] =
                     static_cast<std::uint8_t>(std::lround(255 * colour[k]));
     }
-    for (const double share : {0.0, 0.5, 1.0}) {
-        const std::string text = number(scale.from + share * (scale.to - scale.from));
+    for (const double fraction : {0.0, 0.5, 1.0}) {
+        const std::string text = number(scale.from + fraction * (scale.to - scale.from));
         const double half = render::text_width(text) * kNumberText.height_px / 2;
-        render::write_text(text, {left + share * kScaleLength - half, top + kScaleHeight + 15.0},
+        render::write_text(text, {left + fraction * kScaleLength - half, top + kScaleHeight + 15.0},
                            kNumberText, sheet);
     }
 }
@@ -68,7 +68,7 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
         return 2 * kMargin + title + kColumnNames + (rows + blocks - 1) / blocks * row_height;
     };
     int blocks = 1;
-    while (blocks < rows && width(blocks + 1) <= kWidest * height(blocks + 1)) ++blocks;
+    while (blocks < rows && width(blocks + 1) <= kMaxAspect * height(blocks + 1)) ++blocks;
     const int per_block = (rows + blocks - 1) / blocks;
     blocks = (rows + per_block - 1) / per_block;
 
@@ -100,10 +100,10 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
 }
 
 Image shrunk(const Image& image, int width_px, int height_px) {
-    // What a pixel of the small picture covers of each row or column of the large one
+    // The fraction of each row or column of the large picture that a pixel of the small one covers
     struct Span {
         int first;
-        std::vector<double> share;
+        std::vector<double> fraction;
     };
     const auto spans = [](int from, int to) {
         std::vector<Span> out;
@@ -112,8 +112,8 @@ Image shrunk(const Image& image, int width_px, int height_px) {
             const double begin = i * step, end = begin + step;
             Span span{static_cast<int>(begin), {}};
             for (int p = span.first; p < from && p < end; ++p)
-                span.share.push_back((std::min<double>(end, p + 1) - std::max<double>(begin, p)) /
-                                     step);
+                span.fraction.push_back(
+                    (std::min<double>(end, p + 1) - std::max<double>(begin, p)) / step);
             out.push_back(span);
         }
         return out;
@@ -126,11 +126,11 @@ Image shrunk(const Image& image, int width_px, int height_px) {
             double sum[4] = {0, 0, 0, 0};
             const Span &h = across[static_cast<std::size_t>(x)],
                        &v = down[static_cast<std::size_t>(y)];
-            for (std::size_t j = 0; j < v.share.size(); ++j)
-                for (std::size_t i = 0; i < h.share.size(); ++i) {
+            for (std::size_t j = 0; j < v.fraction.size(); ++j)
+                for (std::size_t i = 0; i < h.fraction.size(); ++i) {
                     const std::uint8_t* pixel =
                         image.pixel(h.first + static_cast<int>(i), v.first + static_cast<int>(j));
-                    for (int k = 0; k < 4; ++k) sum[k] += v.share[j] * h.share[i] * pixel[k];
+                    for (int k = 0; k < 4; ++k) sum[k] += v.fraction[j] * h.fraction[i] * pixel[k];
                 }
             for (int k = 0; k < 4; ++k)
                 out.pixel(x, y)[k] = static_cast<std::uint8_t>(std::lround(sum[k]));

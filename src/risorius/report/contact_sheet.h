@@ -1,4 +1,5 @@
-// Many small pictures on one sheet: rows of them under a heading, in as many columns of rows as make the sheet about as wide as high.
+// Many small pictures on one sheet. Each row of pictures has a heading; rows are set in several columns, so that the sheet is about
+// as wide as high.
 #pragma once
 
 #include <string>
@@ -10,21 +11,21 @@
 namespace risorius::report {
 
 struct ContactRow {
-    std::string name, numbers;    ///< heading: what it is, and what is said of it
+    std::string name, numbers;    ///< the heading: a name, and text about the row
     std::vector<Image> pictures;  ///< all of one size on a sheet; as many as the sheet has columns
 };
 
 struct ContactSheet {
     std::string title;
-    std::vector<std::string> columns;  ///< what the pictures of a row show, from the left
+    std::vector<std::string> columns;  ///< headings of the columns, from the left
     std::vector<ContactRow> rows;
-    render::SkinValues
-        scale;  ///< of the pictures with colours; its values are not used; none without a name
+    /// The colour scale of the pictures; only its ends and name are used. Without a name none is drawn.
+    render::SkinValues scale;
 };
 
 Image draw_contact_sheet(const ContactSheet& sheet);
 
-/// A picture made smaller, every pixel the mean of what it covers.
+/// A smaller copy of a picture: each pixel is the mean of the area that it covers.
 Image shrunk(const Image& image, int width_px, int height_px);
 
 }  // namespace risorius::report

@@ -19,15 +19,15 @@ constexpr const char* kBarsStyle = R"(
 
 struct DriveBar {
     std::string name;
-    double first = 0, second = 0, most = 1;
+    double first = 0, second = 0, max = 1;
 };
 
 std::vector<DriveBar> bars_of(const track::Drive& first, const track::Drive* second,
                               const track::ChannelTable& channels) {
     std::vector<DriveBar> out;
     const std::vector<std::string> names = channels.column_names();
-    const auto add = [&](const std::string& name, double one, double other, double most) {
-        if (one != 0 || other != 0) out.push_back({name, one, other, most});
+    const auto add = [&](const std::string& name, double one, double other, double max) {
+        if (one != 0 || other != 0) out.push_back({name, one, other, max});
     };
     for (std::size_t c = 0; c < names.size(); ++c) {
         const auto at = static_cast<long>(c);
@@ -51,15 +51,15 @@ std::vector<DriveBar> bars_of(const track::Drive& first, const track::Drive* sec
     return joined;
 }
 
-std::string drive_text(double value, double most) {
+std::string drive_text(double value, double max) {
     char text[48];
-    std::snprintf(text, sizeof text, "%.*f", most > 10 ? 0 : 2, value);
+    std::snprintf(text, sizeof text, "%.*f", max > 10 ? 0 : 2, value);
     return text;
 }
 
-std::string bar_width(double value, double most) {
+std::string bar_width(double value, double max) {
     char text[48];
-    std::snprintf(text, sizeof text, "width: %.1f%%", 100 * std::min(1.0, std::abs(value) / most));
+    std::snprintf(text, sizeof text, "width: %.1f%%", 100 * std::min(1.0, std::abs(value) / max));
     return text;
 }
 
@@ -72,12 +72,11 @@ void write_drive_bars(HtmlWriter& html, const track::Drive& first, const track::
     html.open("div", {{"class", "bars"}});
     for (const DriveBar& bar : bars_of(first, second, channels)) {
         html.open("div", {{"class", "bar"}}).element("span", bar.name).open("span");
-        html.element("i", "", {{"class", "by-table"}, {"style", bar_width(bar.first, bar.most)}});
+        html.element("i", "", {{"class", "by-table"}, {"style", bar_width(bar.first, bar.max)}});
         if (second)
-            html.element("i", "",
-                         {{"class", "by-fit"}, {"style", bar_width(bar.second, bar.most)}});
-        html.close().open("span").text(drive_text(bar.first, bar.most));
-        if (second) html.single("br").text(drive_text(bar.second, bar.most));
+            html.element("i", "", {{"class", "by-fit"}, {"style", bar_width(bar.second, bar.max)}});
+        html.close().open("span").text(drive_text(bar.first, bar.max));
+        if (second) html.single("br").text(drive_text(bar.second, bar.max));
         html.close().close();
     }
     html.close();

@@ -1,4 +1,4 @@
-// What drives a face, as bars on a page: every muscle and channel in use, one value or two beside each other.
+// A drive as bars on a page: each muscle and channel in use with one value, or with two values to compare.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace risorius::report {
 
-/// For the page's style element; the classes "by-table" and "by-fit" are the colours of first and second values.
+/// Text for the style element of the page. The classes "by-table" and "by-fit" give the colours of first and second values.
 std::string drive_bars_style();
 
-/// `second` may be null. A muscle that does on the right what it does on the left gets one bar.
+/// `second` may be null. A muscle with equal values on both sides gets one bar.
 void write_drive_bars(HtmlWriter& html, const track::Drive& first, const track::Drive* second,
                       const track::ChannelTable& channels);
 

@@ -1,4 +1,4 @@
-// Names that come from files, as names of files and folders that any system takes.
+// Makes names that come from files usable as names of files and folders on any system.
 #pragma once
 
 #include <set>
@@ -6,7 +6,7 @@
 
 namespace risorius::report {
 
-/// Letters, digits, "_" and "-" alone, and unlike any of `taken` even where capitals count as small letters; added to them.
+/// A name of letters, digits, "_" and "-" only. It differs from all of `taken`, also without regard to case, and is added to them.
 std::string folder_name(const std::string& name, std::set<std::string>& taken);
 
 }  // namespace risorius::report

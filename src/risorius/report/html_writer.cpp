@@ -6,7 +6,7 @@
 namespace risorius::report {
 namespace {
 
-// Readable on paper too; tables scroll rather than widen the page.
+// The page can be printed; wide tables scroll instead of widening the page.
 constexpr const char* kStyle = R"(
 :root { --ink: #1d2530; --soft: #5a6675; --line: #d9dee5; --back: #f6f7f9; --good: #00704f; --bad: #b33c00; --link: #00598c; }
 * { box-sizing: border-box; }
@@ -91,7 +91,7 @@ HtmlWriter& HtmlWriter::open(const std::string& name, const Attributes& attribut
 HtmlWriter& HtmlWriter::close() {
     assert(!open_.empty());
     html_ += "</" + open_.back() + ">";
-    // Lines end where they cannot show.
+    // Line breaks are put where they do not show.
     if (!is_inline(open_.back())) html_ += "\n";
     open_.pop_back();
     return *this;

@@ -1,5 +1,5 @@
-// Writes HTML by elements, so that nothing is left open and no text is taken for markup; and the page around it, in the
-// look of this toolkit, without scripts or anything from the network.
+// Writes HTML element by element, so that every element is closed and text is escaped. html_page() puts a page around it, with the
+// style of this toolkit and without scripts or network resources.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace risorius::report {
 
-/// For text and for the values of attributes.
+/// Escapes text and values of attributes.
 std::string html_escaped(const std::string& text);
 
 class HtmlWriter {
@@ -16,15 +16,15 @@ class HtmlWriter {
     using Attributes = std::vector<std::pair<std::string, std::string>>;
 
     HtmlWriter& open(const std::string& tag, const Attributes& attributes = {});
-    HtmlWriter& close();  ///< what was opened last
+    HtmlWriter& close();  ///< closes the element that was opened last
     HtmlWriter& text(const std::string& text);
-    /// One without content: img, br.
+    /// An element without content: img, br.
     HtmlWriter& single(const std::string& tag, const Attributes& attributes = {});
-    /// open, text, close
+    /// open(), text() and close() in one.
     HtmlWriter& element(const std::string& tag, const std::string& text,
                         const Attributes& attributes = {});
 
-    /// All that was written; everything must be closed.
+    /// All that was written. Every element must be closed.
     const std::string& html() const;
 
   private:

@@ -15,7 +15,7 @@ std::string trimmed(const std::string& line) {
 
 void write_inline(HtmlWriter& html, const std::string& text);
 
-/// [text](target) at `at`; true when there is one, which is then written and passed.
+/// Writes a link [text](target) that begins at `at` and moves `at` behind it; false when there is none.
 bool write_link(HtmlWriter& html, const std::string& text, std::size_t& at) {
     const std::size_t middle = text.find("](", at);
     const std::size_t end = middle == std::string::npos ? middle : text.find(')', middle);
@@ -30,12 +30,12 @@ bool write_link(HtmlWriter& html, const std::string& text, std::size_t& at) {
     return true;
 }
 
-/// Text between two equal marks at `at`; true when there is some.
+/// Writes text between two equal marks that begins at `at`; false when there is none.
 bool write_marked(HtmlWriter& html, const std::string& text, std::size_t& at,
                   const std::string& mark, const std::string& tag) {
     if (text.compare(at, mark.size(), mark) != 0) return false;
     const std::size_t begin = at + mark.size(), end = text.find(mark, begin);
-    // "2 * 3" is a product
+    // "2 * 3" is a product, not emphasis
     if (end == std::string::npos || end == begin || text[begin] == ' ' || text[end - 1] == ' ')
         return false;
     html.open(tag);
@@ -62,7 +62,7 @@ void write_inline(HtmlWriter& html, const std::string& text) {
             continue;
         }
         if (c == '!' && at + 1 < text.size() && text[at + 1] == '[') {
-            ++at;  // a picture becomes its description
+            ++at;  // a picture is replaced by its description
             continue;
         }
         flush();
@@ -99,7 +99,7 @@ bool is_rule(const std::string& row) {
     return row.find_first_not_of("|-: ") == std::string::npos && row.find('-') != std::string::npos;
 }
 
-/// Reads a file line by line, block by block.
+/// Reads a document block by block.
 class Blocks {
   public:
     Blocks(HtmlWriter& html, const std::string& markdown, int first_heading)
@@ -135,7 +135,7 @@ class Blocks {
         return static_cast<int>(depth);
     }
 
-    /// Characters of "- ", "* " or "1. " at the beginning of a line, or 0.
+    /// The length of "- ", "* " or "1. " at the beginning of a line, or 0.
     static std::size_t item_mark(const std::string& line) {
         if (line.starts_with("- ") || line.starts_with("* ")) return 2;
         const std::size_t dot = line.find_first_not_of("0123456789");
@@ -195,7 +195,7 @@ class Blocks {
         html_.open(numbered ? "ol" : "ul");
         while (at_ < lines_.size() && item_mark(lines_[at_]) > 0) {
             std::string item = lines_[at_].substr(item_mark(lines_[at_]));
-            // Lines that go on with it
+            // Continuation lines
             for (++at_; at_ < lines_.size() && lines_[at_].starts_with("  "); ++at_)
                 item += " " + trimmed(lines_[at_]);
             html_.open("li");

@@ -1,5 +1,5 @@
-// The part of Markdown that the README files here are written in, as HTML: headings, paragraphs, lists, tables, code,
-// **strong**, *emphasis*, `code` and [links](https://...). What it does not know stays text.
+// Converts the part of Markdown that the README files of this project use to HTML: headings, paragraphs, lists, tables, code,
+// **strong**, *emphasis*, `code` and [links](https://...). Anything else stays text.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace risorius::report {
 
-/// Headings become `first_heading` (1..6) and below. Links to other places than web pages become their text, as the file's
-/// neighbours are not beside the page.
+/// Headings of level 1 become level `first_heading` (1..6), others follow. Links to files become their text, as the files are not
+/// beside the page.
 void write_markdown(HtmlWriter& html, const std::string& markdown, int first_heading);
 
 }  // namespace risorius::report

@@ -1,4 +1,4 @@
-// The middle of some numbers, so that one slow moment does not count.
+// The median of numbers.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace risorius::report {
 
-/// 0 of none.
+/// The median; 0 when there are no values.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());

@@ -1,4 +1,4 @@
-// The files that a run writes beside its result, named after it.
+// Names of the files that a run writes beside its main output, and checks before they are overwritten.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,11 @@ namespace risorius::report {
 /// "hello.mp4" -> "hello.mp4.json", "frames/" -> "frames.json"
 std::filesystem::path output_path(const std::filesystem::path& out, const char* ending);
 
-/// Throws Error when `file` is a folder, or JSON of none of these formats, or no JSON: something else would be lost under what is
-/// written there.
+/// Throws Error when `file` exists and is not JSON of one of these formats, since another file would be overwritten.
 void check_overwritten(const std::filesystem::path& file,
                        const std::vector<std::string_view>& formats, const std::string& expected);
 
-/// Throws Error when a record or table would take the place of a file that no earlier run has written: a script named like
-/// the record would be lost under it.
+/// Throws Error when a record or a table would overwrite a file that no earlier run has written, such as a script of that name.
 void check_record(const std::filesystem::path& record);
 void check_table(const std::filesystem::path& table);
 

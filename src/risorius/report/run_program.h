@@ -1,4 +1,4 @@
-// Another program, run to its end.
+// Runs another program and waits for its end.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 namespace risorius::report {
 
 struct ProgramResult {
-    int exit_code = 0;   ///< 127: there is no such program
+    int exit_code = 0;   ///< 127: the program does not exist
     std::string output;  ///< standard output and error
 };
 
-/// `command[0]` is searched in PATH; no shell has a part in it. Throws RunError when the system cannot start anything.
+/// `command[0]` is searched for in PATH. No shell is used. Throws RunError when the system cannot start a process.
 ProgramResult run_program(const std::vector<std::string>& command);
 
 }  // namespace risorius::report

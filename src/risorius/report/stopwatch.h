@@ -1,4 +1,4 @@
-// Wall time, and time on the core, since it was made, for reports only: nothing that is computed depends on it.
+// Stopwatches for wall time and processor time since they were made. They are for reports only: no result depends on them.
 #pragma once
 
 #include <time.h>
@@ -17,7 +17,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// What this thread, or all threads of this process, have spent on cores: other programs do not count.
+/// Processor time of this thread, or of all threads of this process.
 template <clockid_t kClock>
 class ClockStopwatch {
   public:

@@ -11,7 +11,7 @@ Json ExpressionScore::json() const {
             {"relative_error", relative},
             {"rms_mm", 1e3 * rms_m},
             {"rms_moved_mm", 1e3 * rms_moved_m},
-            {"max_mm", 1e3 * greatest_m},
+            {"max_mm", 1e3 * max_m},
             {"landmark_mm", 1e3 * landmark_m},
             {"measured_peak_mm", 1e3 * peak_m},
             {"simulated_peak_mm", 1e3 * simulated_peak_m}};
@@ -54,7 +54,7 @@ ExpressionScore score(const Points& simulated, const Points& measured, const Eig
         ug += area[v] * u.dot(g);
         dd += area[v] * miss;
         all += area[v];
-        out.greatest_m = std::max(out.greatest_m, std::sqrt(miss));
+        out.max_m = std::max(out.max_m, std::sqrt(miss));
         out.peak_m = std::max(out.peak_m, g.norm());
         out.simulated_peak_m = std::max(out.simulated_peak_m, u.norm());
         if (u.norm() > kMoved_m || g.norm() > kMoved_m) {

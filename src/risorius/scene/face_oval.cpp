@@ -31,7 +31,8 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
     return hull;
 }
 
-/// A smooth curve through the corners (centripetal Catmull-Rom: no loops where two are close), as a hull.
+/// The convex hull of a smooth curve through the corners. The curve is a centripetal Catmull-Rom spline, which has no loops between
+/// close corners.
 std::vector<Vec2> rounded(const std::vector<Vec2>& hull) {
     constexpr int kPieces = 8;
     const std::size_t n = hull.size();
@@ -64,33 +65,33 @@ const std::vector<std::string>& FaceOval::landmarks() {
 
 FaceOval::FaceOval(std::vector<Vec2> points) : border_(rounded(hull_of(std::move(points)))) {}
 
-bool FaceOval::holds(const Vec2& point) const {
+bool FaceOval::contains(const Vec2& point) const {
     for (std::size_t i = 0; i < border_.size(); ++i)
         if (turn(border_[i], border_[(i + 1) % border_.size()], point) < 0) return false;
     return !border_.empty();
 }
 
 FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
-    // Every side of the border leaves what lies to one side of a place in the row, or all or nothing of it
-    double least = 0, most = width_px;
+    // Each side of the border keeps the part of the row on one side of a point, or all of it, or nothing
+    double left = 0, right = width_px;
     for (std::size_t i = 0; i < border_.size(); ++i) {
         const Vec2 &a = border_[i], &b = border_[(i + 1) % border_.size()];
         // turn(a, b, {x, y + 0.5}) = at_zero - x * rise
         const double rise = b.y() - a.y(), at_zero = turn(a, b, {0.0, y + 0.5});
         if (rise > 0)
-            most = std::min(most, at_zero / rise);
+            right = std::min(right, at_zero / rise);
         else if (rise < 0)
-            least = std::max(least, at_zero / rise);
+            left = std::max(left, at_zero / rise);
         else if (at_zero < 0)
             return {};
     }
-    // Where rounding decides, as holds() does
+    // Pixels near the ends are decided by contains(), for equal rounding
     const auto pixel = [&](double x) {
         return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(width_px)));
     };
-    Span out{std::max(0, pixel(least) - 1), std::min(width_px, pixel(most) + 1)};
-    while (out.first < out.end && !holds({out.first + 0.5, y + 0.5})) ++out.first;
-    while (out.end > out.first && !holds({out.end - 0.5, y + 0.5})) --out.end;
+    Span out{std::max(0, pixel(left) - 1), std::min(width_px, pixel(right) + 1)};
+    while (out.first < out.end && !contains({out.first + 0.5, y + 0.5})) ++out.first;
+    while (out.end > out.first && !contains({out.end - 0.5, y + 0.5})) --out.end;
     return out;
 }
 

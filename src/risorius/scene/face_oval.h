@@ -10,21 +10,21 @@ namespace risorius::scene {
 
 class FaceOval {
   public:
-    /// Around the face, in no order.
+    /// Identifiers of the landmarks around the face, in no order.
     static const std::vector<std::string>& landmarks();
 
-    /// Where those of them are that there are, pixels; an oval of fewer than three holds nothing.
+    /// `points`: those of the landmarks that the head has, pixels. An oval of fewer than three points contains nothing.
     explicit FaceOval(std::vector<Vec2> points);
 
-    bool holds(const Vec2& point) const;
-    /// The centres of so many pixels of a row that it holds: those from `first` up to but not `end`. It is convex.
+    bool contains(const Vec2& point) const;
+    /// The pixels of a row whose centres the oval contains: from `first` up to, but not including, `end`.
     struct Span {
         int first = 0, end = 0;
     };
     Span pixels_of_row(int y, int width_px) const;
 
   private:
-    std::vector<Vec2> border_;  ///< corners, all turning the same way
+    std::vector<Vec2> border_;  ///< corners of a convex polygon, in order
 };
 
 }  // namespace risorius::scene

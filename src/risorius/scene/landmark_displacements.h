@@ -1,5 +1,5 @@
-// How far the landmarks of brows, eyes, nose and lips go when a head makes an expression, at the size of the atlas head: what makes
-// expressions of different heads comparable.
+// Displacements of the landmarks of brows, eyes, nose and lips when a head makes an expression. They are scaled to the size of the
+// atlas head, so that expressions of different heads can be compared.
 //
 // File: {"format": "risorius-landmark-ways", "version": 1, "source": "...", "expressions": {name: {landmark: [x, y, z]}}}, mm.
 #pragma once
@@ -25,9 +25,10 @@ class LandmarkDisplacements {
 
     const std::vector<std::string>& landmarks() const { return ids_; }
     int vertex(std::size_t landmark) const { return points_.vertex(ids_[landmark]); }
-    /// What the tables of the rig say; Error when they do not know the name.
+    /// The drive of an expression from the tables of the rig. Throws Error when they do not have the name.
     track::Drive drive(const std::string& expression) const;
-    /// Settles the face in the drive, from rest: n x 3, m, at atlas size, in the order of landmarks().
+    /// Solves the equilibrium of the face under the drive, from rest, and returns the displacements of landmarks(): n x 3, m, at
+    /// the size of the atlas head.
     Points settle(const track::Drive& drive, int iterations = face::kRestIterations);
     bool came_to_rest() const { return came_to_rest_; }
 
@@ -41,11 +42,11 @@ class LandmarkDisplacements {
     bool came_to_rest_ = true;
 };
 
-/// Expression -> landmark -> way, m.
+/// Expression -> landmark -> displacement, m.
 using DisplacementTable = std::map<std::string, std::map<std::string, Vec3>>;
 
-/// Throws Error.
+/// Reads a file as above. Throws Error.
 DisplacementTable read_landmark_displacements(const std::filesystem::path& file);
-Json landmark_displacements_json(const DisplacementTable& ways, const std::string& source);
+Json landmark_displacements_json(const DisplacementTable& displacements, const std::string& source);
 
 }  // namespace risorius::scene

@@ -10,14 +10,14 @@ LandmarkPoints::LandmarkPoints(const rig::Head& head, const rig::RigDescription&
             continue;
         }
         int nearest = -1;
-        double least = 0;
+        double min_squared = 0;
         for (long f = 0; f < head.skin.rows(); ++f)
             for (int k = 0; k < 3; ++k) {
                 const int v = head.skin(f, k);
                 const double squared = (head.vertices.row(v).transpose() - position).squaredNorm();
-                if (nearest < 0 || squared < least) {
+                if (nearest < 0 || squared < min_squared) {
                     nearest = v;
-                    least = squared;
+                    min_squared = squared;
                 }
             }
         riders_[id] = {nearest, position - head.vertices.row(nearest).transpose()};

@@ -1,4 +1,4 @@
-// Where the landmarks of a head are on a moving face: each rides on its vertex.
+// Positions of the landmarks of a head on a moving face. Each landmark moves with one vertex of the mesh.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ class LandmarkPoints {
   public:
     LandmarkPoints(const rig::Head& head, const rig::RigDescription& rig);
 
-    /// World, m; `vertices` in the order of the mesh.
+    /// Position of a landmark in the world, m. `vertices`: V x 3, m, in the order of the mesh.
     Vec3 at(const std::string& id, const Points& vertices) const;
     double distance(const std::string& a, const std::string& b, const Points& vertices) const {
         return (at(a, vertices) - at(b, vertices)).norm();
@@ -24,7 +24,7 @@ class LandmarkPoints {
   private:
     struct Rider {
         int vertex;
-        Vec3 offset;  ///< from the vertex at rest, for landmarks given as points
+        Vec3 offset;  ///< from the vertex at rest, for landmarks that the rig gives as points
     };
     std::map<std::string, Rider> riders_;
 };

@@ -1,4 +1,4 @@
-// A rig together with the mesh it names, both checked.
+// A rig and the mesh that it names, both checked.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,16 @@ namespace risorius::scene {
 struct RigFiles {
     std::filesystem::path file;
     rig::RigDescription rig;
-    geom::PolygonMesh mesh;  ///< in its own units; rig::place_head applies metres_per_unit
+    geom::PolygonMesh mesh;  ///< in the units of its file; rig::place_head applies metres_per_unit
 
+    /// The name of the rig in messages.
     std::string place() const { return file.string(); }
 };
 
 /// Throws Error when the rig or its mesh cannot be used.
 RigFiles read_rig_files(const std::filesystem::path& rig_file);
 
-/// Checks the outer skin, which alone has to be a sound surface. Throws Error naming the mesh file.
+/// Checks the outer skin; other parts of the mesh need not be a manifold surface. Throws Error naming the mesh file.
 geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonMesh& mesh);
 
 }  // namespace risorius::scene

@@ -24,7 +24,7 @@ std::optional<Material> material_of(const std::string& role) {
     return std::nullopt;
 }
 
-/// Of each triangle of a group as geom::triangulate() gives them.
+/// A value for each triangle of a group, in the order of geom::triangulate().
 std::vector<int> textures_of(const geom::PolygonMesh& mesh, int group) {
     std::vector<int> textures;
     for (int face = 0; face < mesh.face_count(); ++face) {
@@ -37,8 +37,8 @@ std::vector<int> textures_of(const geom::PolygonMesh& mesh, int group) {
     return textures;
 }
 
-// The triangles of one group and texture that `wanted` accepts, with their texture coordinates. Seams of the skin are closed by
-// letting every vertex be the one that stands for it, so that normals run across them.
+// The triangles of one group and texture that `wanted` accepts, with their texture coordinates. Seams of the skin are closed: each
+// vertex is replaced by its representative, so that normals are continuous across seams.
 render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh, int group,
                            Material material, int texture,
                            const std::function<bool(int vertex)>& wanted) {
@@ -70,7 +70,7 @@ render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh,
     return surface;
 }
 
-// The head with its lids closed as their plates carry them.
+// The positions of the vertices with closed lids.
 Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
     Points shut = head.vertices;
     const face::LidPose closed{.upper_closure = 1, .lower_closure = 1, .inward = 0.5};
@@ -87,7 +87,7 @@ Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
     return shut;
 }
 
-// Reads a picture when the first surface wants it.
+// Reads each texture when the first surface needs it.
 class TexturePictures {
   public:
     TexturePictures(const geom::PolygonMesh& mesh, bool wanted, std::vector<Image>& images)
@@ -117,7 +117,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
     scene.landmarks = head.landmarks;
     TexturePictures pictures(mesh, rig.look.textures == "mesh", scene.textures);
 
-    // One surface per group of faces and texture; the tongue is told from the gums piece by piece
+    // One surface for each group of faces and each texture; the tongue is separated from the gums by connected components
     const auto add = [&](int group, Material material, const std::function<bool(int)>& wanted) {
         const std::string& role = head.role_of_group[static_cast<std::size_t>(group)];
         const bool clear = material == Material::kCornea || material == Material::kLashes;

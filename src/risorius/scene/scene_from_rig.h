@@ -1,4 +1,4 @@
-// What the renderer draws, from a placed head and the mesh it was placed from.
+// Makes the scene that the renderer draws, and the pose of a frame, from the head and its face.
 #pragma once
 
 #include "risorius/face/face.h"
@@ -10,20 +10,22 @@
 
 namespace risorius::scene {
 
+/// Throws Error when a texture cannot be read.
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh);
 
-/// What wrinkles the skin may get; before the view is made.
+/// Adds the lines along which the skin can wrinkle. Call it before a view of the scene is made.
 void add_wrinkles(const face::WrinkleLines& lines, render::Scene& scene);
 
+/// The pose of a frame as the renderer takes it.
 render::Pose pose_for_view(const face::FacePose& pose);
 
-/// What a picture needs to show the muscles: their shapes, once, and what of a frame colours and moves them.
+/// The shapes of the muscles, for the scene; and their colours and positions in one frame, for its pose.
 render::Muscles muscles_for_view(const face::MuscleSurfaces& surfaces);
 void add_muscles(const face::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
                  Points vertices, render::Pose& pose);
 
-/// The bones, the skull's vertices first; and where a pose has them.
+/// The bones, with the vertices of the skull first, for the scene; and their positions in one frame, for its pose.
 render::Bones bones_for_view(const face::Skull& skull);
 void add_bones(const face::Skull& skull, const face::FacePose& pose, render::Pose& out);
 

@@ -1,5 +1,5 @@
-// What drives a face that is in equilibrium with a script at every moment: the script's excitations as what muscles have made of
-// them by then, everything else as it stands.
+// The drive of a script over time for a face that is not stepped: muscle excitation has become activation through activation
+// dynamics, other channels are as in the script.
 #pragma once
 
 #include "risorius/muscle/activation.h"
@@ -13,16 +13,17 @@ class ScriptDrives {
   public:
     ScriptDrives(const track::ScriptDescription& script, const rig::RigDescription& rig);
 
-    /// Times ascending, the first with muscles as the script begins. `excitation` of what comes back is activation.
+    /// The drive at a time, whose `excitation` is activation. Times must ascend from call to call; muscles begin in the steady state
+    /// of time 0.
     track::Drive at(double t_s);
 
   private:
-    /// What activation comes to if the drive lasts.
+    /// The activation that a constant drive leads to.
     Eigen::VectorXd steady(const track::Drive& drive) const;
 
     track::Timeline timeline_;
     muscle::ActivationDynamics dynamics_;
-    bool at_once_;  ///< a quasi-static script leaves muscles no time
+    bool at_once_;  ///< quasi-static script: activation equals excitation
     double time_s_ = 0;
 };
 

@@ -10,9 +10,9 @@ namespace risorius::scene {
 
 namespace {
 
-constexpr double kMostStrain = 0.4, kMostError_mm = 5;
+constexpr double kMaxStrain = 0.4, kMaxError_mm = 5;
 
-/// Edges of the skin's polygons, each once.
+/// The edges of the polygons of the skin, each once.
 std::vector<std::array<int, 2>> edges_of(const rig::Head& head, const geom::PolygonMesh& mesh) {
     std::vector<std::array<int, 2>> edges;
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -59,7 +59,7 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                    x2 = side(positions, 2);
         const double area = r1.cross(r2).norm();
         if (area <= 0) continue;
-        // C = F^T F in an orthonormal frame of the triangle at rest: its roots are squared stretches
+        // C = F^T F in an orthonormal frame of the triangle at rest; its eigenvalues are squared stretches
         const double a = r1.norm(), b = r1.dot(r2) / a, h = area / a;
         const double c11 = x1.squaredNorm() / (a * a);
         const double c12 = (x1.dot(x2) - b / a * x1.squaredNorm()) / (a * h);
@@ -67,9 +67,9 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
             (x2.squaredNorm() - 2 * b / a * x1.dot(x2) + b * b / (a * a) * x1.squaredNorm()) /
             (h * h);
         const double middle = (c11 + c22) / 2, spread = std::hypot((c11 - c22) / 2, c12);
-        const double most = std::sqrt(middle + spread) - 1,
-                     least = std::sqrt(std::max(0.0, middle - spread)) - 1;
-        const double strain = std::abs(most) >= std::abs(least) ? most : least;
+        const double max = std::sqrt(middle + spread) - 1,
+                     min = std::sqrt(std::max(0.0, middle - spread)) - 1;
+        const double strain = std::abs(max) >= std::abs(min) ? max : min;
         for (int k = 0; k < 3; ++k) {
             const auto v = static_cast<std::size_t>(skin(f, k));
             sum[v] += area * strain;
@@ -93,7 +93,7 @@ Visualization::Visualization(render::Show show, const render::Scene& scene, cons
 }
 
 double Visualization::scale_end(render::Show show, std::optional<double> given) {
-    return given.value_or(show == render::Show::kStrain ? kMostStrain : kMostError_mm);
+    return given.value_or(show == render::Show::kStrain ? kMaxStrain : kMaxError_mm);
 }
 
 std::optional<render::SkinValues> Visualization::values(

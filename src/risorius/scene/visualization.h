@@ -1,4 +1,4 @@
-// What a picture shows besides the face itself: a quantity as colour on the skin, or lines and marks over it.
+// What a picture shows besides the face: a quantity as colours on the skin, or lines and marks over it.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace risorius::scene {
 
-/// Of the skin of a head per vertex, signed: that principal strain which is greater in size, ratio; mean of the triangles at a
-/// vertex by their area at rest. Not a number off the skin.
+/// Signed principal strain of the skin for each vertex, ratio: the one of the two with the larger magnitude, averaged over the
+/// triangles of the vertex with their areas at rest as weights. Vertices outside the skin get NaN.
 std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                                      const Points& positions);
 
@@ -25,12 +25,13 @@ class Visualization {
                   const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
                   int height_px, const LandmarkPoints& landmarks, std::optional<double> scale = {});
 
-    /// Where the colours of strain (both ways from 0) and error end: 0.4 and 5 mm when it is not given.
+    /// The value at which the colours end: strain (ratio, in both directions from 0) or error (mm). Not given: 0.4 and 5 mm.
     static double scale_end(render::Show show, std::optional<double> given);
 
-    /// Colours for the pose; `reference` is where the vertices are in the other run.
+    /// The quantity for each vertex, or none. `reference`: positions in the run to compare with.
     std::optional<render::SkinValues> values(const Points& positions,
                                              const std::optional<Points>& reference) const;
+    /// Draws lines and marks over a picture of the pose.
     void draw_over(const Points& positions, Image& image) const;
 
   private:

@@ -1,4 +1,4 @@
-// From a design to a folder of stimuli.
+// Makes the clips and the files of a stimulus set from a design.
 #include "risorius/stimuli/batch.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
-#include "risorius/stimuli/detail/take.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
 
@@ -22,18 +22,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kScene_s = 2;  // about, on two cores: face, scene and view built anew
+constexpr double kScene_s = 2;  // estimate for two cores: to build face, scene and view
 
-/// Calls make(i) for all i < count, on several threads when there are several workers.
+/// Calls make(i, session) for all i < count, on one thread for each worker, which has a session of its own.
 void for_each(std::size_t count, int workers,
-              const std::function<void(std::size_t i, animate::Studio&)>& make) {
+              const std::function<void(std::size_t i, animate::RenderSession&)>& make) {
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::mutex mutex;
     const auto work = [&] {
         try {
-            animate::Studio studio;
-            for (std::size_t i; (i = next++) < count;) make(i, studio);
+            animate::RenderSession session;
+            for (std::size_t i; (i = next++) < count;) make(i, session);
         } catch (...) {
             const std::lock_guard lock(mutex);
             if (!failure) failure = std::current_exception();
@@ -47,37 +47,37 @@ void for_each(std::size_t count, int workers,
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Which films there are, and which takes are still needed when the clip itself is made.
-void share_takes(std::vector<ClipPlan>& clips) {
+/// Numbers the conditions, and notes which unmatched renders are still needed when the clip itself is made.
+void share_renders(std::vector<ClipPlan>& clips) {
     std::map<std::string, std::size_t> at;
-    std::size_t films = 0;
+    std::size_t conditions = 0;
     for (std::size_t i = 0; i < clips.size(); ++i) {
         at[clips[i].condition.clip] = i;
-        if (!clips[i].is_control()) clips[i].film = films++;
+        if (!clips[i].is_control()) clips[i].condition_number = conditions++;
     }
     for (std::size_t i = 0; i < clips.size(); ++i) {
         ClipPlan& of = clips[at.at(clips[i].condition.of)];
-        if (clips[i].is_control() && clips[i].film_sha256 == of.film_sha256)
-            of.take_is_shared = true;
+        if (clips[i].is_control() && clips[i].render_sha256 == of.render_sha256)
+            of.render_is_shared = true;
     }
 }
 
-/// Clips that differ in their names alone: a factor that the script does not use.
+/// Notes clips that differ only in their names: their script does not use one of the factors.
 void note_twins(BatchPlan& plan) {
     std::map<std::string, const ClipPlan*> first;
     std::string example;
     int twins = 0;
     for (const ClipPlan& clip : plan.clips) {
         if (clip.is_control()) continue;
-        const auto [like, is_new] = first.emplace(clip.film_sha256, &clip);
+        const auto [like, is_new] = first.emplace(clip.render_sha256, &clip);
         if (is_new) continue;
         if (++twins == 1)
             example = clip.condition.clip + " is " + like->second->condition.clip + " again";
     }
     if (twins > 0)
         plan.notes.push_back(std::to_string(twins) +
-                             (twins == 1 ? " clip is the same film as another ("
-                                         : " clips are the same films as others (") +
+                             (twins == 1 ? " clip shows the same as another ("
+                                         : " clips show the same as others (") +
                              example + "): does the script use every factor?");
 }
 
@@ -86,8 +86,10 @@ void note_twins(BatchPlan& plan) {
 void check_batch_folder(const fs::path& out) {
     if (!fs::exists(out)) return;
     if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
-    if (!fs::is_empty(out) && !fs::exists(out / "dataset_description.json") &&
-        !fs::exists(out / "code") && !fs::exists(out / "stimuli"))
+    const char* const begun[] = {"dataset_description.json", "code", "stimuli",
+                                 kIntermediateFolders[0], kIntermediateFolders[1]};
+    const auto is_there = [&](const char* name) { return fs::exists(out / name); };
+    if (!fs::is_empty(out) && std::none_of(std::begin(begun), std::end(begun), is_there))
         throw Error(out.string(), "an empty folder, or one that `batch` has begun",
                     "a folder with other files");
 }
@@ -118,11 +120,11 @@ BatchPlan plan_batch(const fs::path& file) {
     for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
-    RigDigests rigs;
+    plan.inputs = std::make_shared<animate::RenderInputs>();
     SoundPlans sounds;
     for (const design::Condition& condition : design::conditions_of(design))
-        plan.clips.push_back(plan_clip(condition, design, rigs, sounds));
-    share_takes(plan.clips);
+        plan.clips.push_back(plan_clip(condition, design, *plan.inputs, sounds));
+    share_renders(plan.clips);
     check_experiment(plan);
     note_twins(plan);
     return plan;
@@ -145,46 +147,50 @@ Json BatchReport::json() const {
 
 namespace {
 
-/// What a run does to one clip after another, and how it tells.
+/// Works through the clips of a batch with several workers, and reports each of them.
 class BatchRun {
   public:
-    BatchRun(const BatchOptions& options, const ProgressMonitor& monitor, BatchReport& report)
-        : options_(options), monitor_(monitor), report_(report) {}
+    BatchRun(const BatchOptions& options, const ProgressMonitor& monitor,
+             animate::RenderInputs& inputs, BatchReport& report)
+        : options_(options), monitor_(monitor), inputs_(inputs), report_(report) {}
 
     bool is_mine(std::size_t index) const {
         return static_cast<int>(index % static_cast<std::size_t>(options_.parts)) + 1 ==
                options_.part;
     }
     void report(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
-        if (options_.told) options_.told(clip.condition.clip, state, why);
+        if (options_.report_clip) options_.report_clip(clip.condition.clip, state, why);
     }
-    using Work = std::function<void(const ClipPlan&, const CoreShare&, const ProgressMonitor&,
-                                    animate::Studio&)>;
-    /// Of each clip in turn; those that failed are noted. How many were done.
+    using Work = std::function<void(const ClipPlan&, const ClipWorker&)>;
+    /// Calls make() for each clip and returns how many succeeded. Those that failed are added to the report.
     int work(const std::vector<const ClipPlan*>& clips, const char* done, const Work& make) {
         for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
         const double all_s = left_s_;
         int count = 0;
-        // One thread for each, so that a worker is one core of a cluster; more where there are too few clips
+        // One thread for each clip, so that a worker is one core of a cluster; more where there are too few clips
         const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
-        const CoreShare share{.threads = options_.workers / at_once, .clips_at_once = at_once};
-        for_each(clips.size(), at_once, [&](std::size_t i, animate::Studio& studio) {
+        for_each(clips.size(), at_once, [&](std::size_t i, animate::RenderSession& session) {
             const ClipPlan& clip = *clips[i];
             std::string why;
-            // Of its frames the batch tells nothing but that it goes on
+            // The progress of single frames is not reported
             const ProgressMonitor frames{.progress = {}, .stopped = monitor_.stopped};
             try {
                 {
-                    const std::lock_guard lock(telling_);
+                    const std::lock_guard lock(reporting_);
                     monitor_.report(1 - left_s_ / std::max(all_s, 1e-9), clip.condition.clip);
                 }
-                make(clip, share, frames, studio);
+                make(clip, {.folder = options_.out,
+                            .threads = options_.workers / at_once,
+                            .clips_at_once = at_once,
+                            .inputs = inputs_,
+                            .session = session,
+                            .monitor = frames});
             } catch (const Error& error) {
                 why = error.what();
             } catch (const RunError& error) {
                 why = error.what();
             }
-            const std::lock_guard lock(telling_);
+            const std::lock_guard lock(reporting_);
             left_s_ -= clip.seconds();
             if (why.empty())
                 ++count;
@@ -199,9 +205,10 @@ class BatchRun {
   private:
     const BatchOptions& options_;
     const ProgressMonitor& monitor_;
+    animate::RenderInputs& inputs_;
     BatchReport& report_;
-    std::mutex telling_;
-    double left_s_ = 0;  ///< about, of the work that is being done
+    std::mutex reporting_;
+    double left_s_ = 0;  ///< estimated time of the clips that are not done
 };
 
 }  // namespace
@@ -212,17 +219,14 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     check_batch_folder(options.out);
     BatchReport report;
     report.name = plan.name;
-    BatchRun run(options, monitor, report);
+    BatchRun run(options, monitor, *plan.inputs, report);
 
-    // Pictures are matched by what all of them are: first the films, then the clips
+    // Luminance is matched over the whole set: all conditions are rendered before the first clip is made
     if (plan.match.luminance) {
-        std::vector<const ClipPlan*> films;
+        std::vector<const ClipPlan*> conditions;
         for (const std::size_t i : unmeasured(plan, options.out))
-            if (run.is_mine(plan.clips[i].film)) films.push_back(&plan.clips[i]);
-        run.work(
-            films, "filmed",
-            [&](const ClipPlan& clip, const CoreShare& share, const ProgressMonitor& frames,
-                animate::Studio& studio) { make_take(clip, options.out, share, frames, studio); });
+            if (run.is_mine(plan.clips[i].condition_number)) conditions.push_back(&plan.clips[i]);
+        run.work(conditions, "filmed", make_unmatched_render);
         report.unmeasured =
             static_cast<int>(unmeasured(plan, options.out).size() - report.failed.size());
         if (!report.failed.empty() || report.unmeasured > 0) {
@@ -233,7 +237,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
         match_luminance(options.out, plan);
     }
 
-    // What is there already, and what is not
+    // Which clips are there already
     std::vector<const ClipPlan*> wanted;
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
@@ -246,12 +250,9 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             wanted.push_back(&clip);
         }
     }
-    report.made = run.work(
-        wanted, "made",
-        [&](const ClipPlan& clip, const CoreShare& share, const ProgressMonitor& frames,
-            animate::Studio& studio) { make_clip(clip, options.out, share, frames, studio); });
+    report.made = run.work(wanted, "made", make_clip);
 
-    // What is told of all of them
+    // The files of the whole set
     if (report.failed.empty() && report.elsewhere == 0) {
         monitor.report(1, "the files of the set");
         write_set(plan, options.design, options.out);

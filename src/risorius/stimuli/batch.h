@@ -1,9 +1,10 @@
-// All clips of a design, made in one go or in several: what is there already and has not changed is kept, what fails does not
-// stop the others. Beside the clips come what a laboratory needs of the set: see stimulus_set.h.
+// Makes all clips of a design, in one run or in several. Clips that are there and have not changed are kept, and a clip that fails
+// does not stop the others. A complete set also gets the files that a laboratory needs: see stimulus_set.h.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,41 +19,45 @@ struct BatchOptions {
     std::filesystem::path design, out;
     int workers = 2;  ///< clips made at once
     int part = 1,
-        parts = 1;  ///< of several machines: which share of the clips is made here, from 1
-    /// Of each clip as it is kept, filmed (when luminance is matched), made or failed; `why` is empty unless it failed. From several threads, one at a time.
+        parts = 1;  ///< on several machines: which part of the clips this one makes, from 1
+    /// Called when a clip is "kept", "filmed" (rendered, to be matched in luminance later), "made" or "failed"; `why` is empty
+    /// unless it failed. Calls come from several threads, one at a time.
     std::function<void(const std::string& clip, const std::string& state, const std::string& why)>
-        told{};
+        report_clip{};
 };
 
 struct BatchPlan {
     std::string name;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
-    std::vector<std::pair<std::string, design::Balance>>
-        balances;  ///< of the sets that are only a part of their crossing
+    /// By the name of the set: how balanced it is, for sets that are only a part of their crossing.
+    std::vector<std::pair<std::string, design::Balance>> balances;
     std::vector<ClipPlan> clips;
-    std::vector<std::string> notes;  ///< what can be rendered, but may not be meant
-    double seconds() const;          ///< to make all of them, about, on two cores
-    double megabytes() const;
+    std::vector<std::string> notes;                 ///< what can be rendered, but may be a mistake
+    std::shared_ptr<animate::RenderInputs> inputs;  ///< rigs that are read, for all clips
+    double seconds() const;    ///< estimated time to make all clips, on two cores
+    double megabytes() const;  ///< estimated
 };
 
-/// Reads, crosses and checks the whole design; renders nothing. Throws Error.
+/// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error.
 BatchPlan plan_batch(const std::filesystem::path& design);
 
-/// A folder of somebody else is not filled with clips. Throws Error.
+/// Throws Error unless the folder is new, empty or one that a batch has begun.
 void check_batch_folder(const std::filesystem::path& out);
 
 struct BatchReport {
     std::string name;
-    int made = 0, kept = 0, elsewhere = 0;  ///< of another part
-    int unmeasured = 0;  ///< conditions of other parts without which luminance cannot be matched
-    std::vector<std::pair<std::string, std::string>> failed;  ///< clip and why
-    bool complete = false;  ///< all clips are there, and the set's files
+    int made = 0, kept = 0;
+    int elsewhere = 0;  ///< clips that belong to other parts
+    int unmeasured =
+        0;  ///< conditions of other parts that must be rendered before luminance can be matched
+    std::vector<std::pair<std::string, std::string>> failed;  ///< the clip, and why
+    bool complete = false;  ///< all clips and the files of the set are there
     double seconds = 0;
     Json json() const;
 };
 
-/// Throws Error before anything is made when the design or the folder is wrong; Interrupted when asked to stop.
+/// Throws Error before anything is made when the design or the folder is wrong, and Interrupted when the monitor asks to stop.
 BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::stimuli

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The controller is asked no more often than its manual wants it
-constexpr auto kBetweenLooks = std::chrono::seconds(2);
+// The manual of Slurm asks programs not to query the controller more often
+constexpr auto kBetweenQueries = std::chrono::seconds(2);
 
-/// For a POSIX shell.
+/// Quotes text for a POSIX shell.
 std::string shell_quoted(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
@@ -74,7 +74,7 @@ class Job {
             id_.find_first_not_of("0123456789") != std::string::npos)
             throw RunError("sbatch: " + one_line(sent.output));
     }
-    /// Whether any task waits or runs. A job that Slurm has forgotten has ended.
+    /// Whether any task waits or runs. A job that Slurm does not know any more has ended.
     bool goes_on() const {
         const report::ProgramResult seen = slurm_program({"squeue", "-h", "-j", id_, "-o", "%T"});
         return seen.exit_code == 0 && !one_line(seen.output).empty();
@@ -85,7 +85,7 @@ class Job {
     std::string id_;
 };
 
-/// What the tasks said of clips that failed.
+/// Adds the messages of failed clips from the logs of the tasks.
 void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::string>>& failed) {
     for (auto& [clip, why] : failed)
         for (const auto& entry : fs::directory_iterator(code)) {
@@ -113,23 +113,23 @@ std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, i
 
 namespace {
 
-/// Job arrays one after the other, until nothing is missing or nothing more is to be tried.
+/// Submits job arrays one after the other, until no clip is missing or all retries are used.
 class Rounds {
   public:
-    /// What is missing of the plan's clips, by place.
-    using Appearance = std::function<std::vector<std::size_t>()>;
+    /// Finds the clips that are missing, by their indices in the plan.
+    using FindMissing = std::function<std::vector<std::size_t>()>;
 
     Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks,
            const ProgressMonitor& monitor)
         : batch_(batch), slurm_(slurm), tasks_(tasks), monitor_(monitor) {}
 
-    /// `number`: of a clip, by which the clips are dealt out.
-    std::vector<std::size_t> run(const char* what, const Appearance& look,
+    /// `number`: the number by which a clip is assigned to a part.
+    std::vector<std::size_t> run(const char* what, const FindMissing& find_missing,
                                  const std::function<std::size_t(std::size_t)>& number) {
-        std::vector<std::size_t> missing = look();
+        std::vector<std::size_t> missing = find_missing();
         const auto all = static_cast<double>(missing.size());
         for (int round = 0; round <= slurm_.retries && !missing.empty(); ++round) {
-            // As make_batch() deals them out
+            // The parts of make_batch()
             std::set<int> parts;
             for (const std::size_t i : missing)
                 parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
@@ -138,14 +138,14 @@ class Rounds {
                 while (job.goes_on()) {
                     monitor_.report(1 - static_cast<double>(missing.size()) / all,
                                     std::to_string(missing.size()) + " " + what + " left");
-                    std::this_thread::sleep_for(kBetweenLooks);
-                    missing = look();
+                    std::this_thread::sleep_for(kBetweenQueries);
+                    missing = find_missing();
                 }
             } catch (const Interrupted&) {
                 job.cancel();
                 throw;
             }
-            missing = look();
+            missing = find_missing();
         }
         return missing;
     }
@@ -172,10 +172,10 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     report::write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
     Rounds rounds(batch, slurm, tasks, monitor);
 
-    // Pictures are matched by what all of them are: first the films. A task makes clips too when all films are there
+    // Luminance is matched over the whole set: all conditions are rendered first. A task makes clips too when all are there
     std::vector<std::size_t> missing = rounds.run(
-        "films", [&] { return unmeasured(plan, batch.out); },
-        [&](std::size_t i) { return plan.clips[i].film; });
+        "conditions", [&] { return unmeasured(plan, batch.out); },
+        [&](std::size_t i) { return plan.clips[i].condition_number; });
     if (missing.empty()) {
         match_luminance(batch.out, plan);
         std::vector<char> made(plan.clips.size(), 0);
@@ -192,7 +192,8 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
                     }
                     made[i] = 1;
                     ++(std::string(state) == "kept" ? report.kept : report.made);
-                    if (batch.told) batch.told(plan.clips[i].condition.clip, state, "");
+                    if (batch.report_clip)
+                        batch.report_clip(plan.clips[i].condition.clip, state, "");
                 }
                 state = "made";
                 return out;
@@ -205,8 +206,8 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     for (const std::size_t i : missing)
         report.failed.emplace_back(plan.clips[i].condition.clip, "not made; see the logs in code/");
     add_failures(batch.out / "code", report.failed);
-    if (batch.told)
-        for (const auto& [clip, why] : report.failed) batch.told(clip, "failed", why);
+    if (batch.report_clip)
+        for (const auto& [clip, why] : report.failed) batch.report_clip(clip, "failed", why);
     if (report.failed.empty()) {
         for (const auto& entry : fs::directory_iterator(batch.out / "code"))
             if (entry.path().filename().string().rfind("slurm", 0) == 0) fs::remove(entry.path());

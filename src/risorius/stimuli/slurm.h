@@ -1,5 +1,5 @@
-// A batch on a cluster: a Slurm job array makes the clips in parts, on nodes that share nothing but the file system; here it is
-// submitted, followed, tried again where parts failed, and gathered.
+// A batch on a cluster. A Slurm job array makes the clips in parts, on nodes that share only the file system. This program submits it,
+// follows it, submits failed parts again and completes the set.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,18 @@
 namespace risorius::stimuli {
 
 struct SlurmOptions {
-    std::filesystem::path program;         ///< this one, as the nodes find it
-    int tasks = 8;                         ///< of the array, no more than there are clips
-    int workers = 1;                       ///< clips made at once in one, and its CPUs
-    int retries = 1;                       ///< of tasks whose clips are not all there
-    std::string account, partition, time;  ///< handed to sbatch; empty: not
+    std::filesystem::path program;  ///< path of this program on the nodes
+    int tasks = 8;                  ///< of the array; at most one for each clip
+    int workers = 1;                ///< clips made at once in a task, and CPUs of a task
+    int retries = 1;                ///< how often tasks with missing clips are submitted again
+    std::string account, partition, time;  ///< options of sbatch; empty: not given
 };
 
-/// The batch script, in DIR/code/slurm.sh; logs of the tasks are DIR/code/slurm-ROUND-TASK.log.
+/// The batch script, DIR/code/slurm.sh. The logs of the tasks are DIR/code/slurm-ROUND-TASK.log.
 std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks);
 
-/// Throws Error for a wrong design, RunError when there is no Slurm or it takes no job, Interrupted when asked to stop (the job is
-/// cancelled then).
+/// Throws Error for a wrong design, RunError when Slurm is missing or refuses the job, and Interrupted when the monitor asks to stop
+/// (the job is cancelled then).
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
                                 const ProgressMonitor& monitor = {});
 

@@ -9,7 +9,7 @@ namespace risorius::animate {
 
 namespace {
 
-// Micrometres and millionths: enough for any analysis, and short.
+// A tab and a number with a fixed number of decimals.
 std::string cell(double value, int decimals) {
     std::array<char, 48> text;
     std::snprintf(text.data(), text.size(), "\t%.*f", decimals, value);

@@ -1,20 +1,20 @@
-// The table beside a video: one row per frame, tab-separated, what drove the face and what it did.
+// The table beside a video, tab-separated: one row for each frame, with the drive of the face and its motion.
 //
 //   frame, time_s
 //   excitation.<column>, activation.<column>    ratio, every column of the rig
-//   emg:<column>                                with emg: what electrodes would record, ratio of the greatest
-//   AU1.l ... AU66                              how much of each action unit the script asks for, ratio; track/unit_intensity.h
+//   emg:<column>                                with emg: what electrodes would record, ratio of the maximum
+//   AU1.l ... AU66                              intensity of each action unit in the script, ratio; track/unit_intensity.h
 //   jaw_open ... tongue_out                     kinematic channels, in the units of their names
-//   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    where the jaw is, whatever moves it: turn about the
-//                     hinge, way of the lower incisors along the opening path, condyles forwards, incisors to the left
-//   tooth_force_n     what all teeth press with when muscles move the jaw, else 0
+//   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, whatever moves it: rotation about the
+//                     hinge, lower incisors along the opening path, condyles forwards, lower incisors to the left
+//   tooth_force_n     force on all teeth when muscles move the jaw, else 0
 //   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
 //   lip_width_mm      corner to corner, ch_l - ch_r
 //   lid_aperture_l_mm, lid_aperture_r_mm        ps - pi
-//   eye_yaw_deg.l .r, eye_pitch_deg.l .r        where each eye looks in space, the head's turn included: left and up > 0
+//   eye_yaw_deg.l .r, eye_pitch_deg.l .r        direction of gaze in the world, with the turn of the head: left and up > 0
 //   <landmark>.x_mm .y_mm .z_mm .u_px .v_px     with landmarks: world, and in the picture from its top left corner
 //   luminance_mean, luminance_sd, contrast_rms, motion_energy       of the picture without its marks; media/luminance.h
-//   luminance_face .eyes .mouth                 with masks: mean luminance within each; empty where nothing of it is seen
+//   luminance_face .eyes .mouth                 with masks: mean luminance within each mask; empty when it is not visible
 //   photodiode        1 where its square is white, with a photodiode
 #pragma once
 
@@ -34,9 +34,9 @@ namespace risorius::animate {
 struct FrameTableOptions {
     bool landmarks = false;
     std::function<Vec2(const Vec3& world)> project;     ///< pixels; needed with landmarks
-    std::function<Eigen::VectorXd(double time_s)> emg;  ///< per column; empty: no such columns
-    std::array<Vec3, 2> eye_forward{Vec3::UnitZ(), Vec3::UnitZ()};  ///< where the eyes look at rest
-    bool masks = false;                                             ///< luminance within each
+    std::function<Eigen::VectorXd(double time_s)> emg;  ///< for each column; empty: no such columns
+    std::array<Vec3, 2> eye_forward{Vec3::UnitZ(), Vec3::UnitZ()};  ///< direction of gaze at rest
+    bool masks = false;  ///< adds mean luminance within each mask
     bool photodiode = false;
 };
 
@@ -47,8 +47,8 @@ class FrameTable {
 
     void add(int frame, double time_s, const track::Drive& drive, const Eigen::VectorXd& activation,
              const face::FacePose& pose);
-    /// What the picture of the next frame shows, in order; may be told on another thread than add().
-    /// `within`: luminance in face, eyes and mouth, with masks.
+    /// Adds measures of the picture of the next frame, in order. May be called on another thread than add(). `within`: luminance in
+    /// face, eyes and mouth, with masks.
     void add_picture(const media::PictureMeasures& picture, const std::array<double, 3>& within,
                      bool photodiode_lit);
     std::string text() const;

@@ -1,11 +1,11 @@
 // The ground truth of every frame as pictures, in a folder OUT.passes that appears whole or not at all:
 //
 //   segmentation_000000.png   8 bits, the number of the part of the head (render::Part; results.json names them)
-//   depth_000000.exr          Y, 32-bit float: metres from the camera along its axis, infinite where nothing is
+//   depth_000000.exr          Y, 32-bit float: metres from the camera along its axis, infinite where there is no surface
 //   normals_000000.exr        R G B = x y z of the skin's normal in the head frame's axes (left, up, forward)
-//   flow_000000.exr           R, G: pixels to the right and down until the next frame; B: 1 where the place is seen there too.
-//                             From the motion of the mesh, not estimated; none for the last frame
-//   mask_face_000000.png      255 inside the oval from hairline to chin, mask_eyes_..., mask_mouth_... on what is seen of them
+//   flow_000000.exr           R, G: pixels to the right and down until the next frame; B: 1 where the point is visible there too.
+//                             Computed from the motion of the mesh; there is none for the last frame
+//   mask_face_000000.png      255 inside the oval from hairline to chin; mask_eyes_..., mask_mouth_...: 255 on their visible parts
 //   results.json              camera, names of parts, list of files
 #pragma once
 
@@ -26,16 +26,17 @@ const std::vector<std::string>& pass_names();
 
 class PassWriter {
   public:
-    /// Throws Error when the folder holds anything else.
+    /// Throws Error when the folder holds other files than results.
     PassWriter(const std::filesystem::path& folder, const std::vector<std::string>& passes,
                const render::Scene& scene, const Eigen::Matrix4d& clip_from_world, int width_px,
                int height_px, const scene::LandmarkPoints& landmarks);
 
-    /// Frames in order; positions in the order of the mesh.
+    /// Adds a frame, in order. `positions`: V x 3, m, in the order of the mesh.
     void add(int frame, const Points& positions);
+    /// Gives the folder its name. Throws RunError.
     void commit();
 
-    /// Pixels of the last frame, not 0 within; empty when no masks are wanted.
+    /// The masks of the last frame, one value for each pixel, not 0 inside; empty when the passes have no masks.
     struct Masks {
         std::vector<std::uint16_t> face, eyes, mouth;
     };

@@ -1,4 +1,4 @@
-// Makes things on one thread, changes them on several, and uses them on another, in order, a few in flight.
+// A pipeline of three stages: items are produced on one thread, transformed on several and consumed in order on another.
 #pragma once
 
 #include <condition_variable>
@@ -13,26 +13,27 @@
 
 namespace risorius::animate {
 
-/// How many may have been made and not yet been used, over one for each worker.
-constexpr int kMostWaiting = 4;
+/// How many items may be produced and not yet consumed, beyond one for each worker.
+constexpr int kMaxWaiting = 4;
 
-/// Calls use(i, change(worker, i, make(i))) for i = 0 .. count - 1. With workers, make runs ahead on the calling thread,
-/// change on one thread per worker, several at once, and use on a thread of its own; without, all of it on the calling thread
-/// as worker 0. make and use are called in order. The first exception stops all and is thrown here.
-template <typename Make, typename Change, typename Use>
-void run_pipeline(int count, int workers, Make make, Change change, Use use) {
-    using Item = decltype(make(0));
-    using Result = decltype(change(0, 0, make(0)));
+/// Calls consume(i, transform(worker, i, produce(i))) for i = 0 .. count - 1. With workers, produce() runs ahead on the calling
+/// thread, transform() on one thread for each worker and consume() on a thread of its own. Without workers all three run on the
+/// calling thread, as worker 0. produce() and consume() are called in order. The first exception stops all stages and is thrown
+/// here.
+template <typename Produce, typename Transform, typename Consume>
+void run_pipeline(int count, int workers, Produce produce, Transform transform, Consume consume) {
+    using Item = decltype(produce(0));
+    using Result = decltype(transform(0, 0, produce(0)));
     if (workers < 1) {
-        for (int i = 0; i < count; ++i) use(i, change(0, i, make(i)));
+        for (int i = 0; i < count; ++i) consume(i, transform(0, i, produce(i)));
         return;
     }
     std::mutex mutex;
     std::condition_variable changed;
-    std::deque<std::pair<int, Item>> made;
+    std::deque<std::pair<int, Item>> produced;
     std::map<int, Result> ready;
-    int used = 0;
-    bool made_all = false, stop = false;
+    int consumed = 0;
+    bool all_produced = false, stop = false;
     std::exception_ptr failure;
 
     const auto fail = [&] {
@@ -48,12 +49,13 @@ void run_pipeline(int count, int workers, Make make, Change change, Use use) {
                     std::optional<std::pair<int, Item>> item;
                     {
                         std::unique_lock lock(mutex);
-                        changed.wait(lock, [&] { return !made.empty() || made_all || stop; });
-                        if (stop || made.empty()) break;
-                        item.emplace(std::move(made.front()));
-                        made.pop_front();
+                        changed.wait(lock,
+                                     [&] { return !produced.empty() || all_produced || stop; });
+                        if (stop || produced.empty()) break;
+                        item.emplace(std::move(produced.front()));
+                        produced.pop_front();
                     }
-                    Result result = change(worker, item->first, std::move(item->second));
+                    Result result = transform(worker, item->first, std::move(item->second));
                     {
                         const std::lock_guard lock(mutex);
                         ready.emplace(item->first, std::move(result));
@@ -75,10 +77,10 @@ void run_pipeline(int count, int workers, Make make, Change change, Use use) {
                     if (stop) break;
                     result.emplace(std::move(ready.extract(i).mapped()));
                 }
-                use(i, std::move(*result));
+                consume(i, std::move(*result));
                 {
                     const std::lock_guard lock(mutex);
-                    ++used;
+                    ++consumed;
                 }
                 changed.notify_all();
             }
@@ -92,13 +94,13 @@ void run_pipeline(int count, int workers, Make make, Change change, Use use) {
         for (int i = 0; i < count; ++i) {
             {
                 std::unique_lock lock(mutex);
-                changed.wait(lock, [&] { return i - used < workers + kMostWaiting || stop; });
+                changed.wait(lock, [&] { return i - consumed < workers + kMaxWaiting || stop; });
                 if (stop) break;
             }
-            Item item = make(i);
+            Item item = produce(i);
             {
                 const std::lock_guard lock(mutex);
-                made.emplace_back(i, std::move(item));
+                produced.emplace_back(i, std::move(item));
             }
             changed.notify_all();
         }
@@ -107,7 +109,7 @@ void run_pipeline(int count, int workers, Make make, Change change, Use use) {
     }
     {
         const std::lock_guard lock(mutex);
-        made_all = true;
+        all_produced = true;
     }
     changed.notify_all();
     for (std::thread& thread : threads) thread.join();

@@ -1,23 +1,23 @@
-// Another script played beside the one that is shown, on the same head or one of the same mesh: where every vertex is there.
+// Another script, simulated on the same rig at the same times: where each vertex is in that run.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "risorius/core/types.h"
-#include "risorius/rig/rig_description.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/track/script.h"
 
 namespace risorius::animate {
 
 class ReferenceRun {
   public:
-    /// Throws Error when the script cannot be read or its mesh has another number of vertices than the one shown.
-    ReferenceRun(const std::filesystem::path& script, const std::filesystem::path& rig,
-                 const std::string& quality, Eigen::Index vertices);
+    /// Builds a face of its own. `files` must outlive the run.
+    ReferenceRun(const track::ScriptDescription& script, const scene::RigFiles& files,
+                 const std::string& quality);
     ~ReferenceRun();
 
-    /// V x 3, m; times ascending.
+    /// Positions of the vertices at a time, V x 3, m. Times must ascend from call to call.
     Points at(double t_s);
 
   private:

@@ -7,30 +7,29 @@
 
 namespace risorius::animate {
 
-SolverStats solver_figures(const std::vector<face::StepStats>& history, int most_inverted_tets) {
+SolverStats solver_stats(const std::vector<face::StepStats>& history, int max_inverted_tets) {
     SolverStats out;
     out.steps = static_cast<int>(history.size());
-    out.most_inverted_tets = most_inverted_tets;
+    out.max_inverted_tets = max_inverted_tets;
     int converged = 0;
     for (const face::StepStats& step : history) {
         out.mean_iterations += step.iterations;
         out.max_iterations = std::max(out.max_iterations, step.iterations);
         converged += step.converged;
-        out.largest_last_step_rms_mm =
-            std::max(out.largest_last_step_rms_mm, 1e3 * step.last_step_rms_m);
-        out.largest_muscle_volume_error =
-            std::max(out.largest_muscle_volume_error, step.muscle_volume_error);
-        out.deepest_contact_mm = std::max(out.deepest_contact_mm, 1e3 * step.contact_depth_m);
+        out.max_last_step_rms_mm = std::max(out.max_last_step_rms_mm, 1e3 * step.last_step_rms_m);
+        out.max_muscle_volume_error =
+            std::max(out.max_muscle_volume_error, step.muscle_volume_error);
+        out.max_contact_depth_mm = std::max(out.max_contact_depth_mm, 1e3 * step.contact_depth_m);
     }
     if (out.steps > 0) {
         out.mean_iterations /= out.steps;
-        out.converged_share = static_cast<double>(converged) / out.steps;
+        out.converged_fraction = static_cast<double>(converged) / out.steps;
     }
     return out;
 }
 
 Json RunRecord::json() const {
-    const auto file = [](const File& f) {
+    const auto file = [](const InputFile& f) {
         return Json{{"file", f.path.generic_string()}, {"sha256", f.sha256}};
     };
     Json json;
@@ -44,9 +43,9 @@ Json RunRecord::json() const {
     json["mesh"] = file(mesh);
     if (shapes) json["shapes"] = file(*shapes);
     json["tables"] = Json::array();
-    for (const File& table : tables) json["tables"].push_back(file(table));
+    for (const InputFile& table : tables) json["tables"].push_back(file(table));
     json["recordings"] = Json::array();
-    for (const File& recording : recordings) json["recordings"].push_back(file(recording));
+    for (const InputFile& recording : recordings) json["recordings"].push_back(file(recording));
     json["seed"] = seed;
     json["fps"] = fps;
     json["frames"] = frames;
@@ -63,19 +62,19 @@ Json RunRecord::json() const {
     json["quality"] = quality;
     json["antialiasing"] = antialiasing;
     json["jaw"] = {{"moved_by", jaw},
-                   {"widest_opening_mm", widest_jaw_mm},
-                   {"greatest_tooth_force_n", greatest_bite_n}};
+                   {"widest_opening_mm", max_jaw_opening_mm},
+                   {"greatest_tooth_force_n", max_tooth_force_n}};
     json["step_s"] = face::kStep_s;
     json["face"] = {
         {"nodes", nodes}, {"tets", tets}, {"dropped_tets", dropped_tets}, {"fibres", fibres}};
     json["solver"] = {{"steps", solver.steps},
                       {"mean_iterations", solver.mean_iterations},
                       {"max_iterations", solver.max_iterations},
-                      {"converged_share", solver.converged_share},
-                      {"largest_last_step_rms_mm", solver.largest_last_step_rms_mm},
-                      {"deepest_contact_mm", solver.deepest_contact_mm},
-                      {"largest_muscle_volume_error", solver.largest_muscle_volume_error},
-                      {"most_inverted_tets", solver.most_inverted_tets}};
+                      {"converged_share", solver.converged_fraction},
+                      {"largest_last_step_rms_mm", solver.max_last_step_rms_mm},
+                      {"deepest_contact_mm", solver.max_contact_depth_mm},
+                      {"largest_muscle_volume_error", solver.max_muscle_volume_error},
+                      {"most_inverted_tets", solver.max_inverted_tets}};
     json["frames_sha256"] = frames_sha256;
     json["warnings"] = warnings;
     json["timing"] = {{"threads", timing.threads},       {"build_s", timing.build_s},

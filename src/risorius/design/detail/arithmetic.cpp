@@ -11,7 +11,7 @@ namespace risorius::design {
 
 namespace {
 
-constexpr int kDeepest = 64;  // of brackets and signs
+constexpr int kMaxDepth = 64;  // of nested brackets and signs
 
 class Reader {
   public:
@@ -69,7 +69,7 @@ class Reader {
         }
     }
     double factor(int depth) {
-        if (depth > kDeepest) fail("fewer brackets");
+        if (depth > kMaxDepth) fail("fewer brackets");
         if (take('-')) return -factor(depth + 1);
         if (take('+')) return factor(depth + 1);
         if (take('(')) {

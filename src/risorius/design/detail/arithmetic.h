@@ -1,4 +1,4 @@
-// Sums that a design file writes for a number: "onset_s * 1.5 + 0.1".
+// Formulas that stand for a number in a design file: "onset_s * 1.5 + 0.1".
 //
 //   sum     = term (("+" | "-") term)*
 //   term    = factor (("*" | "/") factor)*
@@ -10,7 +10,8 @@
 
 namespace risorius::design {
 
-/// Value of `text`; `value_of` knows the names. Throws Error naming `place` when it cannot be read or is not finite.
+/// The value of `text`; `value_of` gives the values of names. Throws Error naming `place` when the formula is wrong or its value is not
+/// finite.
 double arithmetic(const std::string& text, const std::string& place,
                   const std::function<double(const std::string& name)>& value_of);
 

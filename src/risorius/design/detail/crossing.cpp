@@ -14,17 +14,17 @@ namespace risorius::design {
 
 namespace {
 
-constexpr int kLargestModulo = 1000;
-constexpr std::size_t kMostStrength = 4;
+constexpr int kMaxModulo = 1000;
+constexpr std::size_t kMaxStrength = 4;
 
-/// How many a set asks for before its fraction, draw and controls. Throws Error when they are too many.
+/// The number of conditions of the whole crossing of a set. Throws Error when there are too many.
 long crossing(const ConditionSet& set) {
     long count = static_cast<long>(set.rows.size());
     for (const Factor& factor : set.factors) {
         count *= static_cast<long>(factor.levels.size());
-        if (count > kMostConditions)
+        if (count > kMaxConditions)
             throw Error(set.place + "/factors",
-                        std::to_string(kMostConditions) + " conditions at most", "more");
+                        std::to_string(kMaxConditions) + " conditions at most", "more");
     }
     return count;
 }
@@ -37,9 +37,9 @@ bool keeps(const ConditionSet& set, const Relation& relation, const std::vector<
     return ((sum - relation.remainder) % relation.modulo + relation.modulo) % relation.modulo == 0;
 }
 
-/// How often the rarest and the most frequent combination of levels of some factors comes.
+/// How often the rarest and the most frequent combination of levels of some factors occur.
 struct Counts {
-    long least = 0, most = 0;
+    long min = 0, max = 0;
 };
 
 Counts counts_of(const std::vector<std::vector<int>>& conditions, const std::vector<long>& sizes,
@@ -47,18 +47,18 @@ Counts counts_of(const std::vector<std::vector<int>>& conditions, const std::vec
     const auto wanted = static_cast<long>(conditions.size());
     long combinations = 1;
     for (const std::size_t f : factors) combinations *= sizes[f];
-    if (combinations > wanted && factors.size() > 2) return {0, wanted};  // not even in any case
+    if (combinations > wanted && factors.size() > 2) return {0, wanted};  // cannot be balanced
     std::vector<long> count(static_cast<std::size_t>(combinations));
     for (const std::vector<int>& levels : conditions) {
         long at = 0;
         for (const std::size_t f : factors) at = at * sizes[f] + levels[f];
         ++count[static_cast<std::size_t>(at)];
     }
-    const auto [least, most] = std::minmax_element(count.begin(), count.end());
-    return {*least, *most};
+    const auto [min, max] = std::minmax_element(count.begin(), count.end());
+    return {*min, *max};
 }
 
-/// Calls use(choice) for all choices of `size` of `count` things until it says no.
+/// Calls use(choice) for all choices of `size` of `count` things until it returns false.
 template <typename Use>
 bool for_choices(std::size_t count, std::size_t size, const Use& use) {
     std::vector<std::size_t> choice(size);
@@ -93,14 +93,14 @@ std::vector<Relation> read_fraction(const JsonCursor& json,
             for (const JsonCursor& name : sum.items()) add(name, name.string(), 1);
         else
             for (const std::string& name : sum.keys())
-                add(sum.at(name), name, sum.at(name).integer(1, kLargestModulo));
-        if (relation.sum.size() < 2) sum.fail("two factors at least");
-        relation.modulo = one.at("modulo").integer(2, kLargestModulo);
+                add(sum.at(name), name, sum.at(name).integer(1, kMaxModulo));
+        if (relation.sum.size() < 2) sum.fail("at least two factors");
+        relation.modulo = one.at("modulo").integer(2, kMaxModulo);
         if (const auto v = one.find("remainder"))
             relation.remainder = v->integer(0, relation.modulo - 1);
         out.push_back(std::move(relation));
     }
-    if (out.empty()) json.fail("a relation at least", "none");
+    if (out.empty()) json.fail("at least one relation", "none");
     return out;
 }
 
@@ -124,7 +124,7 @@ std::vector<long> wanted_conditions(const ConditionSet& set, int seed) {
                         [&](const Relation& one) { return keeps(set, one, levels); }))
             out.push_back(i);
     }
-    if (out.empty()) throw Error(set.place + "/fraction", "a condition at least", "none");
+    if (out.empty()) throw Error(set.place + "/fraction", "at least one condition", "none");
     if (!set.draw) return out;
     if (*set.draw > static_cast<int>(out.size()))
         throw Error(set.place + "/draw",
@@ -143,9 +143,9 @@ Balance balance_of(const ConditionSet& set, int seed) {
     std::vector<std::vector<int>> conditions;
     for (const long index : wanted_conditions(set, seed))
         conditions.push_back(levels_of(set, index));
-    out.wanted = static_cast<long>(conditions.size());
+    out.used = static_cast<long>(conditions.size());
 
-    // What varies: the rows of the table, when there are several, and the factors
+    // Factors with several levels; the rows of the table count as one
     std::vector<long> sizes{static_cast<long>(set.rows.size())};
     for (const Factor& factor : set.factors)
         sizes.push_back(static_cast<long>(factor.levels.size()));
@@ -159,22 +159,22 @@ Balance balance_of(const ConditionSet& set, int seed) {
     for (const std::size_t f : varying) {
         const Counts counts = counts_of(conditions, sizes, {f});
         out.factors.push_back(
-            {f == 0 ? "conditions" : set.factors[f - 1].name, counts.least, counts.most});
+            {f == 0 ? "conditions" : set.factors[f - 1].name, counts.min, counts.max});
     }
     if (varying.size() > 1) {
-        out.pair_least = out.wanted;
+        out.pair_min = out.used;
         for_choices(varying.size(), 2, [&](const std::vector<std::size_t>& choice) {
             const Counts counts = counts_of(conditions, sizes, of(choice));
-            out.pair_least = std::min(out.pair_least, counts.least);
-            out.pair_most = std::max(out.pair_most, counts.most);
+            out.pair_min = std::min(out.pair_min, counts.min);
+            out.pair_max = std::max(out.pair_max, counts.max);
             return true;
         });
     }
-    for (std::size_t size = 1; size <= std::min(varying.size(), kMostStrength); ++size) {
+    for (std::size_t size = 1; size <= std::min(varying.size(), kMaxStrength); ++size) {
         const bool even =
             for_choices(varying.size(), size, [&](const std::vector<std::size_t>& choice) {
                 const Counts counts = counts_of(conditions, sizes, of(choice));
-                return counts.least == counts.most;
+                return counts.min == counts.max;
             });
         if (!even) break;
         out.strength = static_cast<int>(size);
@@ -183,15 +183,15 @@ Balance balance_of(const ConditionSet& set, int seed) {
 }
 
 std::string Balance::text() const {
-    const auto times = [](long least, long most) {
-        return least == most ? std::to_string(least)
-                             : std::to_string(least) + " to " + std::to_string(most);
+    const auto times = [](long min, long max) {
+        return min == max ? std::to_string(min)
+                          : std::to_string(min) + " to " + std::to_string(max);
     };
-    std::string out = std::to_string(wanted) + " of " + std::to_string(all) + " conditions";
-    for (const Share& one : factors)
+    std::string out = std::to_string(used) + " of " + std::to_string(all) + " conditions";
+    for (const LevelCount& one : factors)
         out += (&one == &factors.front() ? "; every level of " : ", of ") + one.name + " " +
-               times(one.least, one.most) + " times";
-    if (pair_most > 0) out += "; two levels meet " + times(pair_least, pair_most) + " times";
+               times(one.min, one.max) + " times";
+    if (pair_max > 0) out += "; two levels meet " + times(pair_min, pair_max) + " times";
     out += "; orthogonal array of strength " + std::to_string(strength);
     return out;
 }

@@ -1,4 +1,4 @@
-// Which conditions of a crossing are wanted: all, a regular fraction, or some by chance; and how even the choice is.
+// Which conditions of a crossing are used: all, a regular fraction, or a random choice; and how balanced the choice is.
 //
 // Levels are numbered from 0 in the order of the file. A relation keeps the conditions in which
 //
@@ -29,22 +29,23 @@ struct Relation {
 std::vector<Relation> read_fraction(const JsonCursor& json,
                                     const std::vector<std::string>& factors);
 
-/// Of all conditions of the set, by number, ascending: those wanted. Throws Error when they are too many or none.
+/// The numbers of the conditions that are used, ascending. Throws Error when there are too many or none.
 std::vector<long> wanted_conditions(const ConditionSet& set, int seed);
 
-/// The row of the table, then the level of each factor, of a condition by number: the last factor changes fastest.
+/// The row of the table, then the level of each factor, for the number of a condition. The last factor changes fastest.
 std::vector<int> levels_of(const ConditionSet& set, long condition);
 
-/// How often levels and pairs of levels come in a choice of conditions.
+/// How often levels and pairs of levels occur in a choice of conditions.
 struct Balance {
-    struct Share {
-        std::string name;          ///< of the factor, or "conditions" for the rows of the table
-        long least = 0, most = 0;  ///< how often a level of it comes
+    struct LevelCount {
+        std::string name;       ///< the factor, or "conditions" for the rows of the table
+        long min = 0, max = 0;  ///< how often the rarest and the most frequent level occur
     };
-    long wanted = 0, all = 0;
-    std::vector<Share> factors;
-    long pair_least = 0, pair_most = 0;  ///< how often two levels of two factors meet
-    int strength = 0;  ///< so many factors, whichever, have all their combinations equally often
+    long used = 0, all = 0;  ///< conditions
+    std::vector<LevelCount> factors;
+    long pair_min = 0, pair_max = 0;  ///< the same for pairs of levels of two factors
+    /// Any choice of this many factors has all combinations of levels equally often.
+    int strength = 0;
 
     std::string text() const;
 };

@@ -118,22 +118,22 @@ struct Parameters::Impl {
 Parameters::Parameters(const std::vector<Given>& given) : impl_(std::make_unique<Impl>()) {
     std::map<std::string, const JsonCursor*> open;
     for (const Given& one : given) open.insert_or_assign(one.name, &one.value);
-    std::vector<std::string> way;  // that hang on each other, outermost first
+    std::vector<std::string> chain;  // names that depend on each other, outermost first
     const std::function<const Json&(const std::string&, const std::string&)> resolve =
         [&](const std::string& name, const std::string& place) -> const Json& {
         const auto known = impl_->values.find(name);
         if (known != impl_->values.end()) return known->second;
         const auto source = open.find(name);
         if (source == open.end()) fail_unknown(name, place, open);
-        if (std::find(way.begin(), way.end(), name) != way.end()) {
+        if (std::find(chain.begin(), chain.end(), name) != chain.end()) {
             std::string circle;
-            for (const std::string& step : way) circle += step + " -> ";
-            throw Error(source->second->place(), "a value that does not hang on itself",
+            for (const std::string& step : chain) circle += step + " -> ";
+            throw Error(source->second->place(), "a value that does not depend on itself",
                         circle + name);
         }
-        way.push_back(name);
+        chain.push_back(name);
         Json value = fill(*source->second, resolve);
-        way.pop_back();
+        chain.pop_back();
         return impl_->values.emplace(name, std::move(value)).first->second;
     };
     for (const auto& [name, value] : open) resolve(name, value->place());

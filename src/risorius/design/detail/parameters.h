@@ -1,9 +1,9 @@
-// The named values of one condition, and a script template filled in with them.
+// The named values of one condition. They are filled into the template of a script.
 //
 // A string of a template is  "${name}"           the value itself, whatever it is: number, text, list, null
 //                            "= name * 2 + 0.1"  a number, see arithmetic.h
 //                            "happy_${name}.wav" text with values in it
-// Values may be written like that too, of other parameters.
+// Values of parameters may be written like that too, with the names of other parameters.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace risorius::design {
 
-/// A value and where it was given, for messages.
+/// A named value, with the place in the file where it was given.
 struct Given {
     std::string name;
     JsonCursor value;
@@ -22,7 +22,7 @@ struct Given {
 
 class Parameters {
   public:
-    /// The last of a name counts. Throws Error when one of them hangs on itself or on a name that is none.
+    /// When a name is given several times, the last value counts. Throws Error when a value depends on itself or on an unknown name.
     explicit Parameters(const std::vector<Given>& given);
     ~Parameters();
     Parameters(Parameters&&) noexcept;
@@ -30,12 +30,12 @@ class Parameters {
     bool has(const std::string& name) const;
     const Json& at(const std::string& name) const;
     std::vector<std::string> names() const;  ///< ascending
-    /// As a file name or a table has it: numbers in their shortest form, text as it is.
+    /// The value as text for names of files and for tables: numbers in their shortest form, text unchanged.
     std::string text(const std::string& name) const;
 
-    /// `value` with everything in it filled in. Throws Error naming the place in its file.
+    /// `value` with all names replaced by their values. Throws Error naming the place in its file.
     Json filled(const JsonCursor& value) const;
-    /// Text with ${name} in it.
+    /// The same for text that contains ${name}.
     std::string filled_text(const std::string& text, const std::string& place) const;
 
   private:
@@ -43,10 +43,10 @@ class Parameters {
     std::unique_ptr<Impl> impl_;
 };
 
-/// A whole number as JSON writes whole numbers.
+/// A number as JSON; integers are written without a decimal point.
 Json json_number(double value);
 
-/// Names that ${...} may have: letters, digits and _, a letter first.
+/// Whether ${name} can be written: letters, digits and _, with a letter first.
 bool is_parameter_name(const std::string& name);
 
 }  // namespace risorius::design

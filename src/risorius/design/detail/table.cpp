@@ -13,7 +13,7 @@ namespace risorius::design {
 
 namespace {
 
-/// Cells of a file, by rows; a cell in double quotes may hold the separator, line breaks, and quotes written twice.
+/// The cells of a file, by rows. A cell in double quotes may contain the separator, line breaks, and quotes that are written twice.
 std::vector<std::pair<int, std::vector<std::string>>> cells_of(const std::string& text,
                                                                const std::string& place) {
     const std::size_t first_end = text.find('\n');
@@ -73,7 +73,7 @@ Json value_of(const std::string& cell) {
 
 std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file.string(), "a table of conditions that can be read", "none");
+    if (!in) throw Error(file.string(), "a readable table of conditions", "none");
     std::ostringstream all;
     all << in.rdbuf();
     std::string text = all.str();

@@ -1,4 +1,5 @@
-// Tables of conditions as spreadsheets write them: a row of names, then a row of values each; tabs or commas.
+// Tables of conditions as spreadsheets write them: a row of names, then a row of values for each condition, separated by tabs or
+// commas.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 namespace risorius::design {
 
-/// Cells that are numbers, true or false become those, empty ones are left out, others are text. Throws Error with the line.
+/// Numbers, true and false are read as such, empty cells are left out, other cells are text. Throws Error naming the line.
 std::vector<std::vector<Given>> read_table(const std::filesystem::path& file);
 
 }  // namespace risorius::design

@@ -55,8 +55,8 @@ const std::vector<Column>& columns() {
          [](const scene::ExpressionScore& s) { return s.relative; }, 3, false},
         {"RMS, mm", "rms_mm", [](const scene::ExpressionScore& s) { return 1e3 * s.rms_m; }, 2,
          false},
-        {"largest, mm", "max_mm",
-         [](const scene::ExpressionScore& s) { return 1e3 * s.greatest_m; }, 1, false},
+        {"largest, mm", "max_mm", [](const scene::ExpressionScore& s) { return 1e3 * s.max_m; }, 1,
+         false},
         {"landmarks, mm", "landmark_mm",
          [](const scene::ExpressionScore& s) { return 1e3 * s.landmark_m; }, 2, false}};
     return kColumns;

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "risorius/animate/film.h"
 #include "risorius/animate/frame_rows.h"
+#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
@@ -17,7 +17,7 @@
 #include "risorius/media/wav_file.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
-#include "risorius/stimuli/detail/take.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 #include "risorius/track/timeline.h"
 
 namespace risorius::stimuli {
@@ -27,18 +27,12 @@ using design::ControlKind;
 
 namespace {
 
-// About, on two cores: seconds for a clip, a frame and for its pixels, and bytes for a pixel
+// Estimates for two cores: seconds for a clip, a frame and a pixel, and bytes for a pixel
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
-constexpr double kMostHeld_bytes = 0.6e9;  // of frames that are shown in another order
+constexpr double kMaxHeld_bytes = 0.6e9;  // of frames that are kept in memory
 
-std::string sha256_of(const std::string& text) {
-    media::Sha256 hash;
-    hash.add(text.data(), text.size());
-    return hash.finish();
-}
-
-/// The script's files, as keys in it: where each stands, relative to `folder` or not.
+/// The places in a script that name a file.
 std::vector<Json::json_pointer> file_keys(const Json& script) {
     std::vector<Json::json_pointer> out;
     for (const char* key : {"/rig", "/emg/file", "/view/light/file"})
@@ -47,7 +41,7 @@ std::vector<Json::json_pointer> file_keys(const Json& script) {
     return out;
 }
 
-/// The same script for a file in another folder.
+/// The script with its relative paths rewritten for another folder.
 Json relocated(Json script, const fs::path& from, const fs::path& to) {
     for (const Json::json_pointer& key : file_keys(script)) {
         const fs::path file = script.at(key).get<std::string>();
@@ -64,17 +58,17 @@ fs::path script_file(const ClipPlan& plan) {
 
 std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition.clip; }
 
-/// As BIDS names what can be seen, and seen and heard.
+/// The suffix of BIDS for a video without and with sound.
 std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
 
-/// Whether the table tells where the landmarks are, by wish or because the clip is made with it.
-bool films_landmarks(const ClipPlan& plan) {
+/// Whether the table has the places of the landmarks: the design asks for them, or the clip is made with them.
+bool needs_landmarks(const ClipPlan& plan) {
     const design::ControlKind kind = plan.condition.control.kind;
     return plan.clips.landmarks || shows_part(kind) || kind == design::ControlKind::kApex ||
            (plan.luminance && plan.luminance->within_face);
 }
 
-/// In any frame.
+/// Whether the script moves the head in any frame.
 bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
                     const ClipPlan& plan) {
     const track::Timeline timeline(script, channels);
@@ -89,12 +83,13 @@ bool moves_the_head(const track::ScriptDescription& script, const track::Channel
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// The pictures of a take, matched, and how light they were and are.
-Json show_take(const ClipPlan& plan, const Take& take, const animate::FrameRows& rows,
-               const ProgressMonitor& monitor, ClipPictures& pictures) {
+/// Hands on the pictures of an unmatched render and returns their luminance before and after matching.
+Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
+                  const animate::FrameRows& rows, const ProgressMonitor& monitor,
+                  ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
     const media::ToneCurve curve(tone);
-    media::VideoReader reader(take.video);
+    media::VideoReader reader(render.video);
     media::LuminanceSums after;
     double cut_off = 0;
     for (int frame = 0; frame < reader.frames(); ++frame) {
@@ -105,20 +100,20 @@ Json show_take(const ClipPlan& plan, const Take& take, const animate::FrameRows&
         Image matched = image;
         curve.apply(matched);
         after.add(matched, part);
-        pictures.take(std::move(image));
+        pictures.add(std::move(image));
     }
-    return {{"film_sha256", plan.film_sha256},
+    return {{"film_sha256", plan.render_sha256},
             {"within", plan.luminance->within_face ? "face" : "picture"},
             {"gain", tone.gain},
             {"offset", tone.offset},
-            {"before", json_of(take.luminance)},
+            {"before", json_of(render.luminance)},
             {"after", json_of(after)},
             {"cut_off", cut_off}};
 }
 
 }  // namespace
 
-Json run_without_places(const animate::RunRecord& record) {
+Json portable_record(const animate::RunRecord& record) {
     Json json = record.json();
     for (const char* key : {"out", "timing", "script"}) json.erase(key);
     const auto name_only = [](Json& file) {
@@ -141,9 +136,9 @@ double ClipPlan::seconds() const {
     return kClip_s + frames * (kFrame_s + kPixel_s * width_px * height_px);
 }
 double ClipPlan::megabytes() const {
-    const double take = luminance ? kLosslessByte_px : 0;
+    const double unmatched = luminance ? kLosslessByte_px : 0;
     return 1e-6 * frames *
-           (take + (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px)) *
+           (unmatched + (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px)) *
            width_px * height_px;
 }
 
@@ -151,86 +146,70 @@ void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
     const media::ToneCurve curve(matched);
     for (std::uint8_t& byte : background) byte = curve.of(byte);
-    content_sha256 = sha256_of(
+    content_sha256 = animate::sha256_of_text(
         Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
 }
 
-const RigDigests::Known& RigDigests::at(const fs::path& rig) {
-    const fs::path key = fs::weakly_canonical(rig);
-    const auto found = known_.find(key);
-    if (found != known_.end()) return found->second;
-    scene::RigFiles files = scene::read_rig_files(rig);
-    std::string digests =
-        media::sha256_of_file(files.file) + media::sha256_of_file(files.rig.mesh_file);
-    for (const fs::path& table : files.rig.table_files) digests += media::sha256_of_file(table);
-    return known_.emplace(key, Known{std::move(files), sha256_of(digests)}).first->second;
+namespace {
+
+/// The name of a condition's script in messages: that of the design, in the folder from which its relative paths start.
+std::string script_name(const design::Condition& condition, const fs::path& design) {
+    const std::string file = condition.folder == design.parent_path()
+                                 ? design.filename().string()
+                                 : "script of " + design.filename().string();
+    return (condition.folder / (file + ", clip " + condition.clip)).string();
 }
 
-ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
-                   RigDigests& rigs, SoundPlans& sounds) {
-    const design::ClipOptions& clips = design.clips;
-    ClipPlan plan;
-    plan.condition = condition;
-    plan.clips = clips;
-    plan.luminance = design.match.luminance;
-    // As if it were a file beside the template, so that messages and relative paths are right
-    const std::string told_by = condition.folder == design.file.parent_path()
-                                    ? design.file.filename().string()
-                                    : "script of " + design.file.filename().string();
-    const JsonCursor json = JsonCursor::from_json(
-        condition.script, (condition.folder / (told_by + ", clip " + condition.clip)).string());
-    const track::ScriptHeader header = track::read_script_header(json);
-    const RigDigests::Known& rig = rigs.at(header.rig_file);
-    const track::ScriptDescription script = track::read_script(
-        json, rig.files.rig.channels(), rig.files.rig.facs, rig.files.rig.expressions);
-    plan.frames = header.frame_count();
-    plan.fps = header.fps;
-    plan.width_px = header.view.width_px;
-    plan.height_px = header.view.height_px;
-    for (std::size_t k = 0; k < 3; ++k)
-        plan.background[k] =
-            static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
-    const design::ControlKind kind = condition.control.kind;
+/// One checksum for rig, mesh and tables.
+std::string sha256_of_rig(const animate::RigInput& rig) {
+    std::string digests = rig.rig.sha256 + rig.mesh.sha256;
+    for (const animate::InputFile& table : rig.tables) digests += table.sha256;
+    return animate::sha256_of_text(digests);
+}
+
+/// Throws Error when the control cannot be made of the script.
+void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
+                   const track::ChannelTable& channels, const std::string& place) {
+    const design::ControlKind kind = plan.condition.control.kind;
     if ((shows_other_order(kind) || shows_part(kind)) &&
-        4.0 * plan.frames * plan.width_px * plan.height_px > kMostHeld_bytes)
-        throw Error(json.place(),
-                    "fewer or smaller frames for the control " + condition.control.name() +
+        4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
+        throw Error(place,
+                    "fewer or smaller frames for the control " + plan.condition.control.name() +
                         ", which keeps them in memory",
                     std::to_string(plan.frames) + " of " + std::to_string(plan.width_px) + " x " +
                         std::to_string(plan.height_px));
-    if (kind == design::ControlKind::kFlipped &&
-        moves_the_head(script, rig.files.rig.channels(), plan))
-        throw Error(json.place(), "a head that keeps still, for the control flipped",
+    if (kind == design::ControlKind::kFlipped && moves_the_head(script, channels, plan))
+        throw Error(place, "a head that does not move, for the control flipped",
                     "one that the script moves");
-    if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
+}
 
-    if (condition.audio)
-        plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
-                               design.match.loudness_lufs, json.place());
-
-    plan.scene_sha256 =
-        sha256_of(Json{rig.sha256, clips.quality, condition.script.value("view", Json())}.dump());
-
-    // All that its pictures hang on
-    Json film{{"toolkit", kVersion},
-              {"compiler", __VERSION__},
-              {"script", condition.script},
-              {"rig", rig.sha256},
-              {"quality", clips.quality},
-              {"landmarks", films_landmarks(plan)},
-              {"flipped", kind == design::ControlKind::kFlipped},
-              {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
+/// The checksum of all that the pictures depend on before they are matched.
+std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256) {
+    const design::Condition& condition = plan.condition;
+    Json rendered{{"toolkit", kVersion},
+                  {"compiler", __VERSION__},
+                  {"script", condition.script},
+                  {"rig", rig_sha256},
+                  {"quality", plan.clips.quality},
+                  {"landmarks", needs_landmarks(plan)},
+                  {"flipped", condition.control.kind == design::ControlKind::kFlipped},
+                  {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
     for (const Json::json_pointer& key : file_keys(condition.script)) {
-        film["script"][key] = "";
+        rendered["script"][key] = "";
         const fs::path file = condition.script.at(key).get<std::string>();
         if (key.to_string() != "/rig")
-            film["files"].push_back(
+            rendered["files"].push_back(
                 media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
     }
-    plan.film_sha256 = sha256_of(film.dump());
+    return animate::sha256_of_text(rendered.dump());
+}
 
-    // And the clip
-    Json content{{"film", plan.film_sha256},
+/// The checksum of all that the clip depends on.
+std::string content_sha256_of(const ClipPlan& plan) {
+    const design::Condition& condition = plan.condition;
+    const design::ClipOptions& clips = plan.clips;
+    const design::ControlKind kind = condition.control.kind;
+    Json content{{"film", plan.render_sha256},  // the key is part of what is hashed
                  {"control", condition.control.name()},
                  {"seed", kind == design::ControlKind::kScrambled ||
                                   kind == design::ControlKind::kPhaseScrambled
@@ -245,11 +224,47 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
                             {"gain_db", plan.sound->gain_db}};
-    plan.content_sha256 = sha256_of(content.dump());
+    return animate::sha256_of_text(content.dump());
+}
+
+}  // namespace
+
+ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
+                   animate::RenderInputs& inputs, SoundPlans& sounds) {
+    const design::ClipOptions& clips = design.clips;
+    ClipPlan plan;
+    plan.condition = condition;
+    plan.clips = clips;
+    plan.luminance = design.match.luminance;
+    plan.script_name = script_name(condition, design.file);
+    const JsonCursor json = JsonCursor::from_json(condition.script, plan.script_name);
+    const track::ScriptHeader header = track::read_script_header(json);
+    const std::shared_ptr<const animate::RigInput> input = inputs.rig(header.rig_file);
+    const rig::RigDescription& rig = input->files.rig;
+    const track::ChannelTable channels = rig.channels();
+    const track::ScriptDescription script =
+        track::read_script(json, channels, rig.facs, rig.expressions);
+    plan.frames = header.frame_count();
+    plan.fps = header.fps;
+    plan.width_px = header.view.width_px;
+    plan.height_px = header.view.height_px;
+    for (std::size_t k = 0; k < 3; ++k)
+        plan.background[k] =
+            static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
+    check_control(plan, script, channels, json.place());
+    if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
+    if (condition.audio)
+        plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
+                               design.match.loudness_lufs, json.place());
+    const std::string rig_sha256 = sha256_of_rig(*input);
+    plan.scene_sha256 = animate::sha256_of_text(
+        Json{rig_sha256, clips.quality, condition.script.value("view", Json())}.dump());
+    plan.render_sha256 = render_sha256_of(plan, rig_sha256);
+    plan.content_sha256 = content_sha256_of(plan);
     return plan;
 }
 
-std::vector<fs::path> ClipFiles::told() const {
+std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events};
     if (!sound.empty()) files.push_back(sound);
     return files;
@@ -274,16 +289,34 @@ bool is_made(const ClipPlan& plan, const fs::path& folder) {
     try {
         const Json record = clip_record(plan, folder);
         if (record.value("content_sha256", "") != plan.content_sha256) return false;
-        for (const fs::path& file : files.told())
+        for (const fs::path& file : files.listed())
             if (!fs::exists(folder / file) || record.at("files").value(file.generic_string(), "") !=
                                                   media::sha256_of_file(folder / file))
                 return false;
         return true;
     } catch (const std::exception&) {
-        return false;  // something else, or half of it: made again
+        return false;  // another file, or an incomplete one: the clip is made again
     }
 }
 
+animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
+                                 const media::VideoOptions& coding, const ClipWorker& worker) {
+    animate::RenderRequest request;
+    request.script = plan.script_name;
+    request.script_in_memory = JsonCursor::from_json(plan.condition.script, plan.script_name);
+    request.out = out;
+    request.video = coding;
+    request.quality = plan.clips.quality;
+    request.landmarks = needs_landmarks(plan);
+    request.threads = worker.threads;
+    request.renders_at_once = worker.clips_at_once;
+    request.flipped_motion = plan.condition.control.kind == design::ControlKind::kFlipped;
+    return animate::plan_render_job(request, worker.inputs);
+}
+
+namespace {
+
+/// The script as it is played, into code/scripts.
 void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
     const fs::path script = folder / script_file(plan);
     fs::create_directories(script.parent_path());
@@ -293,75 +326,53 @@ void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
             "\n");
 }
 
-animate::AnimateOptions film_options(const ClipPlan& plan, const fs::path& folder,
-                                     const fs::path& out, const CoreShare& share) {
-    animate::AnimateOptions options;
-    options.script = folder / script_file(plan);
-    options.out = out;
-    options.quality = plan.clips.quality;
-    options.landmarks = films_landmarks(plan);
-    options.threads = share.threads;
-    options.films_at_once = share.clips_at_once;
-    options.flipped_motion = plan.condition.control.kind == design::ControlKind::kFlipped;
-    return options;
+/// The unmatched render that a clip is made of: the one that is there, or a new one.
+UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& worker) {
+    std::optional<UnmatchedRender> render = find_unmatched_render(plan, worker.folder);
+    if (!render) {
+        make_unmatched_render(plan, worker);
+        render = find_unmatched_render(plan, worker.folder);
+    }
+    if (!render) throw RunError(plan.condition.clip + ": its unmatched render is missing");
+    return *std::move(render);
 }
 
-void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
-               const ProgressMonitor& monitor, animate::Studio& studio) {
-    const ClipFiles files = clip_files(plan);
-    for (const fs::path& file : {files.strip, files.video})
-        fs::create_directories((folder / file).parent_path());
-    std::optional<Take> take;
-    if (plan.luminance) {
-        take = find_take(plan, folder);
-        if (!take) {
-            make_take(plan, folder, share, monitor, studio);
-            take = find_take(plan, folder);
-            if (!take) throw RunError(plan.condition.clip + ": its take has gone");
-        }
-    }
-    // Not complete from here on
-    fs::remove(folder / files.sidecar);
-    write_clip_script(plan, folder);
-
-    const fs::path video_file = folder / files.video;
-    animate::AnimateOptions options = film_options(plan, folder, video_file, share);
-    options.video.crf = plan.clips.crf;
-    options.video.lossless = plan.clips.lossless;
-    animate::Shot shot = animate::plan_shot(options);
-    if (plan.sound) {
-        shot.video.sound = sound_of(*plan.sound);
-        shot.video.sound_offset_samples = plan.sound->offset_samples;
-    }
-    media::VideoWriter video(video_file, shot.video);
-    ClipPictures pictures(plan, video);
+/// What a clip shows, and what the sidecar says of it.
+struct ShownClip {
     animate::FrameRows rows;
-    Json run, luminance;
-    if (take) {
-        run = take->run;
-        rows = animate::frame_rows(take->table);
-        luminance = show_take(plan, *take, rows, monitor, pictures);
-    } else {
-        animate::FilmExtras extras;
-        run = run_without_places(animate::film(
-            options, shot, [&](Image image) { pictures.take(std::move(image)); }, extras, monitor,
-            studio));
-        rows = animate::frame_rows(extras.table);
-    }
-    const animate::Moments moments = animate::moments_of(animate::landmark_ways(rows));
-    const std::vector<int> order =
-        design::frame_order(plan.condition.control, shot.frames, moments.apex, plan.condition.seed);
-    pictures.finish(rows, order);
+    std::vector<int> order;  ///< the frame of the script that each frame shows
+    animate::Moments moments;
+    Json run, luminance;  ///< luminance: null unless it is matched
+};
 
-    // Each whole or not at all, the sidecar last
-    video.finish();
-    report::write_text(folder / files.events, events_table(rows, order, pictures.measures(), plan));
-    media::write_png(pictures.strip(), folder / files.strip);
-    if (plan.sound)
-        media::write_wav(heard_of(*plan.sound, static_cast<double>(shot.frames) / plan.fps),
-                         folder / files.sound);
+/// Renders the clip, or takes its pictures from an unmatched render, and shows them as the control wants it.
+ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
+                    const std::optional<UnmatchedRender>& unmatched, const ClipWorker& worker,
+                    ClipPictures& pictures) {
+    ShownClip shown;
+    if (unmatched) {
+        shown.run = unmatched->run;
+        shown.rows = animate::frame_rows(unmatched->table);
+        shown.luminance = show_matched(plan, *unmatched, shown.rows, worker.monitor, pictures);
+    } else {
+        const animate::RenderResult result = animate::run_render_job(
+            job, worker.session, [&](Image image) { pictures.add(std::move(image)); },
+            worker.monitor);
+        shown.run = portable_record(result.record);
+        shown.rows = animate::frame_rows(result.table);
+    }
+    shown.moments = animate::moments_of(animate::max_landmark_displacements(shown.rows));
+    shown.order = design::frame_order(plan.condition.control, job.frames, shown.moments.apex,
+                                      plan.condition.seed);
+    pictures.finish(shown.rows, shown.order);
+    return shown;
+}
+
+/// The sidecar, without the checksums of the files.
+Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     const auto shown_at = [&](int frame) {
-        return static_cast<int>(std::find(order.begin(), order.end(), frame) - order.begin());
+        return static_cast<int>(std::find(shown.order.begin(), shown.order.end(), frame) -
+                                shown.order.begin());
     };
     Json record{{"format", "risorius-clip"},
                 {"version", 1},
@@ -370,15 +381,15 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
                 {"control", plan.condition.control.name()},
                 {"of", plan.condition.of},
                 {"values", Json::object()},
-                {"frames", shot.frames},
+                {"frames", plan.frames},
                 {"fps", plan.fps},
-                {"duration_s", static_cast<double>(shot.frames) / plan.fps},
-                {"movement_onset_frame", shown_at(moments.onset)},
-                {"apex_frame", shown_at(moments.apex)},
+                {"duration_s", static_cast<double>(plan.frames) / plan.fps},
+                {"movement_onset_frame", shown_at(shown.moments.onset)},
+                {"apex_frame", shown_at(shown.moments.apex)},
                 {"pictures_sha256", pictures.sha256()},
                 {"content_sha256", plan.content_sha256},
                 {"files", Json::object()},
-                {"run", std::move(run)}};
+                {"run", std::move(shown.run)}};
     for (const auto& [name, value] : plan.condition.values) record["values"][name] = value;
     if (plan.sound)
         record["audio"] = {{"file", plan.sound->file.filename().generic_string()},
@@ -387,11 +398,49 @@ void make_clip(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
                            {"gain_db", plan.sound->gain_db},
                            {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                            {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
-    if (take) record["luminance"] = std::move(luminance);
-    for (const fs::path& file : files.told())
+    if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
+    return record;
+}
+
+}  // namespace
+
+void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
+    const ClipFiles files = clip_files(plan);
+    const fs::path& folder = worker.folder;
+    for (const fs::path& file : {files.strip, files.video})
+        fs::create_directories((folder / file).parent_path());
+    std::optional<UnmatchedRender> unmatched;
+    if (plan.luminance) unmatched = unmatched_render_for(plan, worker);
+    // The clip is not complete from here on
+    fs::remove(folder / files.sidecar);
+    write_clip_script(plan, folder);
+
+    const fs::path video_file = folder / files.video;
+    media::VideoOptions coding;
+    coding.crf = plan.clips.crf;
+    coding.lossless = plan.clips.lossless;
+    animate::RenderJob job = render_job_of(plan, video_file, coding, worker);
+    if (plan.sound) {
+        job.video.sound = sound_of(*plan.sound);
+        job.video.sound_offset_samples = plan.sound->offset_samples;
+    }
+    media::VideoWriter video(video_file, job.video);
+    ClipPictures pictures(plan, video);
+    ShownClip shown = show_clip(plan, job, unmatched, worker, pictures);
+
+    // Each file is written whole or not at all, the sidecar last
+    video.finish();
+    report::write_text(folder / files.events,
+                       events_table(shown.rows, shown.order, pictures.measures(), plan));
+    media::write_png(pictures.strip(), folder / files.strip);
+    if (plan.sound)
+        media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),
+                         folder / files.sound);
+    Json record = sidecar_of(plan, std::move(shown), pictures);
+    for (const fs::path& file : files.listed())
         record["files"][file.generic_string()] = media::sha256_of_file(folder / file);
     report::write_text(folder / files.sidecar, record.dump(2) + "\n");
-    if (take && !plan.take_is_shared) remove_take(plan, folder);
+    if (unmatched && !plan.render_is_shared) remove_unmatched_render(plan, folder);
 }
 
 }  // namespace risorius::stimuli

@@ -17,7 +17,7 @@ namespace {
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
 
-/// What of a picture a window leaves, soft at its edge; the rest is background.
+/// A window with soft edges. Outside it the background is shown.
 struct Window {
     double left = 0, top = 0, right = 0, bottom = 0;
 
@@ -26,17 +26,18 @@ struct Window {
         for (int y = 0; y < image.height_px; ++y)
             for (int x = 0; x < image.width_px; ++x) {
                 const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
-                const double share =
+                const double fraction =
                     away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
                 std::uint8_t* pixel = image.pixel(x, y);
                 for (int k = 0; k < 3; ++k)
-                    pixel[k] = static_cast<std::uint8_t>(std::lround(
-                        share * pixel[k] + (1 - share) * outside[static_cast<std::size_t>(k)]));
+                    pixel[k] = static_cast<std::uint8_t>(
+                        std::lround(fraction * pixel[k] +
+                                    (1 - fraction) * outside[static_cast<std::size_t>(k)]));
             }
     }
 };
 
-/// Around the landmarks of eyes or mouth, wherever they are in any frame: a window that stands still.
+/// A fixed window that contains the landmarks of eyes or mouth in all frames.
 Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
                      const std::string& place) {
     const std::vector<std::string> ids =
@@ -78,7 +79,7 @@ std::string decimal_text(double value, int decimals) {
     return text;
 }
 
-/// What a column of the film's table is for the picture as it is shown, if it is of the picture.
+/// The value of a column for the picture as it is shown; none unless the column is a measure of the picture.
 std::optional<std::string> shown(const std::string& column, const media::PictureMeasures& picture) {
     if (column == "luminance_mean") return decimal_text(picture.luminance_mean, 6);
     if (column == "luminance_sd") return decimal_text(picture.luminance_sd, 6);
@@ -109,7 +110,7 @@ ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
         phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
 }
 
-void ClipPictures::take(Image image) {
+void ClipPictures::add(Image image) {
     if (tone_) tone_->apply(image);
     if (later_)
         held_.push_back(std::move(image));

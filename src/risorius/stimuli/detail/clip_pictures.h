@@ -1,4 +1,4 @@
-// The pictures of a film on their way into a clip: matched, shown as the control wants it, measured, marked.
+// Turns rendered pictures into those of a clip: matches luminance, applies the control, measures and marks.
 #pragma once
 
 #include <optional>
@@ -15,24 +15,25 @@
 
 namespace risorius::stimuli {
 
-/// Whether the control's pictures wait for the last frame of the film.
+/// Whether the control shows frames in another order, so that all of them are needed first.
 bool shows_other_order(design::ControlKind kind);
+/// Whether the control shows only a window around eyes or mouth.
 bool shows_part(design::ControlKind kind);
 
 class ClipPictures {
   public:
     ClipPictures(const ClipPlan& plan, media::VideoWriter& video);
 
-    /// In the order of the film.
-    void take(Image image);
-    /// What had to wait for all that is known in the end.
+    /// Adds a rendered picture, in the order of the frames.
+    void add(Image image);
+    /// Writes the pictures that needed all frames first.
     void finish(const animate::FrameRows& rows, const std::vector<int>& order);
 
-    /// A few frames over the length of the clip, side by side.
+    /// Five frames, spread over the clip, side by side.
     Image strip() const;
     std::string sha256() { return hash_.finish(); }
 
-    /// Of every frame as it is shown, without marks; empty when the film's own measures are right.
+    /// Measures of each frame as it is shown, without marks; empty when those of the render are valid.
     const std::vector<media::PictureMeasures>& measures() const { return measures_; }
 
   private:
@@ -51,7 +52,7 @@ class ClipPictures {
     media::Sha256 hash_;
 };
 
-/// A row for every frame as it is shown.
+/// The table of the clip: a row for each frame as it is shown.
 std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
                          const std::vector<media::PictureMeasures>& measures, const ClipPlan& plan);
 

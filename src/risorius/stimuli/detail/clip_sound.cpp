@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kHighestPeak_dbtp = -1;  // EBU R 128
+constexpr double kMaxPeak_dbtp = -1;  // EBU R 128
 
 }  // namespace
 
@@ -29,24 +29,24 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
     out.sha256 = media::sha256_of_file(file);
     const double length_s = static_cast<double>(recording.length()) / recording.rate_hz;
     if (condition.audio_start_s >= duration_s || condition.audio_start_s + length_s <= 0)
-        throw Error(place, "an audio_start_s at which some of the recording is within the clip",
+        throw Error(place, "an audio_start_s with which the clip contains some of the recording",
                     format_number(condition.audio_start_s));
     out.offset_samples = std::llround(condition.audio_start_s * recording.rate_hz);
     out.loudness = media::loudness_of(
         media::heard(recording, out.offset_samples, std::llround(duration_s * recording.rate_hz)));
     if (lufs) {
         if (!std::isfinite(out.loudness.integrated_lufs))
-            throw Error(place, "0.4 s of sound, to match its loudness",
-                        out.file.string() + ", of which less is heard");
+            throw Error(place, "at least 0.4 s of sound, to match its loudness",
+                        out.file.string() + ", of which the clip contains less");
         out.gain_db = *lufs - out.loudness.integrated_lufs;
         out.loudness.integrated_lufs += out.gain_db;
         out.loudness.true_peak_dbtp += out.gain_db;
-        if (out.loudness.true_peak_dbtp > kHighestPeak_dbtp) {
-            const auto most =
-                std::floor(10 * (*lufs - (out.loudness.true_peak_dbtp - kHighestPeak_dbtp))) / 10;
+        if (out.loudness.true_peak_dbtp > kMaxPeak_dbtp) {
+            const auto max_lufs =
+                std::floor(10 * (*lufs - (out.loudness.true_peak_dbtp - kMaxPeak_dbtp))) / 10;
             throw Error(place,
                         "a loudness that leaves the peaks of " + out.file.string() +
-                            " below -1 dBTP, " + format_number(most) + " LUFS at most",
+                            " below -1 dBTP, " + format_number(max_lufs) + " LUFS at most",
                         format_number(*lufs));
         }
     }

@@ -1,4 +1,4 @@
-// The recording of a clip: where it is heard, how loud it is, and how much louder it is made.
+// The recording of a clip: its offset in the clip, its loudness and its gain.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,21 @@
 
 namespace risorius::stimuli {
 
-/// Of what is heard within the clip.
+/// A recording, with the loudness of the part that the clip contains.
 struct ClipSound {
     std::filesystem::path file;
     std::string sha256;
-    std::int64_t offset_samples = 0;  ///< from the first frame to the first sample, of its own rate
+    std::int64_t offset_samples =
+        0;  ///< from the first frame to the first sample, at the rate of the recording
     double gain_db = 0;
     media::Loudness loudness;  ///< with the gain
 };
 
-/// Recordings are measured once for many clips with them.
+/// Measures each recording once for all clips with it.
 class SoundPlans {
   public:
-    /// `lufs`: what the loudness shall be. Throws Error naming `place` when nothing is heard, or the loudness cannot be had.
+    /// `lufs`: the target loudness. Throws Error naming `place` when the clip contains nothing of the recording, or the target cannot
+    /// be reached.
     ClipSound at(const design::Condition& condition, double duration_s, std::optional<double> lufs,
                  const std::string& place);
 
@@ -33,9 +35,9 @@ class SoundPlans {
     std::map<std::string, ClipSound> known_;
 };
 
-/// To be put beside the pictures.
+/// The recording with its gain, for the sound track of the video.
 std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound);
-/// What is heard while the clip lasts, from its first frame on.
+/// The part of the recording that the clip contains, from the first frame on.
 media::Sound heard_of(const ClipSound& sound, double duration_s);
 
 }  // namespace risorius::stimuli

@@ -21,7 +21,7 @@ bool is_shown(const design::ExperimentOptions& experiment, const design::Conditi
                                                  condition.set) != experiment.sets.end());
 }
 
-/// As the first clip has it, so that nothing else is lighter or darker around it.
+/// The background of the screen: that of the first clip.
 std::string screen_colour(const BatchPlan& plan) {
     for (const ClipPlan& clip : plan.clips)
         if (is_shown(*plan.experiment, clip.condition)) {
@@ -39,7 +39,7 @@ std::string plain_text(const Json& value) {
     return value.is_null() ? "" : value.dump();
 }
 
-/// The key of the answer that the clip's value is; empty where the design tells none.
+/// The key of the right answer for a clip; empty when the design does not name one.
 std::string correct_key(const design::ExperimentOptions& experiment,
                         const design::Condition& condition) {
     if (!experiment.correct) return {};
@@ -50,7 +50,7 @@ std::string correct_key(const design::ExperimentOptions& experiment,
     return {};
 }
 
-/// As RFC 4180 has it.
+/// A cell of a CSV file, RFC 4180.
 std::string csv_cell(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
@@ -58,7 +58,7 @@ std::string csv_cell(const std::string& text) {
     return out + "\"";
 }
 
-/// A row per clip, the same columns in all.
+/// conditions.csv: a row for each clip.
 std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>& records) {
     std::vector<std::string> names;
     for (const ClipPlan& clip : plan.clips)
@@ -127,7 +127,7 @@ void check_experiment(BatchPlan& plan) {
             throw Error("clips/ending", "mp4 or webm, which browsers play, for jspsych",
                         clip.clips.ending);
     }
-    if (!any) throw Error("experiment", "a clip to be shown at least", "none");
+    if (!any) throw Error("experiment", "at least one clip that is shown", "none");
     if (experiment.correct && !any_correct)
         throw Error("experiment/correct", "a parameter with values that are among the answers",
                     risorius::in_quotes(*experiment.correct));

@@ -1,6 +1,6 @@
-// An example of an experiment with a set of clips: each is seen in an order drawn by chance, and a question is answered by a key.
+// An example experiment with a set of clips: clips are shown in random order, and the participant answers a question by a key.
 //
-//   experiment/conditions.csv    a row per clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
+//   experiment/conditions.csv    a row for each clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
 //   experiment/settings.json     question, keys, times
 //   experiment/experiment.py     for PsychoPy
 //   experiment/index.html        for jsPsych, in a browser
@@ -14,10 +14,10 @@
 
 namespace risorius::stimuli {
 
-/// What the design's experiment asks for must be there. Throws Error.
+/// Checks that the design has what its experiment names, and adds notes to the plan. Throws Error.
 void check_experiment(BatchPlan& plan);
 
-/// Of clips that are all made; the names of the files in `folder`.
+/// Writes the files; all clips must be made. Returns their names in `folder`.
 std::vector<std::filesystem::path> write_experiment(const BatchPlan& plan,
                                                     const std::vector<Json>& records,
                                                     const std::filesystem::path& folder);

@@ -8,7 +8,7 @@ namespace risorius::stimuli {
 
 namespace {
 
-/// A file of jsPsych as published: with the hash by which a browser knows that it got that one.
+/// A published file of jsPsych, with the hash by which a browser checks it.
 struct PublishedFile {
     const char* package;
     const char* version;
@@ -28,7 +28,7 @@ constexpr std::array<PublishedFile, 5> kJsPsych{{
      "sha384-BiUYHx4tdTYToceth936qf4Wkf+Ho2VZti/5bB5/nDiPRuTaZ37hrxkLsANkHGdp"},
 }};
 
-/// From an address a version and its hash are asked for; a folder has what was installed into it.
+/// A URL gets a version and its hash; a folder contains what was installed into it.
 std::string load(const PublishedFile& one, const std::string& from) {
     const bool remote = from.rfind("https://", 0) == 0 || from.rfind("http://", 0) == 0;
     const std::string address = report::html_escaped(
@@ -42,7 +42,7 @@ std::string load(const PublishedFile& one, const std::string& from) {
     return "<script src=\"" + address + "\"" + guard + "></script>\n";
 }
 
-/// JSON inside of a page: nothing in it ends the script.
+/// JSON for a script element: escaped, so that it cannot end the element.
 std::string within_script(std::string json) {
     for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;)
         json.replace(at, 1, "\\u003c");

@@ -1,15 +1,15 @@
-// The programs of an example of an experiment: what write_experiment() puts beside the clips.
+// The programs of the example experiment, which write_experiment() puts beside the clips.
 #pragma once
 
 #include <string>
 
 namespace risorius::stimuli {
 
-/// experiment.py, for PsychoPy: the same for every set, it reads settings.json and conditions.csv beside it.
+/// experiment.py, for PsychoPy. It is the same for every set and reads settings.json and conditions.csv beside it.
 const std::string& psychopy_program();
 
-/// index.html, for jsPsych. `from`: where its packages are, an address or a folder as seen from the page; `settings` and
-/// `conditions` as JSON text, because a page that is opened as a file may not read others.
+/// index.html, for jsPsych. `from`: the packages of jsPsych, a URL or a folder relative to the page. `settings` and `conditions`: JSON
+/// text, included in the page because a page that is opened as a file may not read other files.
 std::string jspsych_page(const std::string& title, const std::string& from,
                          const std::string& settings, const std::string& conditions);
 

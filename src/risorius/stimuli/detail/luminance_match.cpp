@@ -8,7 +8,7 @@
 #include "risorius/core/error.h"
 #include "risorius/plot/write_chart.h"
 #include "risorius/report/atomic_file.h"
-#include "risorius/stimuli/detail/take.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
 
@@ -28,10 +28,10 @@ bool is_condition(const Json& record) { return record.at("control").get<std::str
 
 struct Together {
     media::LuminanceSums before, after;
-    double cut_off = 0;  ///< of the clip from which most is
+    double cut_off = 0;  ///< fraction of clipped values, maximum over clips
 };
 
-/// Of the conditions: controls are left out, as they are of the measure.
+/// Sums over the conditions. Controls are left out, as they are when luminance is measured.
 Together together(const std::vector<Json>& records) {
     Together out;
     for (const Json& record : records) {
@@ -87,7 +87,7 @@ void match_luminance(const fs::path& folder, BatchPlan& plan) {
     for (const ClipPlan& clip : plan.clips) {
         if (clip.is_control()) continue;
         const auto measured = measured_luminance(clip, folder);
-        if (!measured) throw RunError(clip.condition.clip + ": its measure has gone");
+        if (!measured) throw RunError(clip.condition.clip + ": its measured luminance is missing");
         all.add(of[clip.condition.clip] = *measured);
     }
     if (!(all.sd() > 0)) throw RunError("the pictures have no contrast that could be matched");

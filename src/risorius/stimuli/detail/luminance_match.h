@@ -1,8 +1,8 @@
-// Pictures of a set made alike in luminance and contrast: all films are measured first, then every clip is shown through the
-// same map of linear light, or each through its own. The report is
+// Matches luminance and contrast over a set: all conditions are rendered and measured first, then clips are shown through one map of
+// linear light, or each through its own. The report is
 //
-//   luminance/luminance.tsv     of every clip: mean and standard deviation before and after, the map, what it cuts off
-//   luminance/luminance.json    of all conditions together, and what was asked for
+//   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and what it clips
+//   luminance/luminance.json    for all conditions together, and the target
 //   luminance/mean.svg, sd.svg  the clips in their order, before and after (and as .png, with what they are drawn from)
 //
 // Means and deviations are over all pixels of all frames that count: the picture, or the oval of the face.
@@ -18,10 +18,10 @@
 
 namespace risorius::stimuli {
 
-/// The conditions whose films are not measured yet, by their places in the plan.
+/// The conditions that are not measured yet, by their indices in the plan.
 std::vector<std::size_t> unmeasured(const BatchPlan& plan, const std::filesystem::path& folder);
 
-/// Gives every clip its map; all conditions must be measured. Throws Error when the set cannot be matched as asked.
+/// Sets the map of each clip; all conditions must be measured. Throws Error when the target cannot be reached.
 void match_luminance(const std::filesystem::path& folder, BatchPlan& plan);
 
 /// The report of clips that are all made; the names of its files in `folder`.

@@ -11,6 +11,7 @@
 #include "risorius/report/html_writer.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kMissing = "n/a";  // as BIDS writes it
+constexpr const char* kMissing = "n/a";  // the missing value of BIDS
 
 std::string cell(const Json& value) {
     if (value.is_null()) return kMissing;
@@ -30,7 +31,7 @@ std::string cell(const Json& value) {
     return text.empty() ? kMissing : text;
 }
 
-/// Of all clips, in the order in which they first come.
+/// The names of values of all clips, in the order of their first occurrence.
 std::vector<std::string> value_names(const std::vector<Json>& records) {
     std::vector<std::string> out;
     for (const Json& record : records)
@@ -112,7 +113,7 @@ Json catalogue_columns(const std::vector<Json>& records, const std::vector<ClipP
     return out;
 }
 
-/// 1 clip_on, 2 movement_onset, 3 apex, 4 clip_off.
+/// triggers.tsv, with the codes 1 clip_on, 2 movement_onset, 3 apex and 4 clip_off.
 std::string triggers(const std::vector<Json>& records) {
     std::string out = "stim_id\tevent\tcode\tframe\ttime_s\n";
     for (const Json& one : records) {
@@ -170,7 +171,7 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
     return report::html_page(name, html);
 }
 
-/// What `batch` has written into the folder for this or an earlier design, as its checksums, sidecars and names tell.
+/// The files that `batch` has written into the folder for this or an earlier design, from its checksums, sidecars and names.
 std::set<fs::path> written_before(const fs::path& folder) {
     std::set<fs::path> files;
     std::ifstream sums(folder / "SHA256SUMS");
@@ -184,7 +185,7 @@ std::set<fs::path> written_before(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         if (!name.starts_with("stim-")) continue;
         files.insert(fs::path("stimuli") / name);
-        // Of a clip that was never finished only its files tell
+        // A clip that was never finished has no sidecar and no checksum
         const std::string clip = name.substr(5, name.find('_') - 5);
         files.insert(fs::path("overview") / (clip + ".png"));
         files.insert(fs::path("code/scripts") / (clip + ".json"));
@@ -192,11 +193,11 @@ std::set<fs::path> written_before(const fs::path& folder) {
     return files;
 }
 
-/// Files that this set does not have but `batch` has written for an earlier design; no one else's.
-void take_away_former(const fs::path& folder, const std::set<fs::path>& kept) {
+/// Removes the files that `batch` has written for an earlier design and that this set does not have. Other files stay.
+void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept) {
     for (const fs::path& file : written_before(folder))
         if (kept.count(file) == 0 && fs::is_regular_file(folder / file)) fs::remove(folder / file);
-    fs::remove_all(folder / "takes");
+    for (const char* below : kIntermediateFolders) fs::remove_all(folder / below);
     for (const char* below : {"stimuli", "overview", "code/scripts", "luminance"})
         if (fs::is_directory(folder / below) && fs::is_empty(folder / below))
             fs::remove(folder / below);
@@ -210,7 +211,7 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
     for (const ClipPlan& clip : plan.clips) {
         const ClipFiles its = clip_files(clip);
         files.insert(its.sidecar);
-        for (const fs::path& file : its.told()) files.insert(file);
+        for (const fs::path& file : its.listed()) files.insert(file);
         records.push_back(clip_record(clip, folder));
     }
     const auto write = [&](const char* name, const std::string& text) {
@@ -239,7 +240,7 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
             files.insert(file);
     if (plan.experiment)
         for (const fs::path& file : write_experiment(plan, records, folder)) files.insert(file);
-    take_away_former(folder, files);
+    remove_former_files(folder, files);
     std::string sums;
     for (const fs::path& file : files)
         sums += media::sha256_of_file(folder / file) + "  " + file.generic_string() + "\n";

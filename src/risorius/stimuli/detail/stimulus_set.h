@@ -1,9 +1,8 @@
-// What is told of all clips of a set together, in the layout of BIDS (bids-specification.readthedocs.io; stimuli as BEP044 has
-// them):
+// The files of a whole set, in the layout of BIDS (bids-specification.readthedocs.io; stimuli as in BEP044):
 //
 //   dataset_description.json
-//   stimuli/stimuli.tsv, stimuli.json    a row per clip: set, control, values of the design, frames, when it moves
-//   triggers.tsv                         event, code, clip, frame, time_s: for the machine that sends triggers
+//   stimuli/stimuli.tsv, stimuli.json    a row for each clip: set, control, values of the design, frames, onset and apex
+//   triggers.tsv                         event, code, clip, frame, time_s: for the device that sends triggers
 //   code/design.json                     the design
 //   index.html                           five frames of every clip, with its values
 //   SHA256SUMS                           of every file above and below, for sha256sum -c
@@ -15,7 +14,7 @@
 
 namespace risorius::stimuli {
 
-/// All clips must be made. What `batch` wrote into the folder of clips that the design has no more is taken away.
+/// All clips must be made. Files of clips that an earlier design had are removed.
 void write_set(const BatchPlan& plan, const std::filesystem::path& design,
                const std::filesystem::path& folder);
 

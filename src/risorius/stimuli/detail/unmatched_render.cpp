@@ -1,8 +1,9 @@
-#include "risorius/stimuli/detail/take.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
@@ -15,29 +16,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path take_file(const std::string& clip, const char* ending) {
-    return fs::path("takes") / (clip + ending);
+/// The file of a clip with this ending; `below` is one of kIntermediateFolders.
+fs::path intermediate_file(const std::string& clip, const char* ending,
+                           const char* below = kIntermediateFolders[0]) {
+    return fs::path(below) / (clip + ending);
 }
 
-std::optional<Take> whole_take(const ClipPlan& plan, const std::string& clip,
-                               const fs::path& folder) {
-    const fs::path record_file = folder / take_file(clip, ".json");
+std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::string& clip,
+                                               const fs::path& folder, const char* below) {
+    const fs::path record_file = folder / intermediate_file(clip, ".json", below);
     if (!fs::exists(record_file)) return {};
     try {
         const Json record = JsonCursor::read_file(record_file).json();
-        if (record.at("film_sha256") != plan.film_sha256) return {};
-        Take take;
-        take.video = folder / take_file(clip, ".mkv");
-        const fs::path table = folder / take_file(clip, ".tsv");
-        if (record.at("video_sha256") != media::sha256_of_file(take.video) ||
+        if (record.at("film_sha256") != plan.render_sha256) return {};
+        UnmatchedRender render;
+        render.video = folder / intermediate_file(clip, ".mkv", below);
+        const fs::path table = folder / intermediate_file(clip, ".tsv", below);
+        if (record.at("video_sha256") != media::sha256_of_file(render.video) ||
             record.at("table_sha256") != media::sha256_of_file(table))
             return {};
-        take.run = record.at("run");
-        take.table = text_of_file(table);
-        take.luminance = sums_of(record.at("luminance"));
-        return take;
+        render.run = record.at("run");
+        render.table = text_of_file(table);
+        render.luminance = sums_of(record.at("luminance"));
+        return render;
     } catch (const std::exception&) {
-        return {};  // something else, or half of it: made again
+        return {};  // another file, or an incomplete one: the clip is rendered again
     }
 }
 
@@ -75,41 +78,41 @@ std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const animate::Fr
     return out;
 }
 
-std::optional<Take> find_take(const ClipPlan& plan, const fs::path& folder) {
-    if (std::optional<Take> own = whole_take(plan, plan.condition.clip, folder)) return own;
-    return whole_take(plan, plan.condition.of, folder);
+std::optional<UnmatchedRender> find_unmatched_render(const ClipPlan& plan, const fs::path& folder) {
+    for (const std::string& clip : {plan.condition.clip, plan.condition.of})
+        for (const char* below : kIntermediateFolders)
+            if (std::optional<UnmatchedRender> found = complete_render(plan, clip, folder, below))
+                return found;
+    return {};
 }
 
-void make_take(const ClipPlan& plan, const fs::path& folder, const CoreShare& share,
-               const ProgressMonitor& monitor, animate::Studio& studio) {
+void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     const std::string& clip = plan.condition.clip;
-    const fs::path video_file = folder / take_file(clip, ".mkv"),
-                   table_file = folder / take_file(clip, ".tsv"),
-                   record_file = folder / take_file(clip, ".json");
+    const fs::path& folder = worker.folder;
+    const fs::path video_file = folder / intermediate_file(clip, ".mkv"),
+                   table_file = folder / intermediate_file(clip, ".tsv"),
+                   record_file = folder / intermediate_file(clip, ".json");
     fs::create_directories(video_file.parent_path());
     fs::remove(record_file);
-    write_clip_script(plan, folder);
 
-    const animate::AnimateOptions options = film_options(plan, folder, video_file, share);
-    const animate::Shot shot = animate::plan_shot(options);
-    media::VideoWriter video(video_file, shot.video);
-    animate::FilmExtras extras;
-    const animate::RunRecord run = animate::film(
-        options, shot, [&](const Image& image) { video.append(image); }, extras, monitor, studio);
+    const animate::RenderJob job = render_job_of(plan, video_file, {}, worker);
+    media::VideoWriter video(video_file, job.video);
+    const animate::RenderResult result = animate::run_render_job(
+        job, worker.session, [&](const Image& image) { video.append(image); }, worker.monitor);
     video.finish();
-    report::write_text(table_file, extras.table);
+    report::write_text(table_file, result.table);
 
-    // Measured as it will be read
-    const animate::FrameRows rows = animate::frame_rows(extras.table);
+    // Luminance is measured on the pictures as decoded
+    const animate::FrameRows rows = animate::frame_rows(result.table);
     media::VideoReader reader(video_file);
     media::LuminanceSums sums;
     for (int frame = 0; frame < reader.frames(); ++frame)
         sums.add(reader.frame(frame), measured_part(plan, rows, frame));
-    report::write_text(record_file, Json{{"film_sha256", plan.film_sha256},
+    report::write_text(record_file, Json{{"film_sha256", plan.render_sha256},
                                          {"video_sha256", media::sha256_of_file(video_file)},
                                          {"table_sha256", media::sha256_of_file(table_file)},
                                          {"luminance", json_of(sums)},
-                                         {"run", run_without_places(run)}}
+                                         {"run", portable_record(result.record)}}
                                             .dump(1) +
                                         "\n");
 }
@@ -117,28 +120,30 @@ void make_take(const ClipPlan& plan, const fs::path& folder, const CoreShare& sh
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
                                                        const fs::path& folder) {
     try {
-        const fs::path take = folder / take_file(plan.condition.clip, ".json");
-        if (fs::exists(take)) {
-            const Json record = JsonCursor::read_file(take).json();
-            if (record.at("film_sha256") == plan.film_sha256)
+        for (const char* below : kIntermediateFolders) {
+            const fs::path file = folder / intermediate_file(plan.condition.clip, ".json", below);
+            if (!fs::exists(file)) continue;
+            const Json record = JsonCursor::read_file(file).json();
+            if (record.at("film_sha256") == plan.render_sha256)
                 return sums_of(record.at("luminance"));
         }
         if (fs::exists(folder / clip_files(plan).sidecar)) {
             const Json record = clip_record(plan, folder);
-            if (record.at("luminance").at("film_sha256") == plan.film_sha256)
+            if (record.at("luminance").at("film_sha256") == plan.render_sha256)
                 return sums_of(record.at("luminance").at("before"));
         }
     } catch (const std::exception&) {
-        return {};  // of something else
+        return {};  // of another script
     }
     return {};
 }
 
-void remove_take(const ClipPlan& plan, const fs::path& folder) {
-    for (const char* ending : {".json", ".tsv", ".mkv"}) {
-        std::error_code ignored;
-        fs::remove(folder / take_file(plan.condition.clip, ending), ignored);
-    }
+void remove_unmatched_render(const ClipPlan& plan, const fs::path& folder) {
+    for (const char* below : kIntermediateFolders)
+        for (const char* ending : {".json", ".tsv", ".mkv"}) {
+            std::error_code ignored;
+            fs::remove(folder / intermediate_file(plan.condition.clip, ending, below), ignored);
+        }
 }
 
 }  // namespace risorius::stimuli

@@ -1,0 +1,45 @@
+#include "risorius/animate/render_inputs.h"
+
+#include "risorius/core/json_text.h"
+#include "risorius/media/sha256.h"
+
+namespace risorius::animate {
+
+namespace fs = std::filesystem;
+
+std::string sha256_of_text(const std::string& text) {
+    media::Sha256 hash;
+    hash.add(text.data(), text.size());
+    return hash.finish();
+}
+
+std::shared_ptr<const ScriptInput> RenderInputs::script(const fs::path& file) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const ScriptInput>& known = scripts_[file];
+    if (!known) {
+        const std::string text = read_json_text(file);
+        known = std::make_shared<const ScriptInput>(
+            ScriptInput{parse_json_text(text, file), sha256_of_text(text)});
+    }
+    return known;
+}
+
+std::shared_ptr<const RigInput> RenderInputs::rig(const fs::path& file) {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const RigInput>& known = rigs_[file];
+    if (!known) {
+        auto read = std::make_shared<RigInput>();
+        read->files = scene::read_rig_files(file);
+        const auto hashed = [](const fs::path& one) {
+            return InputFile{one, media::sha256_of_file(one)};
+        };
+        read->rig = hashed(read->files.file);
+        read->mesh = hashed(read->files.rig.mesh_file);
+        for (const fs::path& table : read->files.rig.table_files)
+            read->tables.push_back(hashed(table));
+        known = std::move(read);
+    }
+    return known;
+}
+
+}  // namespace risorius::animate

@@ -1,0 +1,47 @@
+// The files that renders read. Each is read from disk once, however many jobs use it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "risorius/animate/detail/run_record.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/scene/rig_files.h"
+
+namespace risorius::animate {
+
+/// A script as parsed, not yet checked against a rig.
+struct ScriptInput {
+    JsonCursor json;
+    std::string sha256;  ///< of the bytes of the file
+};
+
+/// A rig with its mesh and tables, and the checksums of their files.
+struct RigInput {
+    scene::RigFiles files;
+    InputFile rig, mesh;
+    std::vector<InputFile> tables;  ///< other files that the rig names
+};
+
+/// Keeps what it has read. Several threads may use one.
+class RenderInputs {
+  public:
+    /// Throws Error when the file cannot be read or is not JSON.
+    std::shared_ptr<const ScriptInput> script(const std::filesystem::path& file);
+    /// Throws Error when the rig or its mesh cannot be used.
+    std::shared_ptr<const RigInput> rig(const std::filesystem::path& file);
+
+  private:
+    std::mutex mutex_;
+    std::map<std::filesystem::path, std::shared_ptr<const ScriptInput>> scripts_;
+    std::map<std::filesystem::path, std::shared_ptr<const RigInput>> rigs_;
+};
+
+/// The checksum of text or other bytes.
+std::string sha256_of_text(const std::string& text);
+
+}  // namespace risorius::animate

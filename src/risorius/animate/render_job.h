@@ -1,0 +1,77 @@
+// One render, planned: everything that a run needs is read and checked before it begins.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/animate/render_inputs.h"
+#include "risorius/animate/render_request.h"
+#include "risorius/media/video_writer.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/track/script.h"
+
+namespace risorius::animate {
+
+struct RenderJob {
+    // What it reads
+    InputFile script_file;
+    track::ScriptDescription script;  ///< as written: what the request changes stands below
+    std::shared_ptr<const RigInput> rig;
+    std::vector<InputFile> recordings;  ///< that the script names
+    std::optional<InputFile> shapes;    ///< blend shapes that play the script
+    std::optional<track::ScriptDescription>
+        reference;  ///< show "error": the script to compare with
+
+    // Which frames
+    int fps = 60, frames = 0;
+    double first_frame_s = 0;     ///< 0 except for a still, a turntable and given times
+    std::vector<double> times_s;  ///< of every frame when they are not evenly spaced; else empty
+    bool turntable = false;  ///< all frames show first_frame_s; the head turns once round in them
+    bool still = false;      ///< one picture instead of a video
+
+    /// Motion blur: the shutter is open for this fraction of a frame, 360 deg, half of it before the frame's time. The picture is
+    /// the mean, in linear light, of kShutterMoments moments at the midpoints of equal intervals. 0: the frame's time only.
+    double shutter_deg = 0;
+    static constexpr int kShutterMoments = 9;
+    int moments() const { return shutter_deg > 0 ? kShutterMoments : 1; }
+    /// From the frame's time to that of a moment, in frames.
+    double moment_offset(int moment) const {
+        return shutter_deg / 360 * (moment - (moments() - 1) / 2) / moments();
+    }
+    double time_s(int frame) const {
+        if (!times_s.empty()) return times_s[static_cast<std::size_t>(frame)];
+        return turntable ? first_frame_s : first_frame_s + static_cast<double>(frame) / fps;
+    }
+
+    // How it is simulated and drawn
+    std::string quality;  ///< face::quality_named
+    render::ViewOptions view;
+    std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
+    SyncMarks marks;
+    bool flipped_motion = false;  ///< see RenderRequest
+    int threads = 2;
+
+    // What it writes
+    std::filesystem::path out;
+    std::filesystem::path passes_folder;
+    std::vector<std::string> passes;  ///< of pass_names()
+    bool landmarks = false;           ///< their places in the table
+    bool emg = false;                 ///< simulated electromyograms in the table
+    media::VideoOptions video;
+
+    double planning_s = 0;  ///< how long plan_render_job() took
+
+    std::string background_text() const;  ///< as a script writes it
+};
+
+/// Reads every input once, checks it and the request, and refuses now what would fail after minutes. Only the
+/// blend shapes and the folder of passes are opened when the run begins, as they need the face. Throws Error naming the option, or
+/// the file and the place in it.
+RenderJob plan_render_job(const RenderRequest& request);
+
+/// The same for several jobs: files that they have in common are read once.
+RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs);
+
+}  // namespace risorius::animate

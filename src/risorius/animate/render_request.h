@@ -1,0 +1,73 @@
+// What a caller asks for when it renders a script. Fields that are not given keep the value of the script.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/media/video_writer.h"
+
+namespace risorius::animate {
+
+struct PictureSize {
+    int width_px = 0, height_px = 0;
+};
+
+/// Marks for machines that watch the screen. Corners have the names of media::corner_names(). See media/sync_marks.h.
+struct SyncMarks {
+    std::optional<std::string> photodiode, frame_counter;  ///< the corner of each; none: not drawn
+    int photodiode_px = 64;                                ///< side of the photodiode's square
+    int frame_counter_px = 8;                              ///< side of a cell of the counter
+    /// When the square is white. "frames": in even frames; "events": in the frame with which an event begins.
+    std::string photodiode_shows = "frames";
+};
+
+/// The request for one video, or for one still. plan_render_job() makes a RenderJob of it; nothing after that reads the request.
+struct RenderRequest {
+    std::filesystem::path script;
+    /// The script itself when it is in memory. `script` then only names it, and is not read.
+    std::optional<JsonCursor> script_in_memory;
+    /// A file .mp4, .mov, .mkv or .webm, a folder of PNG frames ("frames/"), or .png for a still.
+    std::filesystem::path out;
+    std::optional<std::filesystem::path> rig;
+    /// A file shapes.glb of `risorius shapes`. Its blend shapes play the script; nothing is simulated.
+    std::optional<std::filesystem::path> shapes;
+    std::optional<PictureSize> size;
+    std::optional<int> fps;
+    std::optional<std::string> camera;  ///< a name of render::camera_names()
+    std::optional<std::string> show;    ///< a name of render::show_names()
+    std::optional<double> still_s;      ///< a still of this time instead of a video
+    /// How the video is encoded. Size, rate, transparency and sound are set by plan_render_job().
+    media::VideoOptions video{};
+    std::optional<std::filesystem::path> audio;  ///< WAV or FLAC
+    /// Samples from the first frame to the first sample of the recording, at the recording's own rate.
+    std::optional<std::int64_t> audio_offset;
+    SyncMarks marks{};
+    std::optional<double> shutter_deg;  ///< 0..360: motion blur; see RenderJob::shutter_deg
+    std::vector<std::string> passes;  ///< of pass_names(): ground truth, as pictures in OUT.passes
+    std::optional<double> turntable_s;             ///< the face of this time, turned once round
+    std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
+    std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
+    std::vector<double> times_s;  ///< ascending: a frame at each of these times, and no others
+    std::optional<std::string>
+        quality;  ///< face::quality_named; not given: "video", for a draft "draft"
+    std::optional<int>
+        antialiasing;  ///< samples per pixel and side, 1..4; not given: for a draft 1
+    /// Mirrors vertical motion: what would go up goes down by as much. No real face can move so. The head must keep still.
+    bool flipped_motion = false;
+    bool draft = false;  ///< a fast preview: options that are not given take their fastest value
+    bool landmarks = false;  ///< adds the places of the landmarks to the table
+    bool emg = false;        ///< adds simulated surface electromyograms to the table
+    /// 1, or more to simulate and draw at the same time, with several frames drawn at once. The frames are the same.
+    int threads = 2;
+    int renders_at_once =
+        1;  ///< renders in this process, this one included; the frames are the same
+};
+
+/// The quality of the simulation: the one that is given, or else the default.
+std::string quality_of(const RenderRequest& request);
+
+}  // namespace risorius::animate

@@ -1,0 +1,39 @@
+// What renders of the same face share: the face, the scene that is made of it, and the views with what they have baked.
+//
+// A job leaves nothing behind that a later one would show: a face starts anew, and views keep nothing of a frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "risorius/animate/render_inputs.h"
+#include "risorius/face/face.h"
+#include "risorius/face/view/skull.h"
+#include "risorius/render/offscreen_view.h"
+
+namespace risorius::animate {
+
+/// Keeps the last face, scene and views. Each is made anew when a job needs another one.
+class RenderSession {
+  public:
+    face::Face& face(std::shared_ptr<const RigInput> rig, const face::Quality& quality);
+    /// The scene of that face, with room for `views` views. The first view is made at once, the others by view().
+    const render::Scene& scene(const render::ViewOptions& view, int views);
+    render::OffscreenView& view() { return *views_[0]; }
+    /// The view of one of the threads that draw; called on that thread.
+    render::OffscreenView& view(int worker);
+    /// The skull of the scene; none unless its bones are shown.
+    const std::optional<face::Skull>& skull() const { return skull_; }
+
+  private:
+    std::shared_ptr<const RigInput> rig_;
+    std::string quality_;
+    std::unique_ptr<face::Face> face_;
+    std::optional<render::Scene> scene_;
+    std::optional<face::Skull> skull_;
+    render::ViewOptions options_;
+    std::vector<std::unique_ptr<render::OffscreenView>> views_;
+};
+
+}  // namespace risorius::animate
