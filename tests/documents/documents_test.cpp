@@ -60,6 +60,30 @@ TEST(Documents, PageOfTheCommandLineSaysWhatHelpSays) {
            "build/risorius manual-pages DIR && cp DIR/cli.md docs/";
 }
 
+// Pages and comments name sources by module and file: "face/face.cpp".
+TEST(Documents, SourcesThatPagesAndCommentsNameAreThere) {
+    std::string modules;
+    for (const auto& entry : fs::directory_iterator(kRoot / "src/risorius"))
+        modules += (modules.empty() ? "" : "|") + entry.path().filename().string();
+    const std::regex named("(^|[^\\w/.])(?:src/risorius/)?((?:" + modules +
+                           ")/[a-z0-9_/]+\\.(?:h|cpp))");
+    int names = 0;
+    for (const char* folder : {"docs", "samples", "rigs", "models", "src", "tools"})
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+            const std::string ending = entry.path().extension().string();
+            if (ending != ".md" && ending != ".h" && ending != ".cpp") continue;
+            const std::string text = bytes_of(entry.path());
+            for (std::sregex_iterator i(text.begin(), text.end(), named), end; i != end; ++i) {
+                const std::string file = (*i)[2];
+                EXPECT_TRUE(fs::exists(kRoot / "src/risorius" / file) || fs::exists(kRoot / file) ||
+                            fs::exists(kRoot / "tests" / file))
+                    << entry.path() << " names " << file;
+                ++names;
+            }
+        }
+    EXPECT_GT(names, 100);
+}
+
 TEST(Documents, ReadmeIsShort) {
     const std::string text = bytes_of(kRoot / "README.md");
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 200);
@@ -67,7 +91,8 @@ TEST(Documents, ReadmeIsShort) {
 
 // Examples that say which format they are follow its schema.
 TEST(Documents, ExamplesOfFormatsFollowTheirSchema) {
-    const std::regex example("<!-- schema: (risorius-[a-z-]+) -->\n(?:<!-- [^\n]* -->\n)*```json\n([^`]*)```");
+    const std::regex example(
+        "<!-- schema: (risorius-[a-z-]+) -->\n(?:<!-- [^\n]* -->\n)*```json\n([^`]*)```");
     int examples = 0;
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
         if (entry.path().extension() != ".md") continue;

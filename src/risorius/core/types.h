@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 
 #ifndef RISORIUS_EIGEN_ALIGN_BYTES
-#error "Compile with the flags of the library: target risorius::core in CMake, or pkg-config --cflags risorius"
+#error \
+    "Compile with the flags of the library: target risorius::core in CMake, or pkg-config --cflags risorius"
 #endif
 static_assert(EIGEN_MAX_ALIGN_BYTES == RISORIUS_EIGEN_ALIGN_BYTES,
-              "Eigen aligns otherwise than in the library: leave EIGEN_MAX_ALIGN_BYTES to the flags of risorius");
+              "Eigen aligns otherwise than in the library: leave EIGEN_MAX_ALIGN_BYTES to the "
+              "flags of risorius");
 
 namespace risorius {
 

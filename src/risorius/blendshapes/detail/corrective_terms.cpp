@@ -13,7 +13,7 @@ constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 // w^2 (1 - w)^2 is of w^2.
 constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfFading = 0.1;
 
-// What a shape lacks a quarter, a half and three quarters of its way, as parts of it (blendshapes/detail/linear_rig.h).
+// What a shape lacks a quarter, a half and three quarters of its way, as parts of it (blendshapes/detail/blend_shape_rig.h).
 std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) {
     Eigen::Matrix3d values;
     for (int at = 0; at < 3; ++at)

@@ -1,4 +1,4 @@
-// What correctives hang on (blendshapes/detail/linear_rig.h), made of poses in which shapes were simulated on their way, in pairs, and in pairs on
+// What correctives hang on (blendshapes/detail/blend_shape_rig.h), made of poses in which shapes were simulated on their way, in pairs, and in pairs on
 // one side of the face.
 #pragma once
 
