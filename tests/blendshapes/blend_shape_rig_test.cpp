@@ -18,7 +18,7 @@ SparseShape one_vertex(int vertex, const Vec3& delta) {
 BlendShapeRig three_shapes() {
     BlendShapeRig rig;
     for (int k = 0; k < 3; ++k) rig.shapes.push_back(one_vertex(k, Vec3::UnitX()));
-    rig.terms = {{"0*1", {0, 1}}, {"2~2", {2}, 2}};
+    rig.drivers = {{"0*1", {0, 1}}, {"2~2", {2}, 2}};
     rig.correctives.push_back({"one", one_vertex(3, Vec3::UnitY()), Eigen::Vector2d(1, 0)});
     rig.correctives.push_back({"other", one_vertex(4, Vec3::UnitZ()), Eigen::Vector2d(2, -1)});
     return rig;
@@ -37,9 +37,9 @@ TEST(BlendShapeRig, AddsShapesAndWhatTheirSumLacks) {
     EXPECT_EQ(all[4], vertices(4, 2));
 }
 
-TEST(Term, OfOneShapeIsThereOnItsWayAndGoesAsOthersCome) {
+TEST(Driver, OfOneShapeIsThereOnItsWayAndGoesAsOthersCome) {
     const auto at = [](double w, int part) {
-        return Term{"", {0}, part}.value(Eigen::VectorXd::Constant(1, w));
+        return Driver{"", {0}, part}.value(Eigen::VectorXd::Constant(1, w));
     };
     // The parts of the way, and what is left for its ends, add up to 1 everywhere
     for (const double w : {0.0, 0.1, 0.5, 0.9, 1.0})
@@ -47,16 +47,16 @@ TEST(Term, OfOneShapeIsThereOnItsWayAndGoesAsOthersCome) {
     EXPECT_EQ(at(0.25, 1), 4 * 0.25 * 27 / 64);
     EXPECT_EQ(at(0.5, 2), 0.375);
     EXPECT_EQ(at(0.25, 3), at(0.75, 1));
-    const Term fading{"", {2}, 2, {0, 1}};
+    const Driver fading{"", {2}, 2, {0, 1}};
     EXPECT_EQ(fading.value(Eigen::Vector3d(0, 0, 0.5)), 0.375);
     EXPECT_EQ(fading.value(Eigen::Vector3d(0.5, 0.25, 0.5)), 0.375 * 0.375);
     EXPECT_EQ(fading.value(Eigen::Vector3d(1, 0, 0.5)), 0.0);
 }
 
-TEST(Term, OfSeveralIsTheirProductAndMayGoBeforeTheyAreWhole) {
-    EXPECT_EQ((Term{"", {0, 1}}.value(Eigen::Vector2d(0.5, 0.25))), 0.125);
-    EXPECT_EQ((Term{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(0.5, 1))), 0.25);
-    EXPECT_EQ((Term{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(1, 1))), 0.0);
+TEST(Driver, OfSeveralIsTheirProductAndMayGoBeforeTheyAreWhole) {
+    EXPECT_EQ((Driver{"", {0, 1}}.value(Eigen::Vector2d(0.5, 0.25))), 0.125);
+    EXPECT_EQ((Driver{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(0.5, 1))), 0.25);
+    EXPECT_EQ((Driver{"", {0, 1}, 0, {0}}.value(Eigen::Vector2d(1, 1))), 0.0);
 }
 
 TEST(BlendShapeRig, LeavesWholeShapesAlone) {

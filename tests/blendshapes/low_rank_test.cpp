@@ -1,4 +1,4 @@
-// Many terms in few correctives: fitted to frames, split into sides, compressed within a budget.
+// Many drivers in few correctives: fitted to frames, split into sides, compressed within a budget.
 #include "risorius/blendshapes/detail/low_rank.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +16,15 @@ const Points kRest = row_of_vertices();
 const Eigen::VectorXd kArea = Eigen::VectorXd::Constant(20, 1e-6);
 const Fade kNoFade{0, 1e-12};
 
-TermField term(std::vector<int> drivers, int first, int count, double height_m) {
-    TermField out{{"", std::move(drivers)}, Points::Zero(20, 3), 0.1};
+DriverField driver(std::vector<int> drivers, int first, int count, double height_m) {
+    DriverField out{{"", std::move(drivers)}, Points::Zero(20, 3), 0.1};
     for (int v = first; v < first + count; ++v) out.field(v, 1) = height_m * (1 + 0.1 * v);
     return out;
 }
 
 Points played(const LowRank& made, const Eigen::VectorXd& weights) {
     BlendShapeRig rig;
-    rig.terms = made.terms;
+    rig.drivers = made.drivers;
     rig.correctives = made.correctives;
     Points out = Points::Zero(20, 3);
     rig.add_to(out, weights);
@@ -32,25 +32,25 @@ Points played(const LowRank& made, const Eigen::VectorXd& weights) {
 }
 
 TEST(LowRank, FieldsThatAreMultiplesOfOneAnotherTakeOneCorrectiveASide) {
-    const std::vector<TermField> fields{term({0, 1}, 0, 20, 1e-3), term({0, 2}, 0, 20, -2e-3),
-                                        term({1, 2}, 0, 20, 3e-3)};
+    const std::vector<DriverField> fields{driver({0, 1}, 0, 20, 1e-3), driver({0, 2}, 0, 20, -2e-3),
+                                          driver({1, 2}, 0, 20, 3e-3)};
     const LowRank made = low_rank(fields, {}, kRest, kArea, {.fade = kNoFade});
     ASSERT_EQ(made.correctives.size(), 2u);
-    EXPECT_EQ(made.terms.size(), 3u);
+    EXPECT_EQ(made.drivers.size(), 3u);
     EXPECT_EQ(made.bytes, 15 * 20);
     for (const Corrective& one : made.correctives)
         for (const int v : one.shape.vertex)
             EXPECT_EQ(kRest(v, 0) > 0, one.name.starts_with("correctiveLeft")) << one.name;
     const Eigen::Vector3d weights(0.5, 1, 0.25);
     Points sum = Points::Zero(20, 3);
-    for (const TermField& one : fields) sum += one.term.value(weights) * one.field;
+    for (const DriverField& one : fields) sum += one.driver.value(weights) * one.field;
     EXPECT_LT((played(made, weights) - sum).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
     const Eigen::Vector2d half(0.5, 1), whole(1, 1);
-    const std::vector<TermField> found{term({0, 1}, 0, 5, 1e-3)};
-    // The frame lacks just what the term gives it
+    const std::vector<DriverField> found{driver({0, 1}, 0, 5, 1e-3)};
+    // The frame lacks just what the driver gives it
     const PlayedFrame agrees{half, 0.5 * found[0].field};
     EXPECT_LT(
         (played(low_rank(found, {agrees}, kRest, kArea, {.fade = kNoFade}), whole) - found[0].field)
@@ -65,7 +65,7 @@ TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
             .cwiseAbs()
             .maxCoeff(),
         1e-12);
-    // Also where no term moved anything before
+    // Also where no driver moved anything before
     PlayedFrame elsewhere{half, Points::Zero(20, 3)};
     elsewhere.left(15, 2) = 1e-3;
     const Points learnt =
@@ -75,7 +75,7 @@ TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
 }
 
 TEST(LowRank, KeepsToItsBudgetByLeavingOutTheFiner) {
-    std::vector<TermField> fields{term({0, 1}, 0, 6, 2e-3)};
+    std::vector<DriverField> fields{driver({0, 1}, 0, 6, 2e-3)};
     for (int v = 6; v < 10; ++v) fields[0].field(v, 1) = 0.1e-3;
     const auto made = [&](long bytes) {
         return low_rank(fields, {}, kRest, kArea,
@@ -86,12 +86,12 @@ TEST(LowRank, KeepsToItsBudgetByLeavingOutTheFiner) {
     EXPECT_LT((played(made(15 * 9), Eigen::Vector2d(1, 1)) - fields[0].field).topRows(6).norm(),
               1e-12);
     EXPECT_TRUE(made(0).correctives.empty());
-    EXPECT_TRUE(made(0).terms.empty());
+    EXPECT_TRUE(made(0).drivers.empty());
 }
 
 TEST(LowRank, KeepsWhatMattersMostWhenThereIsRoomForFew) {
     // Of the same side: the larger one, unless the smaller one is met far more often
-    std::vector<TermField> fields{term({0, 1}, 0, 4, 2e-3), term({0, 2}, 5, 4, 1e-3)};
+    std::vector<DriverField> fields{driver({0, 1}, 0, 4, 2e-3), driver({0, 2}, 5, 4, 1e-3)};
     const Compression one_a_side{.fade = kNoFade, .most_of_a_side = 1};
     const auto keeps = [&] {
         return low_rank(fields, {}, kRest, kArea, one_a_side).correctives.at(0).shape.vertex.at(0);
@@ -102,15 +102,15 @@ TEST(LowRank, KeepsWhatMattersMostWhenThereIsRoomForFew) {
 }
 
 TEST(LowRank, SaysTheSameEveryTime) {
-    std::vector<TermField> fields;
-    for (int t = 0; t < 12; ++t) fields.push_back(term({t % 4, 4}, t, 8, 1e-3 * (t - 5)));
+    std::vector<DriverField> fields;
+    for (int t = 0; t < 12; ++t) fields.push_back(driver({t % 4, 4}, t, 8, 1e-3 * (t - 5)));
     const LowRank one = low_rank(fields, {}, kRest, kArea),
                   again = low_rank(fields, {}, kRest, kArea);
     ASSERT_EQ(one.correctives.size(), again.correctives.size());
     ASSERT_FALSE(one.correctives.empty());
     for (std::size_t c = 0; c < one.correctives.size(); ++c) {
         EXPECT_EQ(one.correctives[c].shape.delta, again.correctives[c].shape.delta);
-        EXPECT_EQ(one.correctives[c].of_terms, again.correctives[c].of_terms);
+        EXPECT_EQ(one.correctives[c].of_drivers, again.correctives[c].of_drivers);
     }
 }
 

@@ -99,7 +99,7 @@ TEST(BlendShapePlayer, MovesVerticesAsTheLinearRigDoes) {
         fade_out(field);
         rig.shapes.push_back(sparse(field));
     }
-    rig.terms.push_back({"a*b", {0, 1}});
+    rig.drivers.push_back({"a*b", {0, 1}});
     rig.correctives.push_back({"c", rig.shapes[1], Eigen::VectorXd::Constant(1, -0.7)});
     const BlendShapePlayer played(rig);
     for (const Eigen::Vector3d& weights :

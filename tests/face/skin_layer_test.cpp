@@ -316,7 +316,7 @@ TEST(SkinLayer, FoldsTheForeheadOfARaisedBrowAndNothingAtRest) {
 
 TEST(SkinLayer, OfAnOldFaceHasLinesAtRestThatMoveNoVertex) {
     rig::RigDescription old = rig::adult().rig;
-    old.look.age = 1;
+    old.appearance.age = 1;
     Face face(old, rig::adult().mesh, preview(), "adult");
     const FacePose pose = settled(face, neutral());
     EXPECT_LT((pose.vertices - face.head().vertices).rowwise().norm().maxCoeff(), 1e-6);

@@ -73,9 +73,9 @@ TEST(Light, AStopMoreDoublesTheLightOfACard) {
 TEST(Light, InAWhiteFurnaceAWhiteBallVanishesAndSkinAddsNothing) {
     // Even light from all around, half of white so that nothing is rolled off
     RoundHead head;
-    head.scene.look.skin_tone = head.scene.look.lip_tone = head.scene.look.hair_tone =
-        Vec3(1, 1, 1);
-    head.scene.look.freckles = 0;
+    head.scene.appearance.skin_tone = head.scene.appearance.lip_tone =
+        head.scene.appearance.hair_tone = Vec3(1, 1, 1);
+    head.scene.appearance.freckles = 0;
     for (Surface& surface : head.scene.surfaces)
         if (surface.material != Material::kSkin) surface.triangles.resize(0, 3);
     const auto brightness = [&](Material material) {

@@ -58,7 +58,7 @@ Vec3 ring_mean(const Image& image, double from_mm, double to_mm) {
 TEST(PartTexture, TheIrisHasItsToneAroundABlackPupilInAWhiteEye) {
     for (const Vec3& tone : {Vec3(0.35, 0.50, 0.60), Vec3(0.33, 0.20, 0.11)}) {
         RoundHead head = parts_laid_out();
-        head.scene.look.iris_tone = tone;
+        head.scene.appearance.iris_tone = tone;
         const OffscreenView view = small_view_of(head);
         const Image eyes = view.part_texture(head.scene, Material::kEye, kPartSide_px);
         EXPECT_LT(ring_mean(eyes, 0, 1.2).maxCoeff(), 0.02);

@@ -96,7 +96,7 @@ TEST_F(RoundHeadLooks, HairOfSomeLengthStandsOffTheScalpAndOnlyThere) {
         return sum;
     };
     EXPECT_EQ(opacities(), (std::array<int, 2>{0, 0}));
-    head.scene.look.hair_length_mm = 15;
+    head.scene.appearance.hair_length_mm = 15;
     const std::array<int, 2> hairy = opacities();
     EXPECT_GT(hairy[0], 2 * 255);
     EXPECT_EQ(hairy[1], 0);

@@ -48,7 +48,7 @@ TEST(SkinTexture, ShowsSkinAndLipsWhereTheyAreLaidOut) {
         return Vec3(p[0], p[1], p[2]) / 255;
     };
     const Vec3 forehead = colour(0.02, 0.05), lip = colour(0.002, -0.052);
-    EXPECT_LT((forehead - head.scene.look.skin_tone).cwiseAbs().maxCoeff(), 0.15);
+    EXPECT_LT((forehead - head.scene.appearance.skin_tone).cwiseAbs().maxCoeff(), 0.15);
     EXPECT_GT(lip.x() / lip.y(), forehead.x() / forehead.y() + 0.1) << "the red of the lips";
     EXPECT_EQ(texture.rgba, view.skin_texture(head.scene, kSide_px).rgba);
 }
@@ -66,8 +66,8 @@ TEST(SkinTexture, HairBeginsHigherWhereItHasReceded) {
     head.scene.landmarks["fht_l"] = Vec3(0.08, 0.05, 0.033);
     head.scene.landmarks["fht_r"] = Vec3(-0.08, 0.05, 0.033);
     const auto line = [&](double hairline_mm, double temples_mm, const Vec2& place) {
-        head.scene.look.hairline_mm = hairline_mm;
-        head.scene.look.temples_mm = temples_mm;
+        head.scene.appearance.hairline_mm = hairline_mm;
+        head.scene.appearance.temples_mm = temples_mm;
         return hairline_radius(plan_skin(head.scene, Vec3::Zero()), place);
     };
     const Vec2 front(0.5, 0.7), bay(0.60, 0.68), nape(0.5, 0.1);

@@ -70,7 +70,7 @@ TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
     EXPECT_EQ(at(0.03, 0.040), Part::kBrowLeft);
     EXPECT_EQ(at(-0.03, 0.040), Part::kBrowRight);
 
-    head.scene.look.scalp_hair = 0;
+    head.scene.appearance.scalp_hair = 0;
     const SurfacePasses shaved(head.scene, camera_ahead(true), kPictureWidth, kPictureHeight);
     const std::vector<std::uint16_t> bare = shaved.parts(shaved.look(head.scene.rest));
     EXPECT_EQ(std::count(bare.begin(), bare.end(), static_cast<std::uint16_t>(Part::kHair)), 0);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "message_of.h"
 #include "paths.h"
 #include "rig/heads.h"
 #include "risorius/rig/head.h"
@@ -114,8 +115,8 @@ RigDescription unusual_rig() {
     rig.tissue.deep_shear_pa = 812.5;
     rig.tissue.fibre_passive_strain = 0.1 + 0.2;
     rig.skin.bending_n_m = 3e-5;
-    rig.look.skin_tone = Vec3(0.1, 0.2, 0.3);
-    rig.look.seed = 77;
+    rig.appearance.skin_tone = Vec3(0.1, 0.2, 0.3);
+    rig.appearance.seed = 77;
     for (MuscleBand& band : rig.atlas.bands)
         if (band.muscle == "mentalis") band.strength = 0.31;
     return rig;
@@ -156,16 +157,34 @@ TEST_F(RigFile, ThatCannotBeWrittenLeavesNothingBehind) {
 TEST_F(RigFile, TheAdultTakesEveryDefaultOfTheFormat) {
     // What the adult's file spells out and what a file without these tables gets.
     Json json = adult_json();
-    for (const char* key : {"tissue", "skin", "look"}) json.erase(key);
+    for (const char* key : {"tissue", "skin", "appearance"}) json.erase(key);
     json["anatomy"].erase("jaw");
     json["anatomy"].erase("eyes");
     write(json);
     EXPECT_NO_THROW(read_rig("rig.json"));
 }
 
+TEST_F(RigFile, TheOldNameOfAppearanceIsReadWithANote) {
+    Json json = adult_json();
+    EXPECT_TRUE(adult().rig.notes.empty());
+    json["look"] = json["appearance"];
+    json["look"]["age"] = 0.5;
+    json.erase("appearance");
+    write(json);
+    const RigDescription rig = read_rig("rig.json");
+    EXPECT_EQ(rig.appearance.age, 0.5);
+    ASSERT_EQ(rig.notes.size(), 1u);
+    EXPECT_EQ(rig.notes[0], "the key \"look\" is now named \"appearance\"");
+
+    json["appearance"] = json["look"];
+    write(json);
+    EXPECT_NE(message_of([] { read_rig("rig.json"); }).find("rig.json:/look: expected either"),
+              std::string::npos);
+}
+
 TEST_F(RigFile, EveryDocumentedPlaceForATableTakesAPath) {
     Json json = adult_json();
-    for (const char* key : {"tissue", "skin", "look"}) {
+    for (const char* key : {"tissue", "skin", "appearance"}) {
         write(json[key], std::string(key) + ".json");
         json[key] = std::string(key) + ".json";
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "structure/source_tree.h"
@@ -160,6 +161,28 @@ TEST(HouseRules, NoSourcePathIsCompiledIn) {
             EXPECT_FALSE(line.find("DEFINITIONS") != std::string::npos &&
                          line.find("_DIR}") != std::string::npos)
                 << list << ": " << line;
+}
+
+TEST(HouseRules, NoFunctionIsLongerThanAHundredLines) {
+    const auto [version, status] = run("ctags --version");
+    if (status != 0 || version.find("Universal Ctags") == std::string::npos)
+        GTEST_SKIP() << "Universal Ctags is not installed";
+    constexpr int kMaxLines = 100;
+    const auto [tags, listed] = run("cd '" + source_dir().string() +
+                                    "' && ctags -R -f - --languages=C++ --kinds-C++=f --fields=+ne "
+                                    "--output-format=json src tools");
+    ASSERT_EQ(listed, 0) << tags.substr(0, 1000);
+    int functions = 0;
+    for (const std::string& line : lines_of(tags)) {
+        const auto tag = nlohmann::json::parse(line, nullptr, false);
+        if (!tag.is_object() || !tag.contains("end")) continue;
+        ++functions;
+        const int first = tag["line"], length = tag["end"].get<int>() - first + 1;
+        EXPECT_LE(length, kMaxLines)
+            << tag["path"].get<std::string>() << ":" << first << ": "
+            << tag["name"].get<std::string>() << " has " << length << " lines";
+    }
+    EXPECT_GT(functions, 1000);
 }
 
 TEST(HouseRules, SourcesAreLaidOutByClangFormat) {

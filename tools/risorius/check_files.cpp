@@ -20,9 +20,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-rig::Head check_rig(const fs::path& file) {
+void check_rig(const fs::path& file, CheckResult& result) {
     const scene::RigFiles files = scene::read_rig_files(file);
-    return rig::place_head(files.rig, files.mesh, files.place());
+    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+    result.notes = files.rig.notes;
+    if (!head.warped_landmarks.empty())
+        result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
+                               " landmarks are not given and placed by the atlas");
 }
 
 /// Notes what a script asks for after its last frame.
@@ -88,12 +92,7 @@ void check(CheckResult& result) {
     if (result.format == "design") result.notes = stimuli::plan_batch(result.file).notes;
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
-    if (result.format == "rig") {
-        const rig::Head head = check_rig(result.file);
-        if (!head.warped_landmarks.empty())
-            result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
-                                   " landmarks are not given and placed by the atlas");
-    }
+    if (result.format == "rig") check_rig(result.file, result);
     // Readers say best what is wrong; the schema knows the formats that only programs write, and keys that only a run reads.
     check_against_schema(json, format);
 }

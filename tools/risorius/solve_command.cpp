@@ -41,6 +41,19 @@ void run(SolveArguments& arguments) {
         print(report, arguments.options);
 }
 
+// An option of earlier versions: it is not listed, and it works with a note that names the new one.
+void add_old_name(CLI::App& command, const std::string& old_name, const std::string& new_name,
+                  double& value) {
+    command
+        .add_option_function<double>(old_name,
+                                     [old_name, new_name, &value](const double& given) {
+                                         std::fprintf(stderr, "note: %s is now named %s\n",
+                                                      old_name.c_str(), new_name.c_str());
+                                         value = given;
+                                     })
+        ->group("");
+}
+
 }  // namespace
 
 void add_solve(CLI::App& app) {
@@ -74,19 +87,20 @@ void add_solve(CLI::App& app) {
                      "Quality of the simulation: \"preview\", \"video\" or \"fine\"")
         ->capture_default_str();
     command
-        ->add_option("--price", options.price,
-                     "L1 weight: the cost of an activation of 1, relative to half the squared norm "
-                     "of the target")
+        ->add_option(
+            "--l1-weight", options.l1_weight,
+            "Cost of an activation of 1; half of the squared size of what is given costs 1")
         ->capture_default_str();
     command
-        ->add_option("--ridge", options.ridge,
-                     "L2 weight: the cost of its square, in the same unit")
+        ->add_option("--l2-weight", options.l2_weight, "Cost of half the square of an activation")
         ->capture_default_str();
     command
-        ->add_option("--smooth", options.smooth,
-                     "Temporal weight: the cost of the square of its change between frames, in the "
-                     "same unit")
+        ->add_option("--temporal-weight", options.temporal_weight,
+                     "Cost of half the square of its change from frame to frame")
         ->capture_default_str();
+    add_old_name(*command, "--price", "--l1-weight", options.l1_weight);
+    add_old_name(*command, "--ridge", "--l2-weight", options.l2_weight);
+    add_old_name(*command, "--smooth", "--temporal-weight", options.temporal_weight);
     command->add_option("--fps", options.fps, "Maximum number of frames per second that are solved")
         ->capture_default_str();
     command->add_option("--threads", options.threads,

@@ -61,17 +61,17 @@ constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // any would do, if they ar
 constexpr long kFittedOfScript = 24;
 
 Json correctives_json(const Correctives& found) {
-    Json kept = Json::array(), terms = Json::array(), tried = Json::array();
+    Json kept = Json::array(), drivers = Json::array(), tried = Json::array();
     for (const blendshapes::Corrective& one : found.rig.correctives)
         kept.push_back({{"name", one.name}, {"vertices", one.shape.vertex.size()}});
-    for (const blendshapes::Term& term : found.rig.terms) terms.push_back(term.name);
+    for (const blendshapes::Driver& driver : found.rig.drivers) drivers.push_back(driver.name);
     for (const TriedCorrective& one : found.tried)
         tried.push_back({{"name", one.name},
                          {"max_mm", 1e3 * one.greatest_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
                          {"put_right", one.put_right}});
-    return {{"kept", kept}, {"terms", terms}, {"tried", tried}, {"bytes", found.bytes}};
+    return {{"kept", kept}, {"terms", drivers}, {"tried", tried}, {"bytes", found.bytes}};
 }
 
 Json tracks_json(const std::vector<TrackError>& tracks) {

@@ -1,4 +1,4 @@
-// `risorius shapes`: from a rig to blend shapes with a certificate, in the files that other programs read.
+// `risorius shapes`: makes blend shapes from a rig, with a certificate, in the file formats that other programs read.
 #pragma once
 
 #include <filesystem>
@@ -28,8 +28,8 @@ struct ShapesOptions {
     std::optional<double> corrective_tolerance_m = {};
     std::optional<long> corrective_bytes = {};
     int test_frames =
-        24;  ///< of each track on which the linear rig is compared with the simulation; 0: none
-    std::filesystem::path script = {};  ///< to be baked into weights; empty: none
+        24;  ///< frames of each track on which the blend shapes are compared with the simulation; 0: none
+    std::filesystem::path script = {};  ///< script that is converted to weights; empty: none
     int threads = 0;  ///< 0 = as many as the machine has; results do not depend on it
 };
 
@@ -37,25 +37,25 @@ struct ShapesOptions {
 const std::vector<std::string>& shape_formats();
 
 struct ShapesReport {
-    std::string name;  ///< of the rig
+    std::string name;  ///< name of the rig
     std::string rig, set, quality;
     track::ChannelTable channels;
     MadeShapes shapes;
-    Correctives correctives;                  ///< rig: the shapes and what was kept
-    std::vector<TrackError> tracks;           ///< of the linear rig against the simulation
+    Correctives correctives;                  ///< the shapes and their correctives
+    std::vector<TrackError> tracks;           ///< errors of the blend shapes against the simulation
     std::optional<ShapeAnimation> animation;  ///< of the script
     std::vector<std::pair<std::string, std::string>> left_out;  ///< name, why
     int vertices = 0, nodes = 0;
     double solving_s = 0;                             ///< wall time
     std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes
 
-    /// Shapes beyond a limit.
+    /// Number of shapes that exceed a limit.
     int complaints() const;
     /// Without times, so that the same rig gives the same bytes.
     Json json() const;
 };
 
-/// Throws Error when the rig cannot be used, Interrupted; then nothing is left behind.
+/// Throws Error when the rig cannot be used, Interrupted; then no files are left.
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::blendshapes

@@ -69,14 +69,14 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
             indices.push_back(static_cast<int>(index_of_name(name.place(), name.string(), names)));
         return indices;
     };
-    const std::vector<JsonCursor> terms = extras.at("terms").items();
-    for (const JsonCursor& json : terms) {
-        blendshapes::Term& term = out.rig.terms.emplace_back();
-        term.name = json.at("name").string();
-        term.drivers = indices_of(json.at("drivers"));
-        if (term.drivers.empty()) json.at("drivers").fail("at least one shape");
-        if (term.drivers.size() == 1) term.part = json.at("part").integer(1, 3);
-        if (const auto others = json.find("fades_with")) term.fades_with = indices_of(*others);
+    const std::vector<JsonCursor> drivers = extras.at("terms").items();
+    for (const JsonCursor& json : drivers) {
+        blendshapes::Driver& driver = out.rig.drivers.emplace_back();
+        driver.name = json.at("name").string();
+        driver.shapes = indices_of(json.at("drivers"));
+        if (driver.shapes.empty()) json.at("drivers").fail("at least one shape");
+        if (driver.shapes.size() == 1) driver.part = json.at("part").integer(1, 3);
+        if (const auto others = json.find("fades_with")) driver.fades_with = indices_of(*others);
     }
     for (std::size_t c = 0; c < correctives.size(); ++c) {
         blendshapes::Corrective& one = out.rig.correctives.emplace_back();
@@ -85,13 +85,13 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         if (one.name != target.name)
             correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
         const std::vector<JsonCursor> shares = correctives[c].at("of_terms").items();
-        if (shares.size() != terms.size())
+        if (shares.size() != drivers.size())
             correctives[c]
                 .at("of_terms")
-                .fail("a number for each of " + std::to_string(terms.size()) + " terms");
-        one.of_terms.resize(static_cast<long>(shares.size()));
+                .fail("a number for each of " + std::to_string(drivers.size()) + " terms");
+        one.of_drivers.resize(static_cast<long>(shares.size()));
         for (std::size_t t = 0; t < shares.size(); ++t)
-            one.of_terms[static_cast<long>(t)] = shares[t].number();
+            one.of_drivers[static_cast<long>(t)] = shares[t].number();
         one.shape = {target.vertex, target.delta};
     }
     return out;

@@ -1,7 +1,7 @@
-// Scripts played by blend shapes instead of the simulation: what a script drives becomes weights, shapes and their correctives are
-// added up, eyes, head and neck turn as in the simulated face.
+// Plays scripts with blend shapes instead of the simulation: the drive becomes weights, shapes and correctives are added, and eyes, head and
+// neck move as in the simulated face.
 //
-// A face is built for what the weights follow from (shape_weights.h) and for its eyes and neck; it is not stepped.
+// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck; it is not stepped.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,14 @@
 
 namespace risorius::blendshapes {
 
-/// Of a glTF file that `risorius shapes` has left.
+/// Data of a glTF file that `risorius shapes` wrote.
 struct ShapesOfFile {
     std::string set;
-    std::vector<ShapeGoal> goals;    ///< what drives each shape, by the rig's tables
+    std::vector<ShapeGoal> goals;    ///< drive of each shape, from the rig's tables
     blendshapes::BlendShapeRig rig;  ///< on the vertices of the mesh
 };
 
-/// Throws Error when the file is none of `risorius shapes`, or of another mesh, or its shapes are not in the rig's tables.
+/// Throws Error when the file was not written by `risorius shapes`, is of another mesh, or has shapes that the rig's tables do not know.
 ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene::RigFiles& files,
                                  const rig::Head& head);
 
@@ -32,7 +32,7 @@ class ShapePlayer {
     /// Keeps a reference to the face and leaves it at rest.
     ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::ChannelTable& channels);
 
-    /// Of a drive whose excitation is activation; microseconds.
+    /// For a drive whose excitation is taken as activation; takes microseconds.
     face::FacePose pose(const track::Drive& drive) const;
     const ShapesOfFile& shapes() const { return shapes_; }
 

@@ -22,6 +22,7 @@
 #include "risorius/rig/head.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/track/channels.h"
+#include "risorius/track/motion.h"
 
 namespace risorius::face {
 
@@ -51,8 +52,7 @@ struct Quality {
 /// "fine": as video, with 1,700 skin vertices.
 Quality quality_named(const std::string& name);
 
-/// With inertia, damping and time for muscles to act; or every pose in equilibrium with its drive, excitation taken as activation.
-enum class Motion { kDynamic, kQuasiStatic };
+using track::Motion;
 
 /// The drive at any time, s.
 using DriveAt = std::function<track::Drive(double t_s)>;

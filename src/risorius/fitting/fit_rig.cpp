@@ -18,6 +18,7 @@
 #include "risorius/report/output_paths.h"
 #include "risorius/rig/cut_lips.h"
 #include "risorius/rig/head.h"
+#include "risorius/rig/wrinkle_table.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::fitting {
@@ -36,6 +37,7 @@ rig::RigDescription standard_rig(const fs::path& folder) {
     rig.atlas.thickness = rig::read_thickness(table("tissue_thickness.json"));
     rig.atlas.attachments = rig::read_attachments(table("attachments.json"));
     rig.atlas.bands = rig::read_muscle_bands(table("muscle_bands.json"));
+    rig.atlas.wrinkles = rig::read_wrinkles(table(rig::kWrinkleFile), rig.atlas.landmark_ids());
     rig.muscles = rig::read_muscle_table(table("muscles.json"));
     rig.facs = track::read_facs(table("facs.json"), rig.channels());
     rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
@@ -153,6 +155,61 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
     }
 }
 
+void check_parts(const FitOptions& options, const geom::PolygonMesh& mesh) {
+    for (const auto& [role, groups] : options.parts) {
+        const auto& roles = rig::part_roles();
+        if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
+            std::string names;
+            for (std::string_view known : roles) names += " " + std::string(known);
+            throw Error(option_name("part"), "one of the roles" + names, "\"" + role + "\"");
+        }
+        for (const std::string& group : groups)
+            if (mesh.group_index(group) < 0)
+                throw Error(option_name("part"),
+                            "a group of the mesh: " + quoted_list(mesh.group_names),
+                            "\"" + group + "\"");
+    }
+}
+
+// The rig and, where it was changed, the mesh.
+void write_files(const FitOptions& options, const fs::path& standard, bool mesh_changed,
+                 const geom::PolygonMesh& mesh, rig::RigDescription& rig) {
+    if (options.out.has_parent_path()) {
+        std::error_code failure;
+        fs::create_directories(options.out.parent_path(), failure);
+        if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
+    }
+    if (mesh_changed) {
+        rig.mesh_file = changed_mesh_file(options.out);
+        io::write_obj(mesh, rig.mesh_file);
+    }
+    rig::write_rig(rig, options.out,
+                   {.standard_folder = standard, .inline_tables = options.inline_tables});
+}
+
+void report_head(const rig::RigDescription& rig, const face::Face& face,
+                 const LandmarkPositions& landmarks, FitReport& report) {
+    const rig::Head& head = face.head();
+    report.metres_per_unit = rig.metres_per_unit;
+    report.size = head.size;
+    report.residual_mm = 1e3 * head.frame.residual_m;
+    report.parts = rig.parts;
+    report.given_landmarks = static_cast<int>(landmarks.size());
+    report.warped_landmarks = head.warped_landmarks;
+    report.worth_giving = worth_giving(head, rig.atlas);
+    report.nodes = face.node_count();
+    report.tets = face.tet_count();
+    report.dropped_tets = face.dropped_tets();
+    report.inverted_tets = face.inverted_tets();
+    report.fibres = face.fibre_count();
+    report.eyes = head.eyes[0].present && head.eyes[1].present;
+    report.teeth = head.has_teeth;
+    if (!report.eyes)
+        report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
+    if (!report.teeth)
+        report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
+}
+
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
@@ -186,19 +243,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     check_frame(frame, options);
     report.notes = group_pieces_of(mesh, frame, landmarks, options);
     const bool regrouped = !report.notes.empty();
-    for (const auto& [role, groups] : options.parts) {
-        const auto& roles = rig::part_roles();
-        if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
-            std::string names;
-            for (std::string_view known : roles) names += " " + std::string(known);
-            throw Error(option_name("part"), "one of the roles" + names, "\"" + role + "\"");
-        }
-        for (const std::string& group : groups)
-            if (mesh.group_index(group) < 0)
-                throw Error(option_name("part"),
-                            "a group of the mesh: " + quoted_list(mesh.group_names),
-                            "\"" + group + "\"");
-    }
+    check_parts(options, mesh);
     PartGuess guess =
         guess_parts(mesh, options.parts, [&](const Vec3& p) { return frame.to_head(p).x(); });
     rig.parts = guess.parts;
@@ -235,35 +280,8 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
     // Write it and say what came out
-    if (options.out.has_parent_path()) {
-        std::error_code failure;
-        fs::create_directories(options.out.parent_path(), failure);
-        if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
-    }
-    if (report.lips_cut || regrouped) {
-        rig.mesh_file = changed_mesh_file(options.out);
-        io::write_obj(mesh, rig.mesh_file);
-    }
-    rig::write_rig(rig, options.out,
-                   {.standard_folder = standard, .inline_tables = options.inline_tables});
-    report.metres_per_unit = rig.metres_per_unit;
-    report.size = head.size;
-    report.residual_mm = 1e3 * head.frame.residual_m;
-    report.parts = rig.parts;
-    report.given_landmarks = static_cast<int>(landmarks.size());
-    report.warped_landmarks = head.warped_landmarks;
-    report.worth_giving = worth_giving(head, rig.atlas);
-    report.nodes = face.node_count();
-    report.tets = face.tet_count();
-    report.dropped_tets = face.dropped_tets();
-    report.inverted_tets = face.inverted_tets();
-    report.fibres = face.fibre_count();
-    report.eyes = head.eyes[0].present && head.eyes[1].present;
-    report.teeth = head.has_teeth;
-    if (!report.eyes)
-        report.notes.push_back("no eyes among the groups: the lids close over guessed ones");
-    if (!report.teeth)
-        report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
+    write_files(options, standard, report.lips_cut || regrouped, mesh, rig);
+    report_head(rig, face, landmarks, report);
     const BoneEstimate bone = bone_estimate(head, rig, face.shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)

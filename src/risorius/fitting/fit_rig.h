@@ -1,4 +1,4 @@
-// From any face mesh with landmarks to a muscle rig.
+// Makes a muscle rig from any face mesh with landmarks.
 #pragma once
 
 #include <filesystem>
@@ -18,17 +18,19 @@ struct FitOptions {
     std::filesystem::path mesh, landmarks, out;
     std::filesystem::path
         standard{};  ///< folder of the standard tables; empty: those of this build
-    std::optional<double> metres_per_unit{};  ///< none: told from the landmarks
+    std::optional<double> metres_per_unit{};  ///< none: estimated from the landmarks
     std::string name{};                       ///< empty: that of the mesh file
     std::map<std::string, std::vector<std::string>>
-        parts{};                ///< role -> groups; the rest is guessed from their names
+        parts{};  ///< role -> groups; other roles are guessed from the names of groups
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
-    bool together = true;  ///< after each muscle by itself, all together: fit_strengths.h
+    bool together =
+        true;  ///< after each muscle alone, all muscles are calibrated together: fit_strengths.h
     bool cut_lips =
-        false;  ///< those of a scan that are grown together; the cut mesh is written beside the rig
+        false;  ///< cuts lips of a scan that have grown together; the cut mesh is written next to the rig
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
-    bool solids = false;  ///< the volume muscles of the standard table, rather than bundles alone
+    bool solids =
+        false;  ///< uses the volume muscles of the standard table, not only bundles of fibres
 };
 
 struct FitReport {
@@ -40,19 +42,20 @@ struct FitReport {
     std::map<std::string, std::vector<std::string>> parts;
     int given_landmarks = 0;
     std::vector<std::string> warped_landmarks;  ///< placed by warping the atlas
-    std::vector<std::string> worth_giving;  ///< of those, the ones most muscles hang on, best first
+    std::vector<std::string>
+        worth_giving;  ///< those of them that most muscles depend on, most important first
     int nodes = 0, tets = 0, dropped_tets = 0, inverted_tets = 0, fibres = 0;
     BoneFigures bone;
     bool eyes = false, teeth = false, lips_cut = false;
     std::vector<MuscleStrength> strengths;
-    /// Of the standard expressions from those of the standard head, before and after the muscles were scaled together: fit_strengths.h
+    /// Mean difference of the standard expressions from those of the standard head, before and after the joint calibration: fit_strengths.h
     double difference_before = 0, difference = 0;
     std::vector<std::string> notes;
 
     Json json() const;
 };
 
-/// Throws Error when the mesh or the landmarks are not those of a head; then nothing is written.
+/// Throws Error when mesh or landmarks are not those of a head; then no file is written.
 FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::fitting

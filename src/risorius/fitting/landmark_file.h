@@ -1,4 +1,4 @@
-// A landmark file whose names are those of the atlas.
+// Reads a landmark file whose names are those of the atlas.
 #pragma once
 
 #include <filesystem>

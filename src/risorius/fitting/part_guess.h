@@ -1,4 +1,4 @@
-// What the groups of an unknown mesh are, told from their names: "Eyeball_L" is the left eye.
+// Guesses the roles of an unknown mesh's groups from their names: "Eyeball_L" is the left eye.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,14 @@ namespace risorius::fitting {
 
 struct PartGuess {
     std::map<std::string, std::vector<std::string>> parts;  ///< role -> groups
-    std::vector<std::string> notes;                         ///< what was left out, and why
+    std::vector<std::string> notes;  ///< groups that got no role, and the reason
 };
 
-/// The role a name suggests, or "" when it suggests none. Eyes and corneas come without a side when the name has none:
-/// "eye", "cornea".
+/// The role that a name suggests, or "" when it suggests none. For eyes and corneas without a side in the name: "eye", "cornea".
 std::string role_suggested_by(const std::string& group);
 
-/// `given` roles win. A mesh of one group is skin. `left_of`, positive for points nearer to the subject's left, decides
-/// on eyes whose names have no side.
+/// `given` roles take precedence. A mesh with one group is skin. `left_of`, positive for points nearer to the subject's left, decides the
+/// side of eyes whose names have none.
 PartGuess guess_parts(const geom::PolygonMesh& mesh,
                       const std::map<std::string, std::vector<std::string>>& given,
                       const std::function<double(const Vec3& mesh_units)>& left_of);

@@ -1,6 +1,6 @@
-// The nearest point of a triangle surface, what a ray meets first, and points bound to a surface so that they follow it.
+// Closest points on a triangle surface, first hits of rays, and points bound to a surface so that they move with it.
 //
-// Answers do not depend on how the search tree is cut: of equally near triangles the one with the lowest index wins.
+// Results do not depend on the search tree: of equally near triangles the one with the lowest index is taken.
 // Closest point on a triangle by regions of Voronoi: Ericson 2005, Real-Time Collision Detection, 5.1.5.
 #pragma once
 
@@ -18,7 +18,7 @@ struct TrianglePoint {
     Vec3 barycentric = Vec3::Zero();  ///< weights of the three corners, each >= 0, sum 1
     double squared_distance = 0.0;
 };
-/// Also right for triangles collapsed to a segment or a point.
+/// Also correct for triangles that have collapsed to a segment or a point.
 TrianglePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 struct SurfacePoint : TrianglePoint {
@@ -38,15 +38,14 @@ class SurfaceTree {
     SurfaceTree() = default;
     SurfaceTree(const Points& positions, const Triangles& triangles);
 
-    /// Same triangles, moved: keeps the tree and only grows its boxes. Cheaper than building, slower to search after
-    /// large deformation.
+    /// Moves the triangles: keeps the tree and updates its boxes. Faster than a new tree, but slower to search after large deformation.
     void refit(const Points& positions);
 
-    /// Nothing within `max_distance`, or no triangles: empty.
+    /// Empty when nothing lies within `max_distance`, or there are no triangles.
     std::optional<SurfacePoint> closest(
         const Vec3& p, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-    /// First triangle met in [0, max_distance], from either face.
+    /// First triangle hit in [0, max_distance], from either side.
     std::optional<RayHit> cast(const Vec3& origin, const Vec3& direction,
                                double max_distance = std::numeric_limits<double>::infinity()) const;
 
@@ -68,7 +67,7 @@ class SurfaceTree {
     std::vector<Node> nodes_;
 };
 
-/// A point held by a triangle: foot on the triangle plus an offset in the triangle's own frame.
+/// A point bound to a triangle: foot on the triangle plus an offset in the triangle's own frame.
 struct SurfaceBinding {
     int triangle = -1;
     Vec3 barycentric = Vec3::Zero();
@@ -80,11 +79,11 @@ Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& c);
 
 SurfaceBinding bind_to_surface(const Vec3& p, const SurfacePoint& foot, const Points& positions,
                                const Triangles& triangles);
-/// To the nearest triangle each; `tree` is of the same surface and must not be empty.
+/// Binds each point to the nearest triangle; `tree` is of the same surface and must not be empty.
 std::vector<SurfaceBinding> bind_to_surface(const Points& points, const SurfaceTree& tree,
                                             const Points& positions, const Triangles& triangles);
 
-/// Where the bound point is now; `positions` may be moved.
+/// Current position of the bound point for these vertex positions, m.
 Vec3 bound_point(const SurfaceBinding& binding, const Points& positions,
                  const Triangles& triangles);
 

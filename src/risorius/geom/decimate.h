@@ -14,7 +14,7 @@ struct DecimateOptions {
     double max_normal_turn_deg =
         50;  ///< a triangle's normal may turn at most this far from its original surface
     double boundary_tolerance =
-        0.25;  ///< a boundary vertex may leave if it lies this close to the new edge, ratio of wanted length
+        0.25;  ///< largest distance of a removable boundary vertex from the new edge / wanted length
     double longest_edge = 1.6;  ///< no edge longer than this, ratio of wanted length
 };
 
@@ -25,8 +25,8 @@ struct Decimated {
         collapsed_to;  ///< V, the kept vertex each original vertex went to; -1 if not on the surface
 };
 
-/// `length` is the wanted edge length at each vertex; vertices in `keep` (V, may be empty) are never removed. Those of `seam` (V, may
-/// be empty) lie on an edge along which another surface will be joined: they leave along it only, and it stays an edge.
+/// `length`: wanted edge length at each vertex. Vertices in `keep` (V, may be empty) are never removed. Vertices in `seam` (V, may be empty)
+/// lie on an edge along which another surface will be joined: they collapse only along it, and it remains an edge.
 Decimated decimate(const Triangles& triangles, const Points& points,
                    const std::vector<double>& length, const std::vector<char>& keep,
                    const DecimateOptions& options = {}, const std::vector<char>& seam = {});

@@ -1,4 +1,4 @@
-// The sphere that lies closest to points: least squares of |p - c|^2 - r^2.
+// The sphere that fits points best: least squares of |p - c|^2 - r^2.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct Sphere {
     double radius = 0;
 };
 
-/// Of at least four points that are not in one plane.
+/// Needs at least four points that are not in one plane.
 Sphere fitted_sphere(const std::vector<Vec3>& points);
 
 }  // namespace risorius::geom

@@ -1,4 +1,4 @@
-// What is wrong, or only worth knowing, about a face mesh before a rig is built on it.
+// Checks of a face mesh before a rig is built on it: errors and warnings.
 //
 // Messages name vertices and faces counted from 0, as the rows of PolygonMesh are, with the position in metres:
 //   head.obj:face 17: expected an area above 1e-13 m2, found 0 m2 (group skin, at (0.01, 0.02, 0.09) m)
@@ -11,7 +11,7 @@
 
 namespace risorius::geom {
 
-/// In the order they are made. Later ones need the earlier ones passed, so an error among the first three ends the check.
+/// In the order in which they are made. Later checks need the earlier ones passed, so an error in the first three ends the checks.
 enum class MeshCheck {
     kEmpty,            ///< no vertices or no faces
     kNonFinite,        ///< a position that is not a number
@@ -28,15 +28,15 @@ enum class MeshCheck {
 
 enum class Severity { kIgnore, kNote, kWarning, kError };
 
-/// Defaults suit the skin of a head: open at neck, eyes and mouth, perhaps split at texture seams.
+/// The defaults are for the skin of a head: open at neck, eyes and mouth, possibly split at texture seams.
 struct MeshCheckOptions {
-    std::vector<int> groups{};      ///< whose faces are looked at; empty = all
+    std::vector<int> groups{};      ///< groups whose faces are checked; empty: all
     double metres_per_unit = 1.0;   ///< with which the mesh was read, for advice in a message
     double smallest_size_m = 0.12;  ///< longest side of the bounding box: a face alone
     double largest_size_m = 1.0;    ///< a head with shoulders
     double smallest_face_area_m2 = 1e-13;
     double seam_tolerance_m = 1e-7;
-    int findings_per_check = 5;  ///< further ones are only counted
+    int findings_per_check = 5;  ///< further findings are only counted
 
     Severity degenerate_face = Severity::kError;
     Severity non_manifold_edge = Severity::kError;
@@ -65,7 +65,7 @@ struct MeshReport {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the groups looked at, m
 };
 
-/// All findings, errors among them. `name` opens every place, usually the file.
+/// All findings, including errors. `name` begins every place, usually the file.
 MeshReport inspect_mesh(const PolygonMesh& mesh, const std::string& name,
                         const MeshCheckOptions& options = {});
 

@@ -1,7 +1,7 @@
-// Left and right of a surface that is its own mirror image: which vertex answers to which, one half, and coarsening in pairs.
+// Left and right of a symmetric surface: the mirror partner of each vertex, one half, and coarsening in pairs.
 //
-// Only surfaces whose vertices come in pairs, with a line of vertices between the halves, count as mirrored. Triangles need not
-// agree (polygons are cut as they come): one half and its image stand for both.
+// Only surfaces whose vertices come in pairs, with a line of vertices between the halves, count as symmetric. Triangles need not be
+// symmetric (polygons are cut arbitrarily): one half and its image stand for both.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace risorius::geom {
 
 struct MirrorPairs {
     std::vector<int>
-        partner;  ///< V, of each vertex of the surface, itself on the seam, -1 elsewhere
+        partner;  ///< V, mirror partner of each vertex of the surface, itself on the seam, -1 elsewhere
     Vec3 normal = Vec3::UnitX();  ///< of the mirror plane normal.p = offset, towards the first half
     double offset = 0.0;
 
@@ -28,18 +28,18 @@ struct MirrorPairs {
     }
 };
 
-/// Looks for a mirror plane near the given one. Partners are at most `tolerance` of the shortest edge at a vertex off their
-/// mirror image. Not found() when any vertex has no partner or a triangle crosses the seam.
+/// Looks for a mirror plane near the given one. A partner's mirror image is at most `tolerance` times the shortest edge at a vertex away
+/// from it. Not found() when any vertex has no partner or a triangle crosses the seam.
 MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, Vec3 normal,
                               double offset, double tolerance = 0.25);
 
 /// The triangles that lie in the first half.
 Triangles first_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
-/// Of those, the ones whose mirror image is there too.
+/// The triangles in the first half whose mirror image exists too.
 Triangles paired_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
 Triangles with_mirror_image(const Triangles& half, const MirrorPairs& mirror);
 
-/// Coarsens the first half, vertices of the seam along the seam only, and gives both halves the result.
+/// Coarsens the first half, with vertices of the seam along the seam only, and gives both halves the result.
 Decimated decimate_mirrored(const Triangles& half, const Points& points,
                             const std::vector<double>& length, const MirrorPairs& mirror,
                             const DecimateOptions& options = {});

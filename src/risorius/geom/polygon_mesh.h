@@ -1,5 +1,5 @@
-// A mesh as its file gives it: polygons of any size over shared vertices, faces sorted into named groups.
-// Vertex order is the file's own, so that displacement tables by vertex index keep their meaning.
+// A mesh as its file gives it: polygons of any size over shared vertices, with faces in named groups. The vertex order is that of the file,
+// so that displacement tables by vertex index remain valid.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct PolygonMesh {
     std::vector<int> face_group;     ///< F, index into group_names
     std::vector<std::string> group_names;
     std::vector<Texture>
-        textures;  ///< the files need not be there; who wants their colours reads them
+        textures;  ///< the files need not exist; they are read only when colours are needed
     std::vector<int> face_texture;  ///< F, into textures or -1; empty when there are none
 
     int vertex_count() const { return static_cast<int>(positions.rows()); }

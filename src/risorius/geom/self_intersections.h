@@ -1,7 +1,7 @@
-// Where a surface runs through itself: triangles that share no vertex and yet cut each other.
+// Finds self-intersections of a surface: triangles that share no vertex and intersect each other.
 //
-// Two triangles in general position cut when an edge of one passes through the other; both ways are tried. Pairs that only
-// touch, to a billionth of their size, do not count, nor do coplanar ones.
+// Two triangles in general position intersect when an edge of one passes through the other; both are tested. Pairs that only touch, to a
+// billionth of their size, do not count, nor do coplanar ones.
 // Segment against triangle: Moeller & Trumbore 1997, J. Graphics Tools 2(1), 21-28.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The surface where a field on a grid is zero, as triangles: naive surface nets (Gibson 1998), one vertex per cell that it passes
-// through, in the mean of where it crosses the cell's edges.
+// The zero surface of a field on a grid, as triangles: naive surface nets (Gibson 1998), with one vertex in each cell that the surface
+// crosses, at the mean of its crossings of the cell's edges.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct GridField {
                static_cast<std::size_t>(i);
     }
     Vec3 place(int i, int j, int k) const { return origin + step_m * Vec3(i, j, k); }
-    /// Between the samples around a place, those at the border beyond it.
+    /// Interpolated between samples; outside of the grid the value at its border.
     double at(const Vec3& p) const;
 };
 

@@ -1,4 +1,4 @@
-// How the triangles of a surface hang together: edges, neighbours, boundary loops, pieces, hinges, vertex normals.
+// Topology of a triangle surface: edges, neighbours, boundary loops, pieces, hinges, vertex normals.
 //
 // Corner k of a triangle is its k-th vertex; side k runs from corner k to corner k + 1 (mod 3). Results are ordered by
 // index, so the same triangles give the same lists.
@@ -49,7 +49,7 @@ struct VertexNeighbours {
 };
 VertexNeighbours vertex_neighbours(const SurfaceEdges& edges, int vertex_count);
 
-/// Two triangles over one edge, for bending: (edge[0], edge[1], wing[0]) turns as the surface does, wing[1] is across.
+/// Two triangles with a common edge, for bending: (edge[0], edge[1], wing[0]) is wound like the surface, wing[1] is on the other side.
 struct Hinge {
     std::array<int, 2> edge;
     std::array<int, 2> wing;
@@ -61,6 +61,6 @@ std::vector<Hinge> surface_hinges(const Triangles& triangles, const SurfaceEdges
 /// Area-weighted unit normals, V x 3; zero for a vertex without area. Summed in triangle order.
 Points vertex_normals(const Points& positions, const Triangles& triangles);
 void vertex_normals(const Points& positions, const Triangles& triangles,
-                    Points& normals);  ///< no allocation when sized
+                    Points& normals);  ///< needs no allocation when it has the right size
 
 }  // namespace risorius::geom

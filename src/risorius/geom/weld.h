@@ -1,9 +1,9 @@
-// One surface out of a mesh that is split at seams: texture seams of glTF, region seams of a face mesh.
+// Joins a mesh that is split at seams into one surface: texture seams of glTF, seams between regions of a face mesh.
 //
 //   V   vertices of the mesh      W   vertices of the welded surface, W <= V
 //
-// By default only boundary vertices are joined. A seam is a boundary on both its sides, whereas lips that touch or a
-// lash root on the lid lie inside a surface and must stay free to part.
+// By default only boundary vertices are joined. A seam is a boundary on both sides, whereas lips that touch, or the root of lashes on a
+// lid, lie inside of a surface and must remain separate.
 #pragma once
 
 #include <vector>
@@ -24,15 +24,15 @@ struct WeldedSurface {
     std::vector<int> first_vertex;      ///< W, ascending: the lowest vertex joined into it
     std::vector<int> source_triangle;   ///< per triangle, its row among the given ones
 
-    int joined_count() const;  ///< vertices that gave way to another
+    int joined_count() const;  ///< number of vertices that were replaced by another
 };
 
-/// A vertex joins the nearest earlier one within the tolerance (the lowest index when equally near), so the result
-/// depends on nothing but the order of vertices.
+/// A vertex is joined to the nearest earlier one within the tolerance (the lowest index when equally near), so the result depends only on
+/// the order of vertices.
 WeldedSurface weld(const Points& positions, const Triangles& triangles,
                    const WeldOptions& options = {});
 
-/// Values per welded vertex back to the V vertices of the mesh; rows of unused vertices keep what `out` held.
+/// Copies values per welded vertex to the V vertices of the mesh; rows of unused vertices are unchanged.
 void spread(const WeldedSurface& surface, const Points& welded, Points& out);
 
 }  // namespace risorius::geom

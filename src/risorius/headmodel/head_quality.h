@@ -1,5 +1,4 @@
-// How well a head is made and how near it comes to the measured ones: distances to the tables of its design, the
-// anthropometric measures, and what animation asks of its topology. Lengths in mm.
+// Quality of a head: distances to the tables of its design, anthropometric measures, and the topology that animation needs. Lengths in mm.
 #pragma once
 
 #include <string>

@@ -35,21 +35,21 @@ headmodel::DesignTables design_tables() {
 
 Json tone_json(const Vec3& tone) { return Json{tone.x(), tone.y(), tone.z()}; }
 
-Json look_json(const headmodel::Identity& identity, const headmodel::DesignTables& tables) {
+Json appearance_json(const headmodel::Identity& identity, const headmodel::DesignTables& tables) {
     // Skin begins to show its age at 25, and hair is grey at 75.
     constexpr double kYoung = 25, kOld = 75;
-    Json look;
-    look["skin_tone"] = tone_json(tables.tones.at("skin").at(identity.skin));
-    look["lip_tone"] = tone_json(tables.tones.at("lips").at(identity.skin));
-    look["iris_tone"] = tone_json(tables.tones.at("iris").at(identity.iris));
-    look["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
-    look["freckles"] = identity.freckles;
-    look["scalp_hair"] = identity.scalp_hair;
-    look["hairline_mm"] = identity.hairline;
-    look["temples_mm"] = identity.temples;
-    look["beard"] = identity.beard;
-    look["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
-    return look;
+    Json out;
+    out["skin_tone"] = tone_json(tables.tones.at("skin").at(identity.skin));
+    out["lip_tone"] = tone_json(tables.tones.at("lips").at(identity.skin));
+    out["iris_tone"] = tone_json(tables.tones.at("iris").at(identity.iris));
+    out["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
+    out["freckles"] = identity.freckles;
+    out["scalp_hair"] = identity.scalp_hair;
+    out["hairline_mm"] = identity.hairline;
+    out["temples_mm"] = identity.temples;
+    out["beard"] = identity.beard;
+    out["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
+    return out;
 }
 
 render::Scene scene_of(const fs::path& rig_file) {
@@ -156,9 +156,9 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         fit.solids = true;
         report.notes = fitting::fit_rig(fit, monitor).notes;
         Json rig = JsonCursor::read_file(fit.out).json();
-        rig["look"] = look_json(options.identity, tables);
+        rig["appearance"] = appearance_json(options.identity, tables);
         // The pictures are for others: drawn here, the head looks the same with and without them.
-        if (textured) rig["look"]["textures"] = "generated";
+        if (textured) rig["appearance"]["textures"] = "generated";
         report::write_text(fit.out, rig.dump(1) + "\n");
         const render::Scene scene = scene_of(fit.out);
         media::write_png(views_of(scene), partial / kViews);

@@ -1,4 +1,4 @@
-// A head of the parametric family in a folder of its own: mesh, landmarks, rig, picture, and what it was made of.
+// Writes a head of the parametric family into a folder: mesh, landmarks, rig, picture, and the identity it was made from.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,12 @@ namespace risorius::headmodel {
 struct SculptOptions {
     std::filesystem::path out;     ///< folder
     headmodel::Identity identity;  ///< who
-    std::string place = "head";    ///< where the identity is from, for messages
+    std::string place = "head";    ///< where the identity was read, for messages
     bool mesh_only = false;        ///< no rig and no picture
     int texture_px =
         0;  ///< side of a picture of the skin's colours, those of the other parts half of it; 0: none
-    bool calibrate = false;  ///< muscles anew, minutes; else as strong as the adult's
+    bool calibrate =
+        false;  ///< calibrates the muscles, which takes minutes; else they are as strong as the adult's
     std::filesystem::path
         standard{};  ///< folder of the standard tables; empty: those of this build
 };
@@ -29,12 +30,12 @@ struct SculptReport {
     headmodel::Identity identity;
     headmodel::HeadQuality quality;
     std::vector<std::string> files;  ///< in the folder, sorted
-    std::vector<std::string> notes;  ///< of the fit
+    std::vector<std::string> notes;  ///< notes of the fit
 
     Json json() const;
 };
 
-/// The identity a command line asks for, checked: somebody with a name or a file, or drawn by a seed, then with what is set.
+/// The identity that a command line asks for, checked: a named one, a file or a seed, and then the fields that are set.
 struct IdentityChoice {
     std::string identity{};  ///< of models/identities, or a file; empty: the average adult
     std::optional<unsigned> seed{};
@@ -42,10 +43,10 @@ struct IdentityChoice {
     std::vector<std::string> shape{};  ///< "lips=1.2"
     std::optional<std::string> skin{}, iris{}, hair{};
 };
-/// Throws Error naming the option.
+/// Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);
 
-/// Throws Error when the identity is beyond what adults are, or the folder is somebody's own; then nothing is written.
+/// Throws Error when the identity is outside of the range of adults, or the folder holds other files; then nothing is written.
 SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::headmodel

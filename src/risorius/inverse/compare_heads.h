@@ -1,5 +1,5 @@
-// Whether two heads make the same expressions: the tables of each drive it, and the displacements of landmarks are compared
-// after scaling by the size of the head.
+// Compares the expressions of two heads: each is driven by its own tables, and the displacements of landmarks are compared after scaling
+// by the size of the head.
 //
 //   difference  sqrt(sum |u/s - u'/s'|^2 / sum |u'/s'|^2) over the landmarks of brows, eyes, nose and lips;  s  size of a head / the atlas head
 #pragma once
@@ -19,7 +19,7 @@ struct HeadDifference {
     double cosine = 1;        ///< of the two displacements
     double length_ratio = 1;  ///< |u/s| / |u'/s'|
     double landmark_mm = 0;   ///< mean |u/s - u'/s'|
-    std::string worst;        ///< landmark
+    std::string worst;        ///< landmark with the largest difference
 };
 
 struct HeadComparison {
@@ -29,7 +29,7 @@ struct HeadComparison {
     Json json() const;
 };
 
-/// `names` as in expression_drive.h, known to both rigs. Throws Error, Interrupted.
+/// `names`: as in expression_drive.h; both rigs must know them. Throws Error, Interrupted.
 HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,
                              const std::vector<std::string>& names, const std::string& quality,
                              const ProgressMonitor& monitor = {});

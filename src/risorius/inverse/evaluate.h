@@ -1,4 +1,4 @@
-// How near a rig's expressions come to measured ones: driven by its own tables, and after a bounded search of activations.
+// Compares a rig's expressions with measured ones: driven by the rig's own tables, and after a bounded search of activations.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ struct EvaluateOptions {
     std::filesystem::path rig = {}, shapes = {},
                           out = {};      ///< out: a folder; empty: nothing is written
     std::vector<std::string> only = {};  ///< names of shapes; empty: all
-    std::string quality = "preview";     ///< of the mesh; poses are settled
-    bool apart = false;                  ///< left and right by themselves
+    std::string quality = "preview";     ///< quality of the mesh; poses are in equilibrium
+    bool apart = false;                  ///< left and right shapes are evaluated separately
     bool fit = false;
     bool pictures = true;
 };
 
-/// One way of showing an expression.
+/// One simulation of an expression.
 struct Attempt {
     track::Drive drive;
     scene::ExpressionScore score;
@@ -37,17 +37,17 @@ struct Attempt {
 struct EvaluatedExpression {
     std::string name;
     Points measured;  ///< displacement, V x 3, m
-    Attempt table;    ///< by the rig's own table
+    Attempt table;    ///< with the drive of the rig's own table
     std::optional<Attempt> fitted;
 };
 
-/// Means over a list of expressions; the cosine and relative error of the least good ones beside.
+/// Means over a list of expressions, with the worst cosine and relative error.
 struct ScoreMeans {
     int count = 0;
     double cosine = 0, least_cosine = 1, relative = 0, rms_m = 0, landmark_m = 0;
 };
 
-/// Expressions that a mean is given for.
+/// A list of expressions with its means.
 struct ExpressionGroup {
     std::string key, title;
     std::vector<std::string> names;
@@ -62,13 +62,13 @@ struct Evaluation {
     int nodes = 0;
 
     ScoreMeans means(const std::vector<std::string>& names, bool fitted) const;
-    /// All; the sixteen and the twenty-four when every one is there; those the rig was calibrated on, and the others.
+    /// Lists: all; the sixteen and the twenty-four when all of them are present; those the rig was calibrated on, and the others.
     std::vector<ExpressionGroup> groups() const;
     bool is_calibrated_on(const std::string& expression) const;
     Json json() const;
 };
 
-/// The sixteen and the twenty-four expressions that published and earlier results are given for.
+/// The sixteen and the twenty-four expressions for which published and earlier results are given.
 const std::vector<std::string>& sixteen_expressions();
 const std::vector<std::string>& twenty_four_expressions();
 

@@ -116,8 +116,8 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
         return Eigen::VectorXd(weighted(face.pose().vertices - rest) - goal);
     };
     const auto cost = [&](const Eigen::VectorXd& miss, const Eigen::VectorXd& at) {
-        return 0.5 * miss.squaredNorm() / size + options.price * at.lpNorm<1>() +
-               0.5 * options.ridge * at.squaredNorm() +
+        return 0.5 * miss.squaredNorm() / size + options.l1_weight * at.lpNorm<1>() +
+               0.5 * options.l2_weight * at.squaredNorm() +
                (options.keep > 0 ? 0.5 * options.keep * (at - options.near).squaredNorm() : 0.0);
     };
     Eigen::VectorXd miss = settled_miss(x);
@@ -142,11 +142,11 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
         }
         solve::BoxQuadratic problem;
         problem.A = J.transpose() * J / size;
-        problem.A.diagonal().array() += options.ridge + options.keep;
+        problem.A.diagonal().array() += options.l2_weight + options.keep;
         // About x: the unknown is where it goes, so that the price counts from 0
         problem.b = J.transpose() * (miss - J * x) / size;
         if (options.keep > 0) problem.b -= options.keep * options.near;
-        problem.price = Eigen::VectorXd::Constant(count, options.price);
+        problem.price = Eigen::VectorXd::Constant(count, options.l1_weight);
         bool better = false;
         while (!better && longest > 0.01) {
             problem.least.resize(count);

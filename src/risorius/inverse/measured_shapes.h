@@ -1,4 +1,4 @@
-// Measured expressions of a head: displacement fields over the vertices of its mesh, and what drives the rig to show the same.
+// Measured expressions of a head: displacement fields over the vertices of its mesh, and the drive of the rig for each.
 //
 // File: {"shape": [S, V, 3], "dtype": "<f4", "layout": "[shape][vertex][xyz]", "names": [...], "file": "x.f32",
 // "units_per_metre": 100, "excitations": {name: {source: value}}, "on_top_of": {name: other}} beside the raw numbers; vertices in
@@ -19,18 +19,18 @@ namespace risorius::inverse {
 struct MeasuredShape {
     std::string name;
     Points displacement;  ///< V x 3, m, head frame
-    track::Drive drive;   ///< what the rig's tables or the file say brings it about
-    bool sided = false;   ///< of one side only
+    track::Drive drive;   ///< the drive for this expression, from the rig's tables or the file
+    bool sided = false;   ///< the shape is of one side only
 };
 
 struct MeasuredShapesOptions {
     std::vector<std::string> only = {};  ///< names; empty: all
-    bool apart = false;  ///< left and right shapes by themselves, not added up to one
+    bool apart = false;  ///< left and right shapes are kept separate instead of added to one
 };
 
-/// Shapes of one side (smile_L and smile_R, smileLeft and smileRight) become one, "smile". A shape measured on top of another
-/// ("on_top_of", and ARKit's mouthClose on jawOpen) is added to it, and so are their drives. Throws Error on a file
-/// that does not fit the mesh, numbers that are not finite, and names that the rig's tables do not know.
+/// Shapes of two sides (smile_L and smile_R, smileLeft and smileRight) are added to one, "smile". A shape measured on top of another
+/// ("on_top_of", and ARKit's mouthClose on jawOpen) is added to it, and so are their drives. Throws Error on a file that does not fit the
+/// mesh, on numbers that are not finite, and on names that the rig's tables do not know.
 std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& file,
                                                 const MeasuredShapesOptions& options,
                                                 const rig::RigDescription& rig,

@@ -135,7 +135,7 @@ class Solver {
         if (!(fit.size > 0))
             throw Error(options_.landmarks.string(), "landmarks that move", "none that does");
         track::Drive last = nothing(files_.rig.channels());
-        fit.keep = options_.smooth;
+        fit.keep = options_.temporal_weight;
         for (std::size_t t = 0; t < out.size(); ++t) {
             monitor.report(0.6 * static_cast<double>(t) / static_cast<double>(out.size()),
                            given_.names[t]);
@@ -144,7 +144,7 @@ class Solver {
             last = out[t].drive;
         }
         // Between both neighbours
-        fit.keep = 2 * options_.smooth;
+        fit.keep = 2 * options_.temporal_weight;
         fit.rounds = 1;
         for (std::size_t t = out.size(); t-- > 0;) {
             monitor.report(1 - 0.4 * static_cast<double>(t + 1) / static_cast<double>(out.size()),
@@ -161,8 +161,8 @@ class Solver {
     ActivationFitOptions usual(int rounds, const ProgressMonitor& monitor) const {
         ActivationFitOptions fit;
         fit.rounds = rounds;
-        fit.price = options_.price;
-        fit.ridge = options_.ridge;
+        fit.l1_weight = options_.l1_weight;
+        fit.l2_weight = options_.l2_weight;
         fit.least_gain = 3e-3;
         fit.rest = {.iterations = kIterations,
                     .tolerance_m = kTolerance_m,
@@ -284,9 +284,10 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
                     kinds == 0 ? "none" : std::to_string(kinds));
     if (!options.only.empty() && options.shapes.empty())
         throw Error(option_name("only"), option_name("shapes") + " to choose from", "none");
-    for (const auto& [name, value] : {std::pair{option_name("price"), options.price},
-                                      std::pair{option_name("ridge"), options.ridge},
-                                      std::pair{option_name("smooth"), options.smooth}})
+    for (const auto& [name, value] :
+         {std::pair{option_name("l1_weight"), options.l1_weight},
+          std::pair{option_name("l2_weight"), options.l2_weight},
+          std::pair{option_name("temporal_weight"), options.temporal_weight}})
         if (!(value >= 0 && value <= 1e3))
             throw Error(name, "a number in [0, 1000]", format_number(value));
     if (options.fps < 1 || options.fps > 240)

@@ -1,4 +1,4 @@
-// A mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and whatever else reads it.
+// Writes and reads a mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and others.
 //
 // Space: metres, y up, the face looks along +z, as glTF asks for. Every part is a primitive of one mesh with a material of
 // its own and only the vertices it needs, in the order of the mesh; the attribute _VERTEX holds each one's number in the
@@ -47,20 +47,20 @@ struct MorphModel {
     std::string name;
     Points vertices;  ///< V x 3, m, head frame
     std::vector<int>
-        stands_for;  ///< V, the vertex in the same place whose normal this one shares; empty: itself
+        stands_for;  ///< V, the vertex at the same place whose normal this one shares; empty: itself
     std::vector<MorphPart> parts;
     std::vector<MorphTarget> targets;
     std::vector<MorphAnimation> animations;
-    Json extras;  ///< an object, put beside targetNames
+    Json extras;  ///< an object; its keys are written next to targetNames
     /// Deltas in 1/32767 of the largest; or as floats, for readers that do not know KHR_mesh_quantization.
     bool whole_numbers = true;
 };
 
-/// The file's bytes; the same for the same model.
+/// The bytes of the file; they depend only on the model.
 std::string glb_bytes(const MorphModel& model);
 
-/// Reads what glb_bytes() wrote: vertices, targets, extras and animations; parts with their triangles only. Throws Error for
-/// a file that is no glTF, or not one of these.
+/// Reads a file that glb_bytes() wrote: vertices, targets, extras and animations; of the parts only the triangles. Throws Error for other
+/// files.
 MorphModel read_glb(const std::filesystem::path& file);
 
 }  // namespace risorius::io

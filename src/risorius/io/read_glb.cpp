@@ -126,9 +126,7 @@ class Unpacker {
     std::string place_;
 };
 
-}  // namespace
-
-MorphModel read_glb(const std::filesystem::path& file) {
+tinygltf::Model load_model(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!std::filesystem::exists(file))
         throw Error(file.string(), "a binary glTF file", "no such file");
@@ -148,12 +146,11 @@ MorphModel read_glb(const std::filesystem::path& file) {
             : std::string_view(bytes.data(), std::min<std::size_t>(4, bytes.size())) != "glTF"
                 ? "another kind of file"
                 : error.substr(0, error.find('\n')));
-    const Unpacker from(model, file.string());
-    if (model.meshes.size() != 1)
-        from.fail("one mesh with blend shapes, as risorius shapes writes it",
-                  std::to_string(model.meshes.size()) + " meshes");
-    const tinygltf::Mesh& mesh = model.meshes[0];
-    // Of the one node that shows it; the same along every axis
+    return model;
+}
+
+// Scale of the one node that shows the mesh, m; the same along every axis.
+double unit_of(const tinygltf::Model& model, const Unpacker& from) {
     double unit_m = 1;
     for (const tinygltf::Node& node : model.nodes)
         if (node.mesh == 0 && node.scale.size() == 3) {
@@ -161,6 +158,49 @@ MorphModel read_glb(const std::filesystem::path& file) {
             if (!(unit_m > 0) || node.scale[1] != unit_m || node.scale[2] != unit_m)
                 from.fail("a node with one scale along all axes", "another");
         }
+    return unit_m;
+}
+
+// The displacements of each target, by ascending vertex.
+void write_targets(const std::vector<std::map<int, Vec3>>& deltas, MorphModel& out) {
+    for (std::size_t t = 0; t < deltas.size(); ++t) {
+        MorphTarget& target = out.targets[t];
+        target.delta.resize(static_cast<long>(deltas[t].size()), 3);
+        for (const auto& [v, delta] : deltas[t]) {
+            target.delta.row(static_cast<long>(target.vertex.size())) = delta.transpose();
+            target.vertex.push_back(v);
+        }
+    }
+}
+
+// The weights of all shapes over time.
+MorphAnimation read_animation(const tinygltf::Model& model, const Unpacker& from,
+                              const tinygltf::Animation& animation, std::size_t targets) {
+    const tinygltf::AnimationSampler& sampler =
+        from.at(animation.samplers, animation.channels[0].sampler, "sampler");
+    const Eigen::MatrixXf times = from.floats(sampler.input, 1),
+                          weights = from.floats(sampler.output, 1);
+    MorphAnimation made;
+    made.name = animation.name;
+    if (times.rows() > 1) made.fps = 1.0 / static_cast<double>(times(1, 0) - times(0, 0));
+    const long count = static_cast<long>(targets);
+    if (weights.rows() != times.rows() * count)
+        from.fail("a weight for every shape and frame", std::to_string(weights.rows()));
+    made.weights.resize(times.rows(), count);
+    for (long i = 0; i < weights.rows(); ++i) made.weights(i / count, i % count) = weights(i, 0);
+    return made;
+}
+
+}  // namespace
+
+MorphModel read_glb(const std::filesystem::path& file) {
+    const tinygltf::Model model = load_model(file);
+    const Unpacker from(model, file.string());
+    if (model.meshes.size() != 1)
+        from.fail("one mesh with blend shapes, as risorius shapes writes it",
+                  std::to_string(model.meshes.size()) + " meshes");
+    const tinygltf::Mesh& mesh = model.meshes[0];
+    const double unit_m = unit_of(model, from);
 
     MorphModel out;
     out.name = mesh.name;
@@ -217,30 +257,10 @@ MorphModel read_glb(const std::filesystem::path& file) {
                     deltas[t][vertex(i)] = unit_m * delta.row(i).transpose().cast<double>();
         }
     }
-    for (std::size_t t = 0; t < deltas.size(); ++t) {
-        MorphTarget& target = out.targets[t];
-        target.delta.resize(static_cast<long>(deltas[t].size()), 3);
-        for (const auto& [v, delta] : deltas[t]) {
-            target.delta.row(static_cast<long>(target.vertex.size())) = delta.transpose();
-            target.vertex.push_back(v);
-        }
-    }
-    for (const tinygltf::Animation& animation : model.animations) {
-        if (animation.channels.empty() || animation.channels[0].target_path != "weights") continue;
-        const tinygltf::AnimationSampler& sampler =
-            from.at(animation.samplers, animation.channels[0].sampler, "sampler");
-        const Eigen::MatrixXf times = from.floats(sampler.input, 1),
-                              weights = from.floats(sampler.output, 1);
-        MorphAnimation& made = out.animations.emplace_back();
-        made.name = animation.name;
-        if (times.rows() > 1) made.fps = 1.0 / static_cast<double>(times(1, 0) - times(0, 0));
-        const long count = static_cast<long>(out.targets.size());
-        if (weights.rows() != times.rows() * count)
-            from.fail("a weight for every shape and frame", std::to_string(weights.rows()));
-        made.weights.resize(times.rows(), count);
-        for (long i = 0; i < weights.rows(); ++i)
-            made.weights(i / count, i % count) = weights(i, 0);
-    }
+    write_targets(deltas, out);
+    for (const tinygltf::Animation& animation : model.animations)
+        if (!animation.channels.empty() && animation.channels[0].target_path == "weights")
+            out.animations.push_back(read_animation(model, from, animation, out.targets.size()));
     return out;
 }
 

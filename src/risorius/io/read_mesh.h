@@ -1,20 +1,19 @@
-// Face meshes from files (assimp): OBJ, PLY, STL, glTF/GLB, FBX, COLLADA and what else assimp
-// reads.
+// Reads face meshes from files with assimp: OBJ, PLY, STL, glTF/GLB, FBX, COLLADA and other formats.
 //
 // Vertices keep the order of the file (OBJ, PLY, glTF), polygons stay polygons, groups and objects
 // keep their names.
 //
 //   OBJ          groups are the "g" or "o" names, or the materials where there are neither
 //   glTF, PLY    vertices in file order, mesh after mesh; glTF holds triangles only
-//   FBX, DAE,    assimp hands over face corners without the file's indices: corners of one node at
-//   exactly the same STL, ...     position become one vertex, in the order of first use groups one
-//   per node with a mesh, named after it; "node.material" where a node has several; node transforms
-//   are
-//                applied
+//   FBX, DAE,    assimp gives face corners without the file's indices: corners of one node at exactly
+//   STL, ...     the same position become one vertex, in the order of first use; one group per node
+//                with a mesh, named after it, or "node.material" where a node has several; node
+//                transforms are applied
 //   textures     the colour pictures of materials: "map_Kd" of MTL files, base colour of glTF,
-//                diffuse colour elsewhere; files beside the mesh or inside it
-//   units        the unit stated in FBX and COLLADA files is applied, giving metres; then
-//   `metres_per_unit` multiplies texture      v up, as in OBJ (glTF's v is turned)
+//                diffuse colour elsewhere; files next to the mesh or inside it
+//   units        the unit stated in FBX and COLLADA files is applied, which gives metres; then
+//                `metres_per_unit` multiplies
+//   texture      v up, as in OBJ (glTF's v is flipped)
 #pragma once
 
 #include <filesystem>
@@ -34,8 +33,8 @@ struct MeshReadOptions {
 /// from 1.
 geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOptions& options = {});
 
-/// Wavefront OBJ with groups; positions are divided by `metres_per_unit`. Written beside and
-/// renamed, never half. Throws RunError when it cannot be written.
+/// Writes Wavefront OBJ with groups; positions are divided by `metres_per_unit`. The file is written under another name first and then
+/// renamed. Throws RunError when it cannot be written.
 void write_obj(const geom::PolygonMesh& mesh, const std::filesystem::path& file,
                double metres_per_unit = 1.0);
 

@@ -1,5 +1,5 @@
-// Pictures of numbers in floating point: OpenEXR files, 32 bits, compressed without loss (ZIP), written by the FFmpeg
-// libraries. One channel is called Y, three R, G and B.
+// Floating-point pictures: OpenEXR files, 32 bits, compressed without loss (ZIP), written by the FFmpeg libraries. One channel is named Y,
+// three are named R, G and B.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ struct FloatImage {
     std::vector<float> samples;  ///< height x width x channels, rows from the top
 };
 
-/// Written beside and renamed. Throws RunError when it cannot be.
+/// Written under another name first and then renamed. Throws RunError on failure.
 void write_exr(const FloatImage& image, const std::filesystem::path& file);
-/// Of these two kinds only.
+/// Reads files of these two kinds only.
 FloatImage read_exr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

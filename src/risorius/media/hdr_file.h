@@ -1,4 +1,4 @@
-// Pictures of light (Radiance .hdr, RGBE): more than white, as surroundings are photographed.
+// High dynamic range pictures (Radiance .hdr, RGBE), as used for photographed surroundings.
 //
 // Source: Ward 1991, Real Pixels (Graphics Gems II), and the file format of Radiance.
 #pragma once
@@ -13,7 +13,7 @@ struct HdrPicture {
     std::vector<float> rgb;  ///< 3 per pixel, rows from the top, linear
 };
 
-/// Throws Error for what is no .hdr of RGBE pixels in rows from the top left, or ends before its last row.
+/// Throws Error for a file that is no .hdr of RGBE pixels in rows from the top left, or that ends before its last row.
 HdrPicture read_hdr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -10,9 +10,9 @@
 
 namespace risorius::media {
 
-/// Written beside and renamed, never half. Alpha is kept when any pixel is not opaque. Throws RunError when it cannot be written.
+/// Written under another name first and then renamed. Alpha is kept when any pixel is not opaque. Throws RunError on failure.
 void write_png(const Image& image, const std::filesystem::path& file);
-/// 16 bits per channel: the picture's own deep pixels, or where it has none its 8 bits spread over 16.
+/// 16 bits per channel: the picture's 16-bit pixels, or its 8 bits expanded to 16 where it has none.
 void write_png16(const Image& image, const std::filesystem::path& file);
 /// Numbers rather than colours: one channel, 8 or 16 bits, rows from the top.
 void write_grey_png(int width_px, int height_px, int bits,

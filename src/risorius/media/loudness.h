@@ -1,4 +1,4 @@
-// How loud a recording is: EBU R 128 by libebur128, which ITU-R BS.1770-4 defines.
+// Loudness of a recording: EBU R 128 and ITU-R BS.1770-4, by libebur128.
 //
 //   LUFS   integrated loudness: K-weighted power of blocks of 0.4 s, without those below -70 LUFS and then without those
 //          10 LU below the mean of the rest
@@ -14,14 +14,14 @@ struct Loudness {
     double true_peak_dbtp = 0;   ///< minus infinity for silence
 };
 
-/// Throws RunError for more channels or another rate than the standard knows.
+/// Throws RunError for a number of channels or a rate that the standard does not cover.
 Loudness loudness_of(const Sound& sound);
 
-/// What is heard of a recording in so long a video whose first frame is `offset` samples before its first: with silence where
-/// there is none of it. `length` in samples of its own rate.
+/// The part of a recording that is heard in a video of this length, whose first frame is `offset` samples before the first sample; filled up
+/// with silence. `length` in samples of its own rate.
 Sound heard(const Sound& sound, std::int64_t offset, std::int64_t length);
 
-/// Louder by so many decibels, or softer.
+/// Changes the level by this many decibels.
 Sound amplified(Sound sound, double gain_db);
 
 }  // namespace risorius::media

@@ -1,8 +1,8 @@
-// What a picture is as a stimulus, from its own pixels: how light, how much contrast, how much has changed since the last.
+// Luminance statistics of pictures as stimuli: mean, contrast, and change since the previous picture.
 //
 //   Y    relative luminance of a pixel, 0 black .. 1 white: sRGB decoded to linear light (IEC 61966-2-1), BT.709 weights
 //
-// A screen whose luminance grows with the decoded value shows them in proportion; transparent pixels count by their opacity.
+// The values are proportional to those of a screen whose luminance is proportional to the decoded value. Pixels are weighted by opacity.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct PictureMeasures {
 
 class LuminanceMeter {
   public:
-    /// Pictures in their order, all of one size.
+    /// Pictures must be given in order and have the same size.
     PictureMeasures measure(const Image& image);
 
   private:
-    /// Sums over some neighbouring pixels, which stay what they are while these do.
+    /// Sums over groups of neighbouring pixels, which are kept while these pixels do not change.
     struct Block {
         double opacity = 0, sum = 0, squares = 0;
     };
@@ -33,7 +33,7 @@ class LuminanceMeter {
     std::vector<Block> blocks_;
 };
 
-/// Mean of Y where the mask is not 0; not a number where it is 0 everywhere.
+/// Mean of Y where the mask is not 0; NaN where it is 0 everywhere.
 double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask);
 
 /// Y of an sRGB pixel.

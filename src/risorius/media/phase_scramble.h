@@ -1,5 +1,5 @@
-// Pictures without what they show: every spatial frequency keeps its amplitude, its phase is mixed by chance. The same phases for every
-// picture of a scrambler, so that what does not move stands still.
+// Phase-scrambled pictures: every spatial frequency keeps its amplitude, and its phase is shifted at random. All pictures of a scrambler
+// have the same shifts, so that what does not move stands still.
 // Source: as stimuli of vision research have it, e.g. Dakin, Hess, Ledgeway & Achtman 2002, Current Biology 12(14).
 #pragma once
 
@@ -14,7 +14,7 @@ class PhaseScrambler {
     PhaseScrambler(int width_px, int height_px, unsigned seed);
     ~PhaseScrambler();
 
-    /// Red, green and blue by the same phases, so that colours stay; the mean stays but for what is cut off at black and white.
+    /// Red, green and blue get the same shifts, so that colours are kept. The mean is kept except for clipping at black and white.
     void scramble(Image& image) const;
 
   private:

@@ -1,4 +1,4 @@
-// Pictures of any common kind (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
+// Reads pictures of common formats (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace risorius::media {
 
-/// Throws Error naming the file when it is missing or no picture.
+/// Throws Error that names the file when it is missing or no picture.
 Image read_picture(const std::filesystem::path& file);
 /// The same from the bytes of a file, which messages call `name`.
 Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name);

@@ -1,5 +1,5 @@
-// Marks in a corner of every picture for machines that watch the screen: a square for a photodiode, and the number of the
-// frame as black and white cells that survive any encoder and are read back without a font.
+// Marks in a corner of every picture for equipment that watches the screen: a square for a photodiode, and the frame number as black and
+// white cells, which any encoder preserves and which can be read without a font.
 //
 // The counter is a strip of 24 square cells, from the left: white, black, the number as 20 bits with the most significant
 // first (white is 1), a cell that makes the number of white bits even, white. Numbers start again at 2^20.
@@ -25,7 +25,7 @@ void draw_photodiode(Corner corner, int side_px, bool lit, Image& image);
 
 /// `cell_px`: side of a cell.
 void draw_frame_counter(Corner corner, int cell_px, int frame, Image& image);
-/// The number on the picture; nothing when there is none, or it does not check.
+/// The number on the picture; empty when there is none or its check fails.
 std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& image);
 
 }  // namespace risorius::media

@@ -1,9 +1,9 @@
-// Making pictures lighter or darker and their contrast larger or smaller, and measuring many pictures as one.
+// Changes luminance and contrast of pictures, and measures many pictures as one.
 //
 //   Y    relative luminance, see luminance.h
 //
-// Every channel's linear light becomes gain * c + offset, held within 0 and 1, so that Y becomes gain * Y + offset and hues
-// stay. The same bytes always become the same bytes: nothing hangs on the picture.
+// The linear light of every channel becomes gain * c + offset, clamped to 0..1, so that Y becomes gain * Y + offset and hues are kept. The
+// result depends only on the bytes of the picture.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class ToneCurve {
 
     std::uint8_t of(std::uint8_t byte) const { return byte_[byte]; }
     void apply(Image& image) const;  ///< opacity stays
-    /// Share of the channels' values that are held at 0 or 1, of the pixels where the mask is not 0, or of all without one.
+    /// Fraction of channel values that are clipped at 0 or 1, over the pixels where the mask is not 0, or over all without a mask.
     double cut_off(const Image& image, const std::vector<std::uint16_t>& mask = {}) const;
 
   private:
@@ -45,7 +45,7 @@ struct LuminanceSums {
     double sd() const;
 };
 
-/// What gives pictures of these sums that mean and standard deviation, but for what is cut off.
+/// The tone that gives pictures with these sums this mean and standard deviation, except for clipping.
 Tone tone_between(const LuminanceSums& from, double mean, double sd);
 
 }  // namespace risorius::media

@@ -1,5 +1,4 @@
-// Frames out of a video file through the FFmpeg libraries: how many, how large, when, and the
-// pixels of any one.
+// Reads frames of a video file through the FFmpeg libraries: their number, size, times, and the pixels of any frame.
 #pragma once
 
 #include <filesystem>

@@ -22,7 +22,7 @@
 
 namespace risorius::media {
 
-/// What is not given is as usual; what is given and the target's form does not have is an error.
+/// Options that are not given have the usual value. Options that the target's format does not have are an error.
 struct VideoOptions {
     int width_px = 0;  ///< even where colour is stored at half size: yuv420p
     int height_px = 0;

@@ -1,4 +1,4 @@
-// Sound to a WAV file: integers of 16 or 24 bits, or floating point of 32.
+// Writes sound to a WAV file: integers of 16 or 24 bits, or floating point of 32.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace risorius::media {
 
-/// In the sound's own rate, channels and bits; what is beyond full scale is cut off, but for floating point. Written beside and
-/// renamed, never half. Throws RunError when it cannot be written.
+/// Uses the sound's own rate, channels and bits; integers are clipped at full scale. Written under another name first and then renamed.
+/// Throws RunError on failure.
 void write_wav(const Sound& sound, const std::filesystem::path& file);
 
 }  // namespace risorius::media

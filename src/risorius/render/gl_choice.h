@@ -1,4 +1,4 @@
-// Which OpenGL draws: the one in memory (OSMesa), or EGL without a window, which is the way to a graphics processor.
+// Chooses the OpenGL implementation: OSMesa, which draws in memory, or EGL without a window, which can use a graphics processor.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Short texts in pictures: names and numbers in letters of even strokes, smoothed, the same on every machine.
+// Short texts in pictures: names and numbers in letters of constant stroke width, antialiased, the same on every machine.
 //
 // Letters, digits and the marks . , : ; - + / % ( ) _ = ' of ASCII; anything else shows as a box.
 #pragma once
@@ -19,7 +19,7 @@ struct TextStyle {
 /// Of the height of a capital.
 double text_width(std::string_view text);
 
-/// `at`: left end of the line the letters stand on, px from the upper left corner. What does not fit is cut.
+/// `at`: left end of the baseline, px from the upper left corner. What does not fit is cut off.
 void write_text(std::string_view text, const Vec2& at, const TextStyle& style, Image& image);
 
 }  // namespace risorius::render

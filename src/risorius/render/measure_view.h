@@ -1,5 +1,5 @@
-// Pictures to measure by: surfaces in given colours seen in parallel along an axis, with marks and lines on them. Drawn by
-// itself, without OpenGL: no perspective, no light that hides a colour, the same bytes everywhere.
+// Pictures for measurement: surfaces in given colours in parallel projection along an axis, with marks and lines. Rendered in software
+// without OpenGL, without perspective or light that changes a colour; the same bytes on every machine.
 #pragma once
 
 #include <vector>

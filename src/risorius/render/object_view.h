@@ -36,8 +36,8 @@ struct ObjectViewOptions {
 
 class ObjectView {
   public:
-    /// Throws Error for no object, indices that name no vertex, positions that are not finite or options out of their
-    /// range, RunError when no GL context can be had.
+    /// Throws Error for no object, vertex indices out of range, positions that are not finite or options out of their range, RunError when no GL
+    /// context is available.
     ObjectView(const std::vector<Object>& objects, const ObjectViewOptions& options);
     ~ObjectView();
     ObjectView(const ObjectView&) = delete;

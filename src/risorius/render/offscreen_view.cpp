@@ -75,7 +75,8 @@ Box skin_box(const Scene& scene) {
 
 /// Painted scalp hair would hide what lies below; the brows stay.
 Scene without_hair(Scene scene) {
-    scene.look.scalp_hair = scene.look.hair_length_mm = scene.look.beard_length_mm = 0;
+    scene.appearance.scalp_hair = scene.appearance.hair_length_mm =
+        scene.appearance.beard_length_mm = 0;
     return scene;
 }
 
@@ -122,7 +123,7 @@ struct Baked {
 struct OffscreenView::Impl {
     Impl(const Scene& scene, const ViewOptions& view_options, const Impl* first)
         : options(checked(view_options)),
-          look(scene.look),
+          appearance(scene.appearance),
           box(skin_box(scene)),
           camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
                              static_cast<double>(options.width_px) / options.height_px,
@@ -249,7 +250,7 @@ struct OffscreenView::Impl {
         out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *buffers,
                                     *out->own, centre, buffers->paintable_triangles(out->inside),
                                     paint_side(options.height_px / camera.frame_height_m));
-        out->pore_map = make_pores(scene.look.seed);
+        out->pore_map = make_pores(scene.appearance.seed);
         grow_hair(scene, centre, *out);
         finish_drawing();  // other contexts may look at the maps from now on
         return out;
@@ -371,7 +372,7 @@ struct OffscreenView::Impl {
     }
 
     ViewOptions options;
-    Appearance look;
+    Appearance appearance;
     Box box;
     Camera camera;
     std::vector<Mat4> views;  ///< through the places of the lens
@@ -456,7 +457,7 @@ Image OffscreenView::draw(const Pose& pose) {
     if (pose.values)
         draw_colour_scale(values_scale(*pose.values), view.options.background, image);
     else if (view.muscles)
-        draw_colour_scale(activation_scale(view.look), view.options.background, image);
+        draw_colour_scale(activation_scale(view.appearance), view.options.background, image);
     return image;
 }
 

@@ -22,15 +22,15 @@ struct Background {
     bool operator==(const Background&) const = default;
 };
 
-/// What of the face a picture shows.
+/// The content of a picture.
 enum class Show {
-    kSkin,     ///< the face as one sees it
+    kSkin,     ///< the face as it is seen
     kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
     kSkull,    ///< skull, mandible and teeth under skin as clear as glass
-    // The skin, and what who draws puts onto it: values of a pose, or lines and marks over the picture
+    // The skin, with something that the caller adds: values of a pose, or lines and marks over the picture
     kWire,       ///< the mesh's edges
     kStrain,     ///< principal strain of the skin
-    kError,      ///< distance from where the skin is in another run
+    kError,      ///< distance of the skin from that in another run
     kLandmarks,  ///< their places and names
 };
 /// "skin", "muscles", "skull", "wire", "strain", "error", "landmarks"
@@ -38,13 +38,13 @@ const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the names for an unknown one.
 Show show_named(const std::string& name, const std::string& place);
 
-/// How the named camera takes the picture; what is not given frames the head as the camera's name says.
+/// The lens and place of the named camera; what is not given frames the head as the camera's name says.
 struct Lens {
     bool orthographic = false;
     std::optional<double> distance_m;      ///< of the camera from the middle of the head, 0.2..100
     std::optional<double> view_angle_deg;  ///< that the height of the picture subtends, 0.5..90
     double aperture_mm =
-        0;  ///< diameter of the opening, 0..100; 0: sharp at every distance. In focus: the front of the eyes
+        0;  ///< diameter of the aperture, 0..100; 0: sharp at every distance. In focus: the front of the eyes
     bool operator==(const Lens&) const = default;
 };
 
@@ -72,7 +72,7 @@ const std::vector<std::string>& camera_names();
 
 class OffscreenView {
   public:
-    /// Throws Error for a scene without skin or a size outside 16..8192, RunError when no GL context can be had.
+    /// Throws Error for a scene without skin or a size outside 16..8192, RunError when no GL context is available.
     OffscreenView(const Scene& scene, const ViewOptions& options);
     /// Another view of the same scene with the same options, to draw at the same time on another thread: the same pictures. Shares
     /// what `first` has baked, which must not be drawing meanwhile; they may go away in any order.
@@ -83,7 +83,7 @@ class OffscreenView {
 
     /// pose.positions must have as many rows as scene.rest. May be called from one thread at a time, any thread.
     Image draw(const Pose& pose);
-    /// The mean in linear light of what several moments look like: a shutter that was open for all of them.
+    /// Mean of several moments in linear light: a shutter that was open for all of them.
     Image draw(const std::vector<Pose>& poses);
 
     /// The colours of the skin without light, on the texture coordinates of its surfaces: a square picture, sRGB. Lashes and brows,

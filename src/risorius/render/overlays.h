@@ -1,4 +1,4 @@
-// Lines and marks over a finished picture, hidden where the head is in front of them.
+// Lines and marks over a finished picture, hidden behind the head.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What there is to draw: surfaces over one shared vertex array, each of one material, and what the materials need to
-// know about the head. Positions change every frame; everything here is constant.
+// What is drawn: surfaces of one material each over one shared vertex array, and what the materials need to know about the head. Positions
+// change in every frame; everything here is constant.
 //
 // Frame: the head frame, metres: origin between the tragia, x to the subject's left, y up, z forward.
 #pragma once
@@ -94,7 +94,7 @@ struct Scene {
         textures;  ///< sRGB, alpha is not looked at; (0, 0) of texture coordinates is below, left
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
-    Appearance look;
+    Appearance appearance;
     Points
         fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
     Muscles muscles;  ///< none unless they are shown

@@ -56,6 +56,12 @@ std::vector<AtlasLandmark> read_atlas_landmarks(JsonCursor json) {
     return out;
 }
 
+std::vector<std::string> Atlas::landmark_ids() const {
+    std::vector<std::string> out;
+    for (const AtlasLandmark& entry : landmarks) out.push_back(entry.id);
+    return out;
+}
+
 std::vector<ThicknessSample> read_thickness(JsonCursor json) {
     json.allow_keys({"source", "frame", "points"});
     std::vector<ThicknessSample> out;

@@ -1,5 +1,5 @@
-// The standard anatomy every head is rigged from, in the frame and size of one average adult head:
-// 109 landmarks, soft-tissue thickness, attachment stiffness, and the mimetic muscles as bands in landmark terms.
+// The standard anatomy from which every head is rigged, in the frame and size of one average adult head: 109 landmarks, soft-tissue
+// thickness, attachment stiffness, and the muscles of expression as bands given relative to landmarks.
 //
 // Frame: origin midway between the tragia, x to the subject's left, y up, z forward, Frankfurt horizontal. m, N, Pa/m.
 // Sources: rigs/standard/*.json, each with its own.
@@ -11,6 +11,7 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/types.h"
+#include "risorius/rig/wrinkle_table.h"
 
 namespace risorius::rig {
 
@@ -22,7 +23,7 @@ struct AtlasLandmark {
     std::string region;  ///< brow, eye, nose, lip, cheek...
 };
 
-/// A thickness or stiffness sample: a landmark, or a point given beside one.
+/// A sample of the thickness of the tissue, at a landmark or at an offset from it.
 struct ThicknessSample {
     std::string landmark;
     Vec3 offset;         ///< from the landmark, m
@@ -41,17 +42,18 @@ struct BandPoint {
     std::string landmark;
     Vec3 offset;  ///< m, at atlas size
     double depth =
-        0.5;  ///< ratio of the tissue thickness, 1 = bone; < 0: on the mucosa, taken as it is
+        0.5;  ///< depth / tissue thickness; 1 is the bone; < 0: the point lies on the mucosa and is used as given
 };
 
 /// A sheet of parallel fibres along a path, left side; a band that names right landmarks crosses the midline.
 struct MuscleBand {
     std::string muscle;
     double width_m;
-    double force_n;         ///< isometric force of this side, shared by the muscle's bands
-    double strength = 1.0;  ///< calibration: activation 1 shortens as it should
+    double force_n;  ///< isometric force of this side, shared by the muscle's bands
+    double strength =
+        1.0;  ///< calibration factor of the force, so that activation 1 shortens the band to `shortens_to`
     double shortens_to =
-        0.72;  ///< mean fibre length / rest length at activation 1, the muscle alone
+        0.72;  ///< mean fibre length / rest length when this muscle alone has activation 1
     std::vector<BandPoint> points;
     Body origin = Body::kSkull;
     Body insertion = Body::kSoft;
@@ -64,8 +66,10 @@ struct Atlas {
     std::vector<ThicknessSample> thickness;
     std::vector<AttachmentSample> attachments;
     std::vector<MuscleBand> bands;
+    std::vector<WrinklePattern> wrinkles;
 
     const AtlasLandmark* landmark(const std::string& id) const;  ///< null when unknown
+    std::vector<std::string> landmark_ids() const;
 };
 
 std::vector<AtlasLandmark> read_atlas_landmarks(JsonCursor json);
@@ -73,9 +77,9 @@ std::vector<ThicknessSample> read_thickness(JsonCursor json);
 std::vector<AttachmentSample> read_attachments(JsonCursor json);
 std::vector<MuscleBand> read_muscle_bands(JsonCursor json);
 
-/// "ch_l" -> "ch_r" and back; midline ids are their own mirror.
+/// "ch_l" -> "ch_r" and back. The id of a landmark of the midline is returned unchanged.
 std::string mirrored_landmark(const std::string& id);
-/// The band of the right side.
+/// The band mirrored to the right side.
 MuscleBand mirrored(const MuscleBand& band);
 
 }  // namespace risorius::rig

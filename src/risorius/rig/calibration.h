@@ -1,4 +1,4 @@
-// Which measured expressions the numbers of an anatomy were tuned with, so that results can be told apart from those of others.
+// Names of the measured expressions that the anatomy was calibrated on. Results on these expressions are no independent test.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@ namespace risorius::rig {
 
 inline constexpr const char* kCalibrationFile = "calibration.json";  ///< of the standard anatomy
 
-/// Files: {"format": "risorius-calibration", "version": 1, "source": "...", "expressions": [names]}. A list of names stands for
-/// one, too, and so does its path.
+/// Calibration files: {"format": "risorius-calibration", "version": 1, "source": "...", "expressions": [names]}. A list of names, or
+/// the path of such a file, may stand in its place.
 std::vector<std::string> read_calibration(const JsonCursor& json);
 
-/// Of a rig file; none when it does not say. Throws Error.
+/// The names that a rig file gives; empty when it gives none. Throws Error.
 std::vector<std::string> calibrated_on(const std::filesystem::path& rig_file);
 
 }  // namespace risorius::rig

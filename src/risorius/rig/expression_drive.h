@@ -1,5 +1,5 @@
-// What brings about an expression that is known by name: an ARKit shape, an action unit or an expression of a rig's tables, or
-// one muscle at full excitation.
+// The drive that produces an expression known by name: an ARKit shape, an action unit, an expression of the rig's tables, or one muscle
+// at full excitation.
 #pragma once
 
 #include <optional>
@@ -19,15 +19,15 @@ struct SidedShape {
 };
 SidedShape split_shape(const std::string& name);
 
-/// Nothing when the rig's tables do not know the name. A side of what the tables only have whole is that side's muscles
-/// and half of what has no sides.
+/// Empty when the rig's tables do not know the name. For one side of an expression that the tables give only as a whole, the muscles of
+/// that side are used, and half of everything that has no side.
 std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
                                                 const std::string& name);
 
-/// Within the range of every muscle and channel.
+/// The drive with every muscle and channel clamped to its range.
 track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels);
 
-/// What of it is not zero, by the names of columns and channels.
+/// The values of the drive that are not zero, by the names of columns and channels.
 Json drive_json(const track::Drive& drive, const track::ChannelTable& channels);
 
 }  // namespace risorius::rig

@@ -219,12 +219,11 @@ const std::vector<std::string>& required_landmarks() {
     return kRequired;
 }
 
-Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
-                const std::string& place) {
-    Head head;
-    head.role_of_group = roles_of_groups(rig, mesh, place);
+namespace {
 
-    // Where the head lies and how large it is
+std::map<std::string, Vec3> landmarks_in_mesh(const RigDescription& rig,
+                                              const geom::PolygonMesh& mesh,
+                                              const std::string& place) {
     std::map<std::string, Vec3> in_mesh;
     for (const auto& [id, landmark] : rig.landmarks) {
         if (landmark.vertex >= mesh.vertex_count())
@@ -237,28 +236,33 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
     for (const std::string& id : required_landmarks())
         if (!in_mesh.count(id))
             throw Error(place + ":/landmarks", "the landmark \"" + id + "\"", "none");
-    head.frame = find_head_frame(in_mesh, rig.atlas, rig.metres_per_unit);
-    head.size = head.frame.size;
-    if (!(head.size > 0.6 && head.size < 1.6)) {
-        const double fitting = rig.metres_per_unit / head.size;
-        throw Error(place + ":/mesh/metres_per_unit",
-                    "a head of adult or child size (about " +
-                        format_number(std::round(fitting * 1e6) / 1e6) + " for this mesh)",
-                    format_number(rig.metres_per_unit) + ", a head " +
-                        format_number(std::round(head.size * 100) / 100) +
-                        " times the average adult");
-    }
+    return in_mesh;
+}
+
+void check_size(const RigDescription& rig, const Head& head, const std::string& place) {
+    if (head.size > 0.6 && head.size < 1.6) return;
+    const double fitting = rig.metres_per_unit / head.size;
+    throw Error(place + ":/mesh/metres_per_unit",
+                "a head of adult or child size (about " +
+                    format_number(std::round(fitting * 1e6) / 1e6) + " for this mesh)",
+                format_number(rig.metres_per_unit) + ", a head " +
+                    format_number(std::round(head.size * 100) / 100) + " times the average adult");
+}
+
+void check_left_and_right(const std::map<std::string, Vec3>& in_mesh, const HeadFrame& frame,
+                          const std::string& place) {
     for (const auto& [id, p] : in_mesh) {
         const auto partner = in_mesh.find(mirrored_landmark(id));
         if (!id.ends_with("_l") || partner == in_mesh.end()) continue;
-        if (head.frame.to_head(p).x() <= head.frame.to_head(partner->second).x())
+        if (frame.to_head(p).x() <= frame.to_head(partner->second).x())
             throw Error(place + ":/landmarks/" + id,
                         "a point on the subject's left of \"" + partner->first + "\"",
                         "one on its right");
     }
-    head.vertices = head.frame.to_head(mesh.positions);
+}
 
-    // Surfaces that follow the tissue
+// Surfaces that follow the tissue: the skin and the linings of mouth and eye sockets.
+void weld_surfaces(const geom::PolygonMesh& mesh, const std::string& place, Head& head) {
     std::vector<int> skin_groups, lining_groups;
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
         if (head.role_of_group[g] == "skin") skin_groups.push_back(static_cast<int>(g));
@@ -275,7 +279,11 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
     head.welded = weld_seams(head.vertices, both);
     head.skin = apply_weld(skin, head.welded);
     head.lining = apply_weld(lining, head.welded);
+}
 
+// All landmarks of the atlas: those given, and the others warped from the atlas.
+void place_landmarks(const RigDescription& rig, const std::map<std::string, Vec3>& in_mesh,
+                     Head& head) {
     std::map<std::string, Vec3> in_head;
     for (const auto& [id, p] : in_mesh)
         if (rig.atlas.landmark(id)) in_head[id] = head.frame.to_head(p);
@@ -284,45 +292,62 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
         missing_landmarks(head.vertices, head.skin, rig.atlas, in_head, head.size));
     for (const AtlasLandmark& landmark : rig.atlas.landmarks)
         if (!in_head.count(landmark.id)) head.warped_landmarks.push_back(landmark.id);
+}
 
-    // Who carries each vertex
-    head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);
+// The tongue is the piece that reaches the midline and fills it; gums are arches, hollow in the middle.
+Carrier carrier_of_gums_or_tongue(const Head& head, const std::vector<int>& piece,
+                                  double occlusal_y) {
+    double near_middle = 0, lowest = 1e9, highest = -1e9;
+    for (int v : piece) {
+        near_middle += std::abs(head.vertices(v, 0)) < head.mm(8) &&
+                       head.vertices(v, 2) < head.landmark("ch_l").z() - head.mm(12);
+        lowest = std::min(lowest, head.vertices(v, 1));
+        highest = std::max(highest, head.vertices(v, 1));
+    }
+    if (near_middle > 0.2 * static_cast<double>(piece.size())) return Carrier::kTongue;
+    return 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull : Carrier::kMandible;
+}
+
+Carrier carrier_of(const Head& head, const std::string& role, const std::vector<int>& piece) {
     const double occlusal_y = head.landmark("sto").y();
-    std::array<std::vector<int>, 2> eye_members;
-    std::vector<int> tooth_members, lower_tooth_members;
+    if (any_of(role, {"skin", "mouth", "eye_socket"})) return Carrier::kSkin;
+    if (any_of(role, {"teeth_upper", "gums_upper"})) return Carrier::kSkull;
+    if (any_of(role, {"teeth_lower", "gums_lower"})) return Carrier::kMandible;
+    if (any_of(role, {"teeth", "gums"})) {
+        // Upper and lower pieces of one group part at the occlusal plane.
+        double mean_y = 0;
+        for (int v : piece) mean_y += head.vertices(v, 1) / static_cast<double>(piece.size());
+        return mean_y > occlusal_y ? Carrier::kSkull : Carrier::kMandible;
+    }
+    if (role == "tongue") return Carrier::kTongue;
+    if (any_of(role, {"eye_l", "cornea_l"})) return Carrier::kEyeLeft;
+    if (any_of(role, {"eye_r", "cornea_r"})) return Carrier::kEyeRight;
+    if (any_of(role, {"lashes", "lashes_l", "lashes_r"})) return Carrier::kLashes;
+    if (role == "gums_tongue") return carrier_of_gums_or_tongue(head, piece, occlusal_y);
+    return Carrier::kNone;
+}
+
+/// Mesh vertices of what is measured after the carriers are known.
+struct CarriedVertices {
+    std::array<std::vector<int>, 2> eyes;  ///< left, right
+    std::vector<int> upper_teeth, lower_teeth;
+};
+
+void append(std::vector<int>& to, const std::vector<int>& piece) {
+    to.insert(to.end(), piece.begin(), piece.end());
+}
+
+// Decides who carries each vertex, piece by piece.
+CarriedVertices choose_carriers(const geom::PolygonMesh& mesh, Head& head) {
+    CarriedVertices carried;
     std::vector<std::pair<int, std::vector<int>>> both_jaws;
+    head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);
     head.jaw_share.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
         const std::string& role = head.role_of_group[g];
         if (role.empty() || role == "hidden") continue;
         for (const std::vector<int>& piece : pieces_of(mesh, {static_cast<int>(g)})) {
-            double mean_y = 0;
-            for (int v : piece) mean_y += head.vertices(v, 1) / static_cast<double>(piece.size());
-            // Upper and lower pieces of one group part at the occlusal plane; a jaw has its own gums.
-            Carrier carrier = Carrier::kNone;
-            if (any_of(role, {"skin", "mouth", "eye_socket"})) carrier = Carrier::kSkin;
-            if (any_of(role, {"teeth_upper", "gums_upper"})) carrier = Carrier::kSkull;
-            if (any_of(role, {"teeth_lower", "gums_lower"})) carrier = Carrier::kMandible;
-            if (any_of(role, {"teeth", "gums"}))
-                carrier = mean_y > occlusal_y ? Carrier::kSkull : Carrier::kMandible;
-            if (role == "tongue") carrier = Carrier::kTongue;
-            if (any_of(role, {"eye_l", "cornea_l"})) carrier = Carrier::kEyeLeft;
-            if (any_of(role, {"eye_r", "cornea_r"})) carrier = Carrier::kEyeRight;
-            if (any_of(role, {"lashes", "lashes_l", "lashes_r"})) carrier = Carrier::kLashes;
-            if (role == "gums_tongue") {
-                // The tongue is the piece that reaches the midline and fills it; gums are arches, hollow in the middle.
-                double near_middle = 0, lowest = 1e9, highest = -1e9;
-                for (int v : piece) {
-                    near_middle += std::abs(head.vertices(v, 0)) < head.mm(8) &&
-                                   head.vertices(v, 2) < head.landmark("ch_l").z() - head.mm(12);
-                    lowest = std::min(lowest, head.vertices(v, 1));
-                    highest = std::max(highest, head.vertices(v, 1));
-                }
-                const bool fills = near_middle > 0.2 * static_cast<double>(piece.size());
-                carrier = fills                                   ? Carrier::kTongue
-                          : 0.5 * (lowest + highest) > occlusal_y ? Carrier::kSkull
-                                                                  : Carrier::kMandible;
-            }
+            const Carrier carrier = carrier_of(head, role, piece);
             for (int v : piece) {
                 head.carrier[v] = carrier;
                 head.jaw_share[v] =
@@ -330,30 +355,29 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
             }
             if (any_of(role, {"gums_tongue", "gums"}) && spans_both_jaws(head, piece))
                 both_jaws.push_back({static_cast<int>(g), piece});
-            if (carrier == Carrier::kEyeLeft)
-                eye_members[0].insert(eye_members[0].end(), piece.begin(), piece.end());
-            if (carrier == Carrier::kEyeRight)
-                eye_members[1].insert(eye_members[1].end(), piece.begin(), piece.end());
+            if (carrier == Carrier::kEyeLeft) append(carried.eyes[0], piece);
+            if (carrier == Carrier::kEyeRight) append(carried.eyes[1], piece);
             if (any_of(role, {"teeth_upper", "teeth"}) && carrier == Carrier::kSkull)
-                tooth_members.insert(tooth_members.end(), piece.begin(), piece.end());
+                append(carried.upper_teeth, piece);
             if (any_of(role, {"teeth_lower", "teeth"}) && carrier == Carrier::kMandible)
-                lower_tooth_members.insert(lower_tooth_members.end(), piece.begin(), piece.end());
+                append(carried.lower_teeth, piece);
         }
     }
-    if (!tooth_members.empty() && !lower_tooth_members.empty())
+    if (!carried.upper_teeth.empty() && !carried.lower_teeth.empty())
         for (const auto& [group, piece] : both_jaws)
-            split_between_jaws(mesh, group, piece, tooth_members, lower_tooth_members, head);
+            split_between_jaws(mesh, group, piece, carried.upper_teeth, carried.lower_teeth, head);
+    return carried;
+}
 
-    // Eyes and teeth
+// A head without eyes gets guessed ones behind its lids.
+void measure_eyes(const std::array<std::vector<int>, 2>& members, Head& head) {
     for (int side = 0; side < 2; ++side) {
         EyeGeometry& eye = head.eyes[side];
         const std::string suffix = side == 0 ? "_l" : "_r";
-        if (eye_members[side].size() >= 20) {
-            std::vector<int> globe;  // a separate cornea would pull the sphere forward
-            for (int v : eye_members[side]) globe.push_back(v);
-            fit_eye(head.vertices, globe, eye);
+        if (members[side].size() >= 20) {
+            fit_eye(head.vertices, members[side], eye);
             eye.present = true;
-            measure_profile(head.vertices, eye_members[side], eye);
+            measure_profile(head.vertices, members[side], eye);
         } else {
             eye.radius_m = head.mm(12);
             const Vec3 middle = 0.5 * (head.landmark("ps" + suffix) + head.landmark("pi" + suffix));
@@ -361,16 +385,40 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
             eye.profile_m.assign(91, eye.radius_m);
         }
     }
-    head.has_teeth = !tooth_members.empty();
+}
+
+void measure_teeth(const std::vector<int>& upper_teeth, Head& head) {
+    head.has_teeth = !upper_teeth.empty();
     head.teeth_front_m = head.landmark("sto").z() - head.mm(4);
-    if (head.has_teeth) {
-        double front = -1e9;
-        for (int v : tooth_members)
-            if (std::abs(head.vertices(v, 0)) < head.mm(8))
-                front = std::max(front, head.vertices(v, 2));
-        if (front > -1e8)
-            head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
-    }
+    if (!head.has_teeth) return;
+    double front = -1e9;
+    for (int v : upper_teeth)
+        if (std::abs(head.vertices(v, 0)) < head.mm(8))
+            front = std::max(front, head.vertices(v, 2));
+    if (front > -1e8) head.teeth_front_m = std::min(front, head.landmark("sto").z() - head.mm(1));
+}
+
+}  // namespace
+
+Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
+                const std::string& place) {
+    Head head;
+    head.role_of_group = roles_of_groups(rig, mesh, place);
+
+    // Where the head lies and how large it is
+    const std::map<std::string, Vec3> in_mesh = landmarks_in_mesh(rig, mesh, place);
+    head.frame = find_head_frame(in_mesh, rig.atlas, rig.metres_per_unit);
+    head.size = head.frame.size;
+    check_size(rig, head, place);
+    check_left_and_right(in_mesh, head.frame, place);
+    head.vertices = head.frame.to_head(mesh.positions);
+
+    // What moves with the tissue, what with skull, mandible and eyes
+    weld_surfaces(mesh, place, head);
+    place_landmarks(rig, in_mesh, head);
+    const CarriedVertices carried = choose_carriers(mesh, head);
+    measure_eyes(carried.eyes, head);
+    measure_teeth(carried.upper_teeth, head);
     return head;
 }
 

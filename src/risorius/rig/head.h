@@ -1,4 +1,4 @@
-// A rig's mesh placed in the head frame, with every vertex known for what it is: skin, eye, tooth, lash...
+// The mesh of a rig placed in the head frame. The role of every vertex is known: skin, eye, tooth, lash, ...
 //
 // Frame: the head frame (see head_frame.h), metres. Vertex order: the mesh file's own.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace risorius::rig {
 
-/// What carries a vertex.
+/// The body that carries a vertex.
 enum class Carrier : char {
     kNone,      ///< part of no role: stays with the skull and is not drawn
     kSkin,      ///< skin, mouth lining, eye sockets: follows the tissue
@@ -31,36 +31,37 @@ struct EyeGeometry {
     Vec3 centre = Vec3::Zero();
     double radius_m = 0.0;  ///< of the globe, without the corneal bulge
     Vec3 forward = Vec3::UnitZ();
-    /// Greatest distance of the eye's surface from its centre per degree from the optical axis, 0..90.
+    /// Largest distance of the eye's surface from its centre, m, for each degree from the optical axis, 0..90.
     std::vector<double> profile_m;
     double profile_at(double angle_rad) const;
-    /// Of p from the surface of the eye when it looks along `looks`, unit; negative inside.
+    /// Signed distance of p from the surface of the eye when the eye looks along `looks` (unit), m; negative inside.
     double distance(const Vec3& p, const Vec3& looks) const;
 };
 
 struct Head {
     HeadFrame frame;
-    double size = 1.0;              ///< this head / the atlas head
-    Points vertices;                ///< V x 3
-    std::vector<Carrier> carrier;   ///< V
-    std::vector<double> jaw_share;  ///< V, share of the mandible's motion of teeth, gums and tongue
+    double size = 1.0;             ///< this head / the atlas head
+    Points vertices;               ///< V x 3
+    std::vector<Carrier> carrier;  ///< V
+    std::vector<double>
+        jaw_share;  ///< V, fraction of the mandible's motion that a vertex of teeth, gums or tongue follows
     std::vector<std::string> role_of_group;  ///< per mesh group, "" when unused
     Triangles skin;                          ///< outer skin, welded vertex indices
     Triangles lining;         ///< mouth lining and eye sockets, welded vertex indices
-    std::vector<int> welded;  ///< V, the vertex that stands for this one on the surface
+    std::vector<int> welded;  ///< V, the vertex of the welded surface that this vertex belongs to
     std::map<std::string, Vec3>
-        landmarks;  ///< all of the atlas; the missing ones warped and dropped on the skin
+        landmarks;  ///< all landmarks of the atlas; those not given are warped and projected onto the skin
     std::vector<std::string> warped_landmarks;  ///< which were not given
     std::array<EyeGeometry, 2> eyes;
     double teeth_front_m = 0.0;  ///< z of the foremost upper tooth, or estimated behind the lips
     bool has_teeth = false;
 
     const Vec3& landmark(const std::string& id) const { return landmarks.at(id); }
-    /// Atlas millimetres to this head's metres.
+    /// A length in mm of the atlas head, scaled to this head, in m.
     double mm(double atlas_mm) const { return atlas_mm * 1e-3 * size; }
 };
 
-/// Throws Error when the mesh lacks what the rig names, a landmark is off the mesh, or the scale is not that of a head.
+/// Throws Error when the mesh lacks a group that the rig names, a landmark lies off the mesh, or the size is not that of a head.
 Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const std::string& place);
 
 /// The landmarks without which a head cannot be placed.

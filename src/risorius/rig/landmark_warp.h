@@ -9,7 +9,7 @@ namespace risorius::rig {
 
 class LandmarkWarp {
   public:
-    /// Maps `from` onto `to` (same rows); `smoothing` > 0 (m) lets close pairs disagree a little.
+    /// Maps `from` onto `to` (same rows). With `smoothing` > 0, m, the map is approximate and close pairs may disagree.
     LandmarkWarp(const Points& from, const Points& to, double smoothing = 1e-4);
     Vec3 operator()(const Vec3& p) const;
 

@@ -1,4 +1,4 @@
-// Paths of the muscle table laid into a placed head.
+// Places the paths of the muscle table in a head.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -7,8 +7,8 @@
 
 namespace risorius::rig {
 
-/// Where a point of a path is on this head at rest, m: on the skin (or near it) for a point with a depth, on the path itself for
-/// one without. Throws Error naming the muscle for a landmark that the head does not have.
+/// Position of a point of a path on this head at rest, m. For a point with a depth it lies on or near the skin, for a point without one
+/// on the path itself. Throws Error that names the muscle when the head lacks a landmark.
 Vec3 place_on(const Head& head, const PathPoint& point, const std::string& muscle);
 
 }  // namespace risorius::rig

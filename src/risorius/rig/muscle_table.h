@@ -1,4 +1,4 @@
-// Every muscle of the face and jaw: its properties as a Hill-type muscle, and where it runs. Names are those of
+// Every muscle of the face and jaw: its properties as a Hill-type muscle, and its paths. Names are those of
 // rigs/standard/muscles.json; lengths are those of the atlas head.
 #pragma once
 
@@ -12,10 +12,17 @@
 
 namespace risorius::rig {
 
-/// A point of a muscle's path, so given that it can be found again on any head:
-/// p = sum of weight * landmark + offset * head size lies on the skin, or, without depth, on the path itself.
+/// A point of a muscle's path, given so that it can be placed on any head:
+/// p = sum of weight * landmark + offset * head size. With a depth, p lies on the skin; without, on the path itself.
 struct PathPoint {
-    enum class Body { kSkull, kMandible, kHyoid, kEyelid, kNeck, kSoft };  ///< what it moves with
+    enum class Body {
+        kSkull,
+        kMandible,
+        kHyoid,
+        kEyelid,
+        kNeck,
+        kSoft
+    };  ///< the body that it moves with
 
     Vec3 atlas = Vec3::Zero();                              ///< on the atlas head, m
     std::vector<std::pair<std::string, double>> landmarks;  ///< with weights that add up to 1
@@ -37,9 +44,9 @@ struct Muscle {
     double activation_s = 0.025;  ///< time constant of rising activation
     double deactivation_s = 0.045;
     double force_n = 1.0;  ///< isometric, per side
-    bool tonic = false;    ///< has resting drive that can be taken away: excitation down to -1
+    bool tonic = false;  ///< has tone at rest that can be reduced: the excitation may go down to -1
 
-    // Of muscles of jaw and hyoid, and of others where the table says; 0 or empty: not said
+    // Given for muscles of jaw and hyoid, and for others where the table gives them; 0 or empty: not given
     double width_m = 0, thickness_m = 0;  ///< of the belly
     double optimal_length_m = 0;          ///< of its fibres
     double tendon_slack_m = 0;            ///< both tendons together

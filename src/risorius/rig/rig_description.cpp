@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/data_folder.h"
 #include "risorius/core/existing_file.h"
 #include "risorius/rig/calibration.h"
 
@@ -72,22 +73,22 @@ void visit_fields(LipsDescription& lips, Visit visit) {
         visit(key, *ratio, Range{0.05, 4});
 }
 template <typename Visit>
-void visit_fields(LookDescription& look, Visit visit) {
+void visit_fields(AppearanceDescription& appearance, Visit visit) {
     static const std::vector<std::string_view> kTextures{"mesh", "generated"};
-    visit("textures", look.textures, kTextures);
-    visit("skin_tone", look.skin_tone);
-    visit("lip_tone", look.lip_tone);
-    visit("hair_tone", look.hair_tone);
-    visit("iris_tone", look.iris_tone);
-    visit("freckles", look.freckles, Range{0, 1});
-    visit("scalp_hair", look.scalp_hair, Range{0, 1});
-    visit("hairline_mm", look.hairline_mm, Range{-10, 40});
-    visit("temples_mm", look.temples_mm, Range{-10, 40});
-    visit("hair_length_mm", look.hair_length_mm, Range{0, 15});
-    visit("beard", look.beard, Range{0, 1});
-    visit("beard_length_mm", look.beard_length_mm, Range{0, 15});
-    visit("age", look.age, Range{0, 1});
-    visit("seed", look.seed);
+    visit("textures", appearance.textures, kTextures);
+    visit("skin_tone", appearance.skin_tone);
+    visit("lip_tone", appearance.lip_tone);
+    visit("hair_tone", appearance.hair_tone);
+    visit("iris_tone", appearance.iris_tone);
+    visit("freckles", appearance.freckles, Range{0, 1});
+    visit("scalp_hair", appearance.scalp_hair, Range{0, 1});
+    visit("hairline_mm", appearance.hairline_mm, Range{-10, 40});
+    visit("temples_mm", appearance.temples_mm, Range{-10, 40});
+    visit("hair_length_mm", appearance.hair_length_mm, Range{0, 15});
+    visit("beard", appearance.beard, Range{0, 1});
+    visit("beard_length_mm", appearance.beard_length_mm, Range{0, 15});
+    visit("age", appearance.age, Range{0, 1});
+    visit("seed", appearance.seed);
 }
 
 struct FieldReader {
@@ -148,10 +149,24 @@ Json fields_of(const T& value) {
     return json;
 }
 
-constexpr const char* kTables[] = {"landmarks", "thickness", "attachments", "muscle_bands",
-                                   "muscles"};
-constexpr const char* kTableFiles[] = {"landmarks.json", "tissue_thickness.json",
-                                       "attachments.json", "muscle_bands.json", "muscles.json"};
+constexpr const char* kTables[] = {"landmarks",    "thickness", "attachments",
+                                   "muscle_bands", "muscles",   "wrinkles"};
+constexpr const char* kTableFiles[] = {"landmarks.json",   "tissue_thickness.json",
+                                       "attachments.json", "muscle_bands.json",
+                                       "muscles.json",     kWrinkleFile};
+
+// A rig without a table of its own has the lines of the standard anatomy.
+void read_wrinkles_of(const JsonCursor& anatomy, RigDescription& rig) {
+    const auto named = anatomy.find("wrinkles");
+    if (!named) {
+        rig.table_files.push_back(data_folder() / "rigs" / "standard" / kWrinkleFile);
+        rig.atlas.wrinkles =
+            read_wrinkles(JsonCursor::read_file(rig.table_files.back()), rig.atlas.landmark_ids());
+        return;
+    }
+    if (named->is_string()) rig.table_files.push_back(named->path());
+    rig.atlas.wrinkles = read_wrinkles(follow_table(*named), rig.atlas.landmark_ids());
+}
 
 }  // namespace
 
@@ -197,7 +212,7 @@ RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.at("format").one_of({"risorius-rig"});
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
-                     "facs", "expressions", "look", "calibrated_on"});
+                     "facs", "expressions", "appearance", "look", "calibrated_on"});
     json.at("version").integer(1, 1);
     RigDescription rig;
     const auto table = [&](const JsonCursor& named) {
@@ -222,12 +237,13 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
     const JsonCursor anatomy = table(json.at("anatomy"));
     anatomy.allow_keys({"landmarks", "thickness", "attachments", "muscle_bands", "muscles",
-                        "strength", "solids", "lips", "jaw", "eyes", "activation"});
+                        "wrinkles", "strength", "solids", "lips", "jaw", "eyes", "activation"});
     rig.atlas.landmarks = read_atlas_landmarks(table(anatomy.at("landmarks")));
     rig.atlas.thickness = read_thickness(table(anatomy.at("thickness")));
     rig.atlas.attachments = read_attachments(table(anatomy.at("attachments")));
     rig.atlas.bands = read_muscle_bands(table(anatomy.at("muscle_bands")));
     rig.muscles = read_muscle_table(table(anatomy.at("muscles")));
+    read_wrinkles_of(anatomy, rig);
     if (const auto solids = anatomy.find("solids"))
         rig.solids = read_solid_muscles(table(*solids), rig.muscles);
     if (const auto strength = anatomy.find("strength"))
@@ -263,7 +279,12 @@ RigDescription read_rig(const std::filesystem::path& file) {
     read_fields(anatomy, "activation", rig.activation);
     read_fields(json, "tissue", rig.tissue);
     read_fields(json, "skin", rig.skin);
-    read_fields(json, "look", rig.look);
+    if (json.has("look")) {
+        if (json.has("appearance"))
+            json.at("look").fail("either \"appearance\" or its old name \"look\"");
+        rig.notes.push_back("the key \"look\" is now named \"appearance\"");
+    }
+    read_fields(json, json.has("look") ? "look" : "appearance", rig.appearance);
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
     for (track::ActionUnit& unit : rig.facs.units)
         unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
@@ -321,7 +342,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["skin"] = fields_of(rig.skin);
     json["facs"] = table("facs.json");
     json["expressions"] = table("expressions.json");
-    json["look"] = fields_of(rig.look);
+    json["appearance"] = fields_of(rig.appearance);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))
         json["calibrated_on"] = options.inline_tables

@@ -1,4 +1,4 @@
-// A rig file as read: which mesh, what its parts are, where its landmarks lie, and the anatomy that moves it.
+// The contents of a rig file: its mesh, the roles of the mesh's groups, the landmarks, and the anatomy that moves the face.
 // The format is described in rigs/README.md; field names are the JSON keys.
 #pragma once
 
@@ -19,8 +19,8 @@
 
 namespace risorius::rig {
 
-/// What a group of mesh faces is. `teeth` and `gums_tongue` groups hold upper and lower pieces together: each connected
-/// piece is given to the skull or the mandible by where it lies.
+/// The role of a group of mesh faces. `teeth` and `gums_tongue` groups hold upper and lower pieces together: each connected piece is
+/// assigned to the skull or the mandible by its position.
 const std::vector<std::string_view>& part_roles();
 
 struct Landmark {
@@ -28,7 +28,7 @@ struct Landmark {
     Vec3 xyz = Vec3::Zero();  ///< mesh units
 };
 
-/// Mandible motion: rotation about the hinge axis plus a slide of the condyles, growing with the opening ratio.
+/// Motion of the mandible: a rotation about the hinge axis plus a slide of the condyles that grows with the opening.
 struct JawDescription {
     Vec3 hinge_mm{0, -4, 13};  ///< head frame at atlas size, on the axis through both condyles
     double open_deg = 25.3;    ///< rotation at jaw_open = 1
@@ -48,13 +48,14 @@ struct EyesDescription {
     double lids_per_gaze_aside = 0.25;
     double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
     double lid_closed_share =
-        0.96;  ///< share of the fissure the upper lid travels, the lower does the rest
+        0.96;  ///< fraction of the lid fissure that the upper lid travels; the lower lid travels the rest
 };
 
-/// How activation follows excitation, for every muscle; laws as in muscle/activation.h, times in the muscle table.
+/// How activation follows excitation, for every muscle. The laws are those of muscle/activation.h, the times those of the muscle table.
 struct ActivationDescription {
     std::string law = "thelen2003";  ///< or "smooth"
-    double steepness = 10;           ///< of the smooth law's change from growing to returning
+    double steepness =
+        10;  ///< of the smooth law: how sharply it changes between rising and falling activation
 };
 
 /// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
@@ -67,30 +68,31 @@ struct TissueDescription {
     double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
     double lid_shear_ratio = 0.12;  ///< lid tissue against the rest
     double lip_shear_ratio =
-        0.2;  ///< lips are loose: they follow a dropping jaw only at their corners
+        0.2;  ///< shear stiffness of lip tissue / that of other tissue; soft lips follow a dropping jaw only at their corners
     double modiolus_shear_ratio = 3.8;
     double crease_shear_ratio = 0.1;  ///< superficial tissue and skin beside the nasolabial fold
     double malar_shear_ratio = 3;     ///< fat pad of the cheekbone, and the skin over it
     double fibre_passive_strain =
         1.5;                   ///< strain at which a relaxed fibre pulls with its isometric force
-    double force_scale = 1.5;  ///< on every muscle, on top of its strength
+    double force_scale = 1.5;  ///< factor on the force of every muscle, in addition to its strength
 };
 
 struct SkinDescription {
     double membrane_n_per_m = 11.4;
     double bending_n_m = 2.9e-5;
     double lid_membrane_ratio = 0.012;
-    double wrinkles = 1.0;  ///< of the compressed skin that could fold, how much does; 0: smooth
+    double wrinkles =
+        1.0;  ///< fraction of the folding that the compressed skin could do; 0: no folds
 };
 
-/// How far orbicularis oris turns and pushes the lips of this head, of the way of the standard head, and how much of the mouth
-/// pressure of the standard action units puffs its cheeks. [0.05, 4]
+/// Factors of this head, relative to the standard head: how far orbicularis oris turns and pushes the lips, and how much of the mouth
+/// pressure of the standard action units puffs the cheeks. [0.05, 4]
 struct LipsDescription {
     double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
 /// Appearance generated for heads without textures of their own; colours sRGB 0..1.
-struct LookDescription {
+struct AppearanceDescription {
     std::string textures =
         "mesh";  ///< "mesh": pictures of the mesh's materials where it has them; "generated": never
     Vec3 skin_tone{0.80, 0.60, 0.50};
@@ -124,18 +126,19 @@ struct RigDescription {
     SkinDescription skin;
     track::FacsTable facs;
     track::Expressions expressions;
-    LookDescription look;
-    std::vector<std::filesystem::path> table_files;  ///< read because the rig file names them
+    AppearanceDescription appearance;
+    std::vector<std::string> notes;                  ///< keys of the file that have new names
+    std::vector<std::filesystem::path> table_files;  ///< files that the rig file names
 
-    const SolidMuscle* solid(const std::string& muscle) const;  ///< null for a bundle
+    const SolidMuscle* solid(const std::string& muscle) const;  ///< null for a bundle of fibres
     track::ChannelTable channels() const { return muscles.channels(); }
 };
 
-/// Throws Error naming file, place, expected and found.
+/// Throws Error that names file, place, the expected and the found value.
 RigDescription read_rig(const std::filesystem::path& file);
 
-/// What `fit` writes: the tables of `standard` are referred to by path when `tables_folder` is given, otherwise written inline.
-/// Written beside and renamed, never half.
+/// How `fit` writes a rig: with its own copies of the standard tables, or with the paths of those in `standard_folder`. The file is written
+/// under another name first and then renamed, so that no incomplete file is left.
 struct RigWriteOptions {
     std::filesystem::path standard_folder;  ///< where muscles.json, facs.json, ... are
     bool inline_tables = true;

@@ -115,7 +115,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
     scene.rest = head.vertices;
     scene.shut = eyes_shut(head, rig);
     scene.landmarks = head.landmarks;
-    TexturePictures pictures(mesh, rig.look.textures == "mesh", scene.textures);
+    TexturePictures pictures(mesh, rig.appearance.textures == "mesh", scene.textures);
 
     // One surface for each group of faces and each texture; the tongue is separated from the gums by connected components
     const auto add = [&](int group, Material material, const std::function<bool(int)>& wanted) {
@@ -153,19 +153,19 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
         out.pupil_radius_m = head.mm(rig.eyes.pupil_radius_mm);
         out.forward = eye.forward;
     }
-    scene.look = {.skin_tone = rig.look.skin_tone,
-                  .lip_tone = rig.look.lip_tone,
-                  .hair_tone = rig.look.hair_tone,
-                  .iris_tone = rig.look.iris_tone,
-                  .freckles = rig.look.freckles,
-                  .scalp_hair = rig.look.scalp_hair,
-                  .hairline_mm = rig.look.hairline_mm,
-                  .temples_mm = rig.look.temples_mm,
-                  .hair_length_mm = rig.look.hair_length_mm,
-                  .beard_length_mm = rig.look.beard_length_mm,
-                  .beard = rig.look.beard,
-                  .age = rig.look.age,
-                  .seed = static_cast<unsigned>(rig.look.seed)};
+    scene.appearance = {.skin_tone = rig.appearance.skin_tone,
+                        .lip_tone = rig.appearance.lip_tone,
+                        .hair_tone = rig.appearance.hair_tone,
+                        .iris_tone = rig.appearance.iris_tone,
+                        .freckles = rig.appearance.freckles,
+                        .scalp_hair = rig.appearance.scalp_hair,
+                        .hairline_mm = rig.appearance.hairline_mm,
+                        .temples_mm = rig.appearance.temples_mm,
+                        .hair_length_mm = rig.appearance.hair_length_mm,
+                        .beard_length_mm = rig.appearance.beard_length_mm,
+                        .beard = rig.appearance.beard,
+                        .age = rig.appearance.age,
+                        .seed = static_cast<unsigned>(rig.appearance.seed)};
     return scene;
 }
 

@@ -1,4 +1,4 @@
-// Raw surface electromyogram to its linear envelope: band-pass, rectify, low-pass, all without delay.
+// Converts raw surface electromyograms to their linear envelope: band-pass, rectification, low-pass, all without delay.
 //
 // Defaults: the band of surface electrodes, 20 to 450 Hz (C. J. De Luca et al. 2010, J. Biomech. 43(8), 1573-1579), and the
 // 6 Hz usual for envelopes that drive muscle models (T. S. Buchanan et al. 2004, J. Appl. Biomech. 20(4), 367-395: 3 to 10).
@@ -21,7 +21,7 @@ struct EmgFilters {
     bool rectify = true;
 };
 
-/// How many samples filter_both_ways continues the ends by: two periods of the slowest filter. A recording has to be longer.
+/// Number of samples by which filter_both_ways extends the ends: two periods of the slowest filter. A recording must be longer.
 std::size_t padding_of(const EmgFilters& filters, double rate_hz);
 
 /// In the unit of the samples, never negative. Every frequency has to be below rate_hz / 2.

@@ -1,4 +1,4 @@
-// Butterworth and notch filters as second-order sections, run forwards and backwards so that nothing is delayed.
+// Butterworth and notch filters as second-order sections, run forwards and backwards so that they have no delay.
 //
 //   K   tan(pi f / rate): the bilinear transform, with which a cut-off stays where it was asked for
 //   n   order of one pass; both passes together attenuate like 2 n
@@ -21,17 +21,17 @@ struct Section {
 };
 using Filter = std::vector<Section>;
 
-/// `order` even, 2 or more; 0 < cutoff_hz < rate_hz / 2. `passes` is how often it will be run.
+/// `order` even, 2 or more; 0 < cutoff_hz < rate_hz / 2. `passes`: how often the filter will be run.
 Filter low_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
 Filter high_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
-/// Takes out hz and, at -3 dB of one pass, half of `width_hz` to either side.
+/// Removes hz. At -3 dB of one pass the band is `width_hz` wide.
 Filter notch(double hz, double width_hz, double rate_hz);
 
 /// Amplitude of one pass at a frequency.
 double gain(const Filter& filter, double hz, double rate_hz);
 
-/// Forwards, then backwards. Both ends are continued by `padding` samples, turned about the end's value, and each pass
-/// begins in the steady state of its first sample. Needs more samples than `padding`.
+/// Runs forwards, then backwards. Both ends are extended by `padding` samples, reflected about the end's value; each pass starts in the
+/// steady state of its first sample. Needs more samples than `padding`.
 std::vector<double> filter_both_ways(const Filter& filter, const std::vector<double>& samples,
                                      std::size_t padding);
 

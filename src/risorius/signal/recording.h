@@ -20,11 +20,11 @@ class Recording {
     /// -1 when there is none.
     int find(const std::string& column) const;
 
-    /// Throws Error naming file, line and column of what is not a finite number.
+    /// Throws Error that names file, line and column of a value that is not a finite number.
     std::vector<double> samples(int column) const;
 
-    /// Rate of samples whose times, s, stand in a column. Throws Error where time stands still, runs back, or leaves more
-    /// or less than half of the usual step out.
+    /// Sampling rate, Hz, from a column of times, s. Throws Error where times do not increase or a step differs from the usual one by more
+    /// than half of it.
     double rate_hz(int time_column) const;
 
   private:

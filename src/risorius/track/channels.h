@@ -1,4 +1,4 @@
-// What a script may drive: the muscles of a rig, action units, and kinematic channels; and the values at one moment.
+// The channels that a script may drive: the muscles of a rig, action units, and kinematic channels; and their values at one moment.
 //
 // Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
 #pragma once
@@ -49,7 +49,7 @@ enum class Kinematic {
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
 using KinematicValues = std::array<double, kKinematicCount>;
 
-/// How a script names a kinematic channel and how far it goes. Limits of gaze and head: adult norms.
+/// Name of a kinematic channel in scripts, and its limits. Limits of gaze and head are adult norms.
 struct KinematicChannel {
     std::string_view name;  ///< with its side, "gaze_yaw_deg.l"
     double min;
@@ -59,7 +59,7 @@ struct KinematicChannel {
 /// In the order of Kinematic.
 const std::array<KinematicChannel, kKinematicCount>& kinematic_channels();
 
-/// The channels a script's name stands for: one, or both eyes when a gaze channel has no side; empty when unknown.
+/// The channels for a name in a script: one, or both eyes when a gaze channel has no side; empty when unknown.
 std::vector<Kinematic> kinematic_named(std::string_view name);
 
 /// "zygomaticus_major.l" -> "zygomaticus_major" and left; without suffix no side.
@@ -83,7 +83,7 @@ struct ChannelTable {
     std::vector<std::string> column_names() const;
 };
 
-/// What moves the jaw: the channels jaw_open, jaw_forward and jaw_side place it, or muscles pull it, which those channels then ask to.
+/// What moves the jaw: the channels jaw_open, jaw_forward and jaw_side directly, or muscles, which these channels then excite.
 enum class JawDrive { kChannels, kMuscles };
 
 /// Everything that drives a face at one moment.

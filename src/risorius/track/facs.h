@@ -1,8 +1,8 @@
-// Action units of the Facial Action Coding System and expressions made of them: which muscles, jaw, eyes and head
-// movement each stands for. Tables: rigs/standard/facs.json and expressions.json.
+// Action units of the Facial Action Coding System and expressions made of them: the muscles, jaw, eye and head movements of each. Tables:
+// rigs/standard/facs.json and expressions.json.
 //
-// A unit restricted to one side keeps the muscles and eye of that side and half of everything that has no sides, so that
-// left and right together are the whole unit.
+// A unit restricted to one side keeps the muscles and eye of that side and half of everything that has no sides. Left and right together
+// are the whole unit.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct MuscleShare {
     double weight = 0;         ///< excitation at full intensity, ratio
 };
 
-/// Movement of the jaw at full intensity; unset where a table says nothing about it.
+/// Movement of the jaw at full intensity; unset where the table does not give it.
 struct JawShare {
     std::optional<double> open;  ///< ratio of the opening range
     std::optional<double> protrude_mm;
@@ -35,20 +35,20 @@ struct ActionUnit {
     bool sided = false;  ///< may be restricted with .l or .r
     std::vector<MuscleShare> muscles;
     KinematicValues kinematic{};
-    std::string unsupported;  ///< what a face would need for this unit, when this one cannot do it
+    std::string unsupported;  ///< why this face cannot show the unit; empty when it can
     std::vector<std::pair<std::string, Vec3>>
         landmark_targets_mm;  ///< left or midline landmark -> displacement
 };
 
-/// A unit in a list, with how much of it.
+/// A unit in a list, with its intensity.
 struct UnitUse {
     std::string unit;  ///< id in FacsTable::units
     std::optional<Side> side;
     double value = 1;  ///< intensity, [0, 1]
 };
 
-/// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace
-/// what the units give.
+/// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace those of the
+/// units.
 struct ArkitShape {
     std::string name;
     std::vector<UnitUse> units;
@@ -57,7 +57,7 @@ struct ArkitShape {
     std::optional<double> tongue_out_mm, tongue_up;  ///< up: ratio, [-1, 1]
 };
 
-/// What turns the millimetres of the tables into the ratios of the kinematic channels.
+/// Converts the lengths of the tables, mm, to the ratios of the kinematic channels.
 struct FacsRanges {
     double jaw_forward_mm = 9;
     double jaw_side_mm = 8;
@@ -68,7 +68,7 @@ struct FacsTable {
     FacsRanges ranges;
     std::vector<ActionUnit> units;
     std::vector<ArkitShape> arkit;
-    std::vector<ArkitShape> visemes;                      ///< none in rigs older than they are
+    std::vector<ArkitShape> visemes;                      ///< empty in rigs of earlier versions
     const ActionUnit* find(const std::string& id) const;  ///< null when unknown
     const ArkitShape* find_arkit(const std::string& name) const;  ///< null when unknown
 };
@@ -79,7 +79,7 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels);
 struct ExpressionUnit {
     UnitUse use;
     double delay =
-        0;  ///< how much later than the first unit it sets in, ratio of the onset, [0, 0.9]
+        0;  ///< start of the unit after the first one, as a fraction of the onset, [0, 0.9]
 };
 
 struct Expression {
@@ -97,7 +97,7 @@ struct Expressions {
 
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
 
-/// What a source at full value adds to the drive.
+/// What a source of value 1 adds to the drive.
 struct Expansion {
     Eigen::VectorXd excitation;  ///< per column
     KinematicValues kinematic{};
@@ -110,11 +110,11 @@ Expansion expand(const MuscleShare& share, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);
 Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels);
 
-/// "zygomaticus_major.l" as a share of weight 1. Throws at `place` for an unknown muscle or a side it does not have.
+/// "zygomaticus_major.l" with weight 1. Throws Error at `place` for an unknown muscle or a side that it does not have.
 MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
                          const ChannelTable& channels);
 
-/// "AU" and a number, whether or not a table has it.
+/// Whether a name is "AU" and a number, in a table or not.
 bool is_unit_number(std::string_view name);
 
 /// "AU12.l" as a use of value 1. Throws at `place` for a unit that is unknown, has no sides, or cannot be moved by a rig.

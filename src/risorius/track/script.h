@@ -1,4 +1,4 @@
-// A script as read: which rig, how long, what every channel does over time, expressions and blinks, and how it is seen.
+// A script as read: the rig, the duration, all channels over time, expressions and blinks, and the view.
 // JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include "risorius/track/detail/curve.h"
 #include "risorius/track/detail/idle.h"
 #include "risorius/track/facs.h"
+#include "risorius/track/motion.h"
 
 namespace risorius::track {
 
@@ -39,10 +40,7 @@ struct ScriptView {
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
 };
 
-/// Through inertia and damping, or every frame in equilibrium with its drive.
-enum class Motion { kDynamic, kQuasiStatic };
-
-/// What can be known before the rig is.
+/// The part of a script that is known before the rig is read.
 struct ScriptHeader {
     std::string rig;                 ///< as written
     std::filesystem::path rig_file;  ///< relative paths start at the script's folder
@@ -69,7 +67,7 @@ struct ChannelTrack {
     Expansion drives;         ///< what the channel at 1 adds
 };
 
-/// Rises along a minimum-jerk curve, is held, falls again. Every unit has its own delay within the onset.
+/// Rises along a minimum-jerk curve, is held, and falls again. Every unit has its own delay within the onset.
 struct ExpressionEvent {
     struct Part {
         Expansion drives;  ///< at the intensity of the event
@@ -80,15 +78,15 @@ struct ExpressionEvent {
     std::optional<Side> side;  ///< none: as the table says
     double intensity = 1;      ///< [0, 1]
     double asymmetry =
-        0;  ///< how much weaker one side may be, by chance; it is up to 40 ms late, [0, 0.5]
+        0;  ///< largest random reduction of one side, which also starts up to 40 ms late, [0, 0.5]
     double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
     std::vector<Part> parts;
 };
 
 struct BlinkEvent {
     double start_s = 0;
-    double duration_s = 0.22;  ///< from the first drive until the lids are open again
-    double intensity = 1;      ///< below about 0.8 the lids do not meet
+    double duration_s = 0.22;  ///< from the start of the drive until the lids are open again
+    double intensity = 1;      ///< below about 0.8 the lids do not close
     std::optional<Side> side;
     Expansion drives;  ///< of AU45 at this intensity
 };
@@ -97,7 +95,7 @@ struct BlinkEvent {
 struct EmgTrack {
     std::string muscle;  ///< "zygomaticus_major.l"
     SampledCurve excitation;
-    Expansion drives;  ///< what it at 1 adds
+    Expansion drives;  ///< what a value of 1 adds
 };
 
 struct ScriptDescription {
@@ -108,9 +106,8 @@ struct ScriptDescription {
     std::vector<BlinkEvent> blinks;  ///< those of idle events too
     std::vector<IdleEvent> idle;
     Eigen::VectorXd
-        weakness;  ///< per column, of a muscle's strength that is missing, [0, 1]; empty: none is
-    std::array<double, 2> late_s{
-        0, 0};  ///< how much later the muscles of a side hear of it all, [0, 10]
+        weakness;  ///< per column, fraction of a muscle's strength that is missing, [0, 1]; empty: none
+    std::array<double, 2> late_s{0, 0};             ///< delay of all muscles of a side, [0, 10]
     std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
 };
 
@@ -118,7 +115,7 @@ struct ScriptDescription {
 ScriptHeader read_script_header(const std::filesystem::path& file);
 ScriptHeader read_script_header(const JsonCursor& script);
 
-/// Everything, checked against the rig. Throws Error naming file, place, expected and found.
+/// Reads everything and checks it against the rig. Throws Error that names file, place, the expected and the found value.
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions);
 

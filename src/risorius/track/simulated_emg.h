@@ -1,4 +1,4 @@
-// What surface electrodes above every muscle would record, as linear envelopes: columns of the table of frames.
+// Simulated linear envelopes of surface electrodes above every muscle: columns of the frame table.
 //
 //   e = (u - min) / (1 - min)      electrical activity, ratio of the greatest; u excitation, min 0 or, of a muscle with
 //                                  resting tone that can be taken away, -1
@@ -22,10 +22,10 @@ class SimulatedEmg {
   public:
     using DriveAt = std::function<Drive(double t_s)>;
 
-    /// `drive` is asked for up to half a second before and after the time wanted; times before 0 ask for 0.
+    /// `drive` is evaluated up to half a second before and after the time; for times before 0 at 0.
     SimulatedEmg(const ChannelTable& channels, DriveAt drive);
 
-    /// Envelope of every column, [0, 1]. Times that grow cost a few drives each.
+    /// Envelope of every column, [0, 1]. Increasing times need a few evaluations of the drive each.
     Eigen::VectorXd at(double t_s);
 
   private:

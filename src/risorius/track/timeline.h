@@ -1,9 +1,8 @@
-// A script at any moment: what drives every muscle, the jaw, the eyes and the head.
+// A script at any moment: the drive of every muscle, the jaw, the eyes and the head.
 //
-// Sources for one muscle or channel add up and are clamped to its range. A blink is two pulses of AU45: the levator of the
-// lid falls silent, 10 ms later orbicularis oculi fires, and both end together; through activation dynamics the lids meet
-// after 70 to 80 ms and are open again at the end of the blink.
-// Muscles of a side may be late and any of them weak: what they are driven with is what is left, also of activation set directly.
+// Sources of one muscle or channel are added and clamped to its range. A blink is two pulses of AU45: the levator of the lid falls silent,
+// 10 ms later orbicularis oculi fires, and both end together. Through activation dynamics the lids meet after 70 to 80 ms and are open
+// again at the end of the blink. Muscles of a side may be delayed and any muscle may be weak; both also apply to activation set directly.
 // Source of the blink: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
 #pragma once
 
@@ -17,20 +16,20 @@ namespace risorius::track {
 
 /// Orbicularis starts this long after the levator has fallen silent.
 inline constexpr double kBlinkLead_s = 0.010;
-/// Time the lids take to open again once the pulses have ended.
+/// Time from the end of the pulses until the lids are open again.
 inline constexpr double kBlinkReopening_s = 0.140;
-/// A shorter blink would end before orbicularis has fired.
+/// A shorter blink would end before orbicularis fires.
 inline constexpr double kShortestBlink_s = 0.160;
 
 class Timeline {
   public:
     Timeline(const ScriptDescription& script, const ChannelTable& channels);
 
-    /// Costs microseconds; call it at every simulation step. Blinks are sharp: steps above 5 ms blur them.
+    /// Takes microseconds. Call it at every simulation step: a blink is short, and steps above 5 ms smear it.
     Drive at(double t_s) const;
 
   private:
-    /// Of a face whose sides hear of everything at once.
+    /// The drive without the delays of sides.
     Drive together_at(double t_s) const;
     struct Source {
         Curve curve;
@@ -53,7 +52,7 @@ class Timeline {
     std::array<std::vector<int>, 2> side_columns_;  ///< of paired muscles
 };
 
-/// Share of an expression's unit that shows at t: 0 before its delayed onset, 1 while held, 0 after the offset.
+/// Fraction of an expression's unit at t: 0 before its delayed onset, 1 while held, 0 after the offset.
 double expression_profile(const ExpressionEvent& event, double delay, double t_s);
 
 }  // namespace risorius::track

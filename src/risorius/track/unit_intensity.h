@@ -1,7 +1,7 @@
-// How much of every action unit a script asks for at any moment, left and right: what a FACS coder would be told.
+// Intensity of every action unit of a script at any moment, left and right, as a FACS coder would rate it.
 //
-// From channels of units, expressions and blinks; muscles and recordings drive the face without saying which unit they are.
-// Sources add up to 1 at most. A blink is AU45 from its first drive until the lids are let go.
+// From channels of units, expressions and blinks only; muscles and recordings do not name a unit. The sum of sources is limited to 1. A
+// blink is AU45 from the start of its drive until the lids are released.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class UnitIntensity {
   public:
     UnitIntensity(const ScriptDescription& script, const FacsTable& facs);
 
-    /// "AU1.l", "AU1.r", "AU25", ...: two of every unit that has sides; without units that no face can do.
+    /// "AU1.l", "AU1.r", "AU25", ...: two names for every unit with sides; without units that no face can show.
     const std::vector<std::string>& names() const { return names_; }
     /// In that order, [0, 1].
     std::vector<double> at(double t_s) const;

@@ -18,8 +18,7 @@ struct ReferenceRun::Impl {
           timeline(script, channels) {
         face.drive_jaw_by(script.header.jaw);
         face.set_gravity(script.header.gravity_m_s2);
-        face.move(script.header.motion == track::Motion::kDynamic ? face::Motion::kDynamic
-                                                                  : face::Motion::kQuasiStatic);
+        face.move(script.header.motion);
     }
 };
 

@@ -1,4 +1,4 @@
-// A linear rig as it is played: the same displacements in half the bytes, as what a frame costs is reading them.
+// A blend shape rig prepared for playback: the same displacements as float, since reading them takes most of the time of a frame.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ class BlendShapePlayer {
   public:
     explicit BlendShapePlayer(const BlendShapeRig& rig);
 
-    /// Adds what the weights, one per shape and then per corrective (LinearRig::all_weights), do to `vertices`, m: as
-    /// LinearRig::add_to does, to the last bit of a float.
+    /// Adds to `vertices`, m, the displacement for the weights, one per shape and then one per corrective (BlendShapeRig::all_weights). Equal to
+    /// BlendShapeRig::add_to up to the rounding of float.
     void add_to(Points& vertices, const Eigen::VectorXd& all_weights) const;
 
   private:
-    struct Run {  // of vertices in a row
+    struct Run {  // consecutive vertices
         long first, count;
     };
     struct Shape {

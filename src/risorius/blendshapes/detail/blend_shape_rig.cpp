@@ -6,23 +6,23 @@
 
 namespace risorius::blendshapes {
 
-double Term::value(const Eigen::VectorXd& shape_weights) const {
-    const auto driver = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
+double Driver::value(const Eigen::VectorXd& shape_weights) const {
+    const auto weight_of = [&](int i) { return std::clamp(shape_weights[i], 0.0, 1.0); };
     double product = 1;
-    for (const int i : fades_with) product *= 1 - driver(i);
-    if (drivers.size() > 1) {
-        for (const int i : drivers) product *= driver(i);
+    for (const int i : fades_with) product *= 1 - weight_of(i);
+    if (shapes.size() > 1) {
+        for (const int i : shapes) product *= weight_of(i);
         return product;
     }
-    const double w = driver(drivers[0]);
+    const double w = weight_of(shapes[0]);
     for (int i = 0; i < 4; ++i) product *= i < part ? w : 1 - w;
     return (part == 2 ? 6 : 4) * product;
 }
 
-Eigen::VectorXd BlendShapeRig::term_values(const Eigen::VectorXd& weights) const {
-    Eigen::VectorXd out(static_cast<long>(terms.size()));
-    for (std::size_t t = 0; t < terms.size(); ++t)
-        out[static_cast<long>(t)] = terms[t].value(weights);
+Eigen::VectorXd BlendShapeRig::driver_values(const Eigen::VectorXd& weights) const {
+    Eigen::VectorXd out(static_cast<long>(drivers.size()));
+    for (std::size_t t = 0; t < drivers.size(); ++t)
+        out[static_cast<long>(t)] = drivers[t].value(weights);
     return out;
 }
 
@@ -36,11 +36,11 @@ void BlendShapeRig::add_to(Points& vertices, const Eigen::VectorXd& weights) con
 }
 
 Eigen::VectorXd BlendShapeRig::all_weights(const Eigen::VectorXd& weights) const {
-    const Eigen::VectorXd values = term_values(weights);
+    const Eigen::VectorXd values = driver_values(weights);
     Eigen::VectorXd out(weights.size() + static_cast<long>(correctives.size()));
     out.head(weights.size()) = weights;
     for (std::size_t c = 0; c < correctives.size(); ++c)
-        out[weights.size() + static_cast<long>(c)] = correctives[c].of_terms.dot(values);
+        out[weights.size() + static_cast<long>(c)] = correctives[c].of_drivers.dot(values);
     return out;
 }
 

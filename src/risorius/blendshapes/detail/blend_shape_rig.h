@@ -1,13 +1,13 @@
-// A linear rig: blend shapes added up by weight, and correctives for what the sum gets wrong.
+// A blend shape rig: shapes added by weight, and correctives for the errors of the sum.
 //
 //   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
-//   k_c = sum_t a_ct f_t(w)                             terms, shared by all correctives
-//   f_t = w_a w_b (1 - w_a) ...            several drivers: a product of their weights, 0 where any is not there, and where one that
-//                                it goes with (`fades_with`) is whole
-//   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one driver: a part of its way, for what goes round a corner; B_k = binomial(4, k)
-//                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which are 0 at rest and where the shape is whole. It goes as
-//                                others come that move the same skin, which then takes another way: two shapes that both part
-//                                the lips part them but once
+//   k_c = sum_t a_ct f_t(w)                             drivers, shared by all correctives
+//   f_t = w_a w_b (1 - w_a) ...            several shapes: a product of their weights; 0 where any of them is 0, and where a shape of
+//                                `fades_with` has weight 1
+//   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one shape: a part of its path, for motion that is not straight; B_k = binomial(4, k)
+//                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which is 0 at weights 0 and 1. It fades as other shapes
+//                                of the same skin are added, since the skin then takes another path: two shapes that both part
+//                                the lips part them only once
 //
 // Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
 #pragma once
@@ -20,12 +20,12 @@
 
 namespace risorius::blendshapes {
 
-/// What correctives hang on.
-struct Term {
+/// A function of the weights that correctives depend on.
+struct Driver {
     std::string name;                  ///< "jawOpen*mouthSmileLeft", "eyeBlinkLeft~1"
-    std::vector<int> drivers;          ///< shapes
-    int part = 0;                      ///< k, of a single driver
-    std::vector<int> fades_with = {};  ///< shapes that it goes with
+    std::vector<int> shapes;           ///< indices of shapes
+    int part = 0;                      ///< k, for a single shape
+    std::vector<int> fades_with = {};  ///< shapes that make it fade
 
     double value(const Eigen::VectorXd& shape_weights) const;
 };
@@ -33,18 +33,18 @@ struct Term {
 struct Corrective {
     std::string name;
     SparseShape shape;
-    Eigen::VectorXd of_terms;  ///< a, one number per term
+    Eigen::VectorXd of_drivers;  ///< a, one number per driver
 };
 
 struct BlendShapeRig {
     std::vector<SparseShape> shapes;
-    std::vector<Term> terms = {};
+    std::vector<Driver> drivers = {};
     std::vector<Corrective> correctives = {};
 
-    Eigen::VectorXd term_values(const Eigen::VectorXd& weights) const;
-    /// Adds what the weights, one per shape, do to `vertices`.
+    Eigen::VectorXd driver_values(const Eigen::VectorXd& weights) const;
+    /// Adds the displacement for the weights, one per shape, to `vertices`, m.
     void add_to(Points& vertices, const Eigen::VectorXd& weights) const;
-    /// Those of the shapes, then those of the correctives that follow from them.
+    /// The weights of the shapes, followed by those of the correctives.
     Eigen::VectorXd all_weights(const Eigen::VectorXd& weights) const;
 };
 
@@ -55,7 +55,7 @@ struct FieldError {
 };
 FieldError error_between(const Points& one, const Points& other, const Eigen::VectorXd& area);
 
-/// Splits a field into what lies left and what lies right, smoothly; they add up to it.
+/// Splits a field smoothly into a left and a right part whose sum is the field.
 std::pair<Points, Points> left_and_right(const Points& rest, const Points& field,
                                          double half_width_m);
 

@@ -17,7 +17,7 @@ constexpr double kOfLargest =
     1e-3;  // smaller singular values than this share of the largest are left out
 constexpr double kOfOthers = 0.1;      // frames of any kind against those that are given
 constexpr double kCoarser = 1.2;       // where there is no room
-constexpr double kShareCounts = 1e-3;  // of a term in a corrective, against its largest
+constexpr double kShareCounts = 1e-3;  // of a driver in a corrective, against its largest
 
 /// Fields of the vertices that any of them moves, one below the other.
 struct Stack {
@@ -32,10 +32,10 @@ Eigen::VectorXd rows_of(const Points& field, const std::vector<int>& vertex) {
     return out;
 }
 
-Stack stacked(const std::vector<TermField>& fields, const std::vector<PlayedFrame>& frames,
+Stack stacked(const std::vector<DriverField>& fields, const std::vector<PlayedFrame>& frames,
               long vertices) {
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(vertices);
-    for (const TermField& one : fields) moved = moved.cwiseMax(one.field.rowwise().squaredNorm());
+    for (const DriverField& one : fields) moved = moved.cwiseMax(one.field.rowwise().squaredNorm());
     for (const PlayedFrame& frame : frames)
         for (long v = 0; v < vertices; ++v)
             if (const double size = frame.left.row(v).norm(); size > kMoved_m)
@@ -49,32 +49,32 @@ Stack stacked(const std::vector<TermField>& fields, const std::vector<PlayedFram
     return out;
 }
 
-Eigen::MatrixXd terms_in(const std::vector<PlayedFrame>& frames,
-                         const std::vector<TermField>& fields) {
+Eigen::MatrixXd drivers_in(const std::vector<PlayedFrame>& frames,
+                           const std::vector<DriverField>& fields) {
     Eigen::MatrixXd out(static_cast<long>(frames.size()), static_cast<long>(fields.size()));
     for (std::size_t f = 0; f < frames.size(); ++f)
         for (std::size_t t = 0; t < fields.size(); ++t)
             out(static_cast<long>(f), static_cast<long>(t)) =
-                fields[t].term.value(frames[f].weights);
+                fields[t].driver.value(frames[f].weights);
     return out;
 }
 
-void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::MatrixXd& terms,
+void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::MatrixXd& drivers,
          double price) {
     if (frames.empty()) return;
     Eigen::MatrixXd left(stack.column.rows(), static_cast<long>(frames.size()));
     for (std::size_t f = 0; f < frames.size(); ++f)
         left.col(static_cast<long>(f)) = rows_of(frames[f].left, stack.vertex);
-    left.noalias() -= stack.column * terms.transpose();
-    Eigen::MatrixXd normal = terms * terms.transpose();
+    left.noalias() -= stack.column * drivers.transpose();
+    Eigen::MatrixXd normal = drivers * drivers.transpose();
     normal.diagonal().array() += price;
-    stack.column.noalias() += left * normal.ldlt().solve(terms);
+    stack.column.noalias() += left * normal.ldlt().solve(drivers);
 }
 
 /// Correctives of one side, the largest singular value first.
 struct HalfCorrectives {
     std::vector<Points> field;
-    Eigen::MatrixXd of_terms;  ///< correctives x terms
+    Eigen::MatrixXd of_drivers;  ///< correctives x drivers
 };
 
 HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
@@ -87,7 +87,7 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
         half.middleRows<3>(3 * static_cast<long>(i)) *= left ? share : 1 - share;
         root.segment<3>(3 * static_cast<long>(i)).setConstant(root_area[stack.vertex[i]]);
     }
-    // Singular vectors on the right of  root half root_use: there are far fewer terms than vertices
+    // Singular vectors on the right of  root half root_use: there are far fewer drivers than vertices
     const Eigen::MatrixXd weighted = root.asDiagonal() * half * root_use.asDiagonal();
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(half.cols(), half.cols());
     gram.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
@@ -99,7 +99,7 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
            eigen.eigenvalues()[all - 1 - count] > std::max(0.0, least))
         ++count;
     HalfCorrectives out;
-    out.of_terms.resize(count, all);
+    out.of_drivers.resize(count, all);
     for (long c = 0; c < count; ++c) {
         Eigen::VectorXd right = eigen.eigenvectors().col(all - 1 - c);
         // A singular vector has no sign of its own: its largest number is positive
@@ -114,7 +114,7 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
         const Eigen::VectorXd field = greatest * (half * root_use.cwiseProduct(right));
         shares /= greatest;
         const double counts = kShareCounts * shares.cwiseAbs().maxCoeff();
-        out.of_terms.row(c) = (shares.array().abs() < counts).select(0.0, shares).transpose();
+        out.of_drivers.row(c) = (shares.array().abs() < counts).select(0.0, shares).transpose();
         Points& moved = out.field.emplace_back(Points::Zero(rest.rows(), 3));
         for (std::size_t i = 0; i < stack.vertex.size(); ++i)
             moved.row(stack.vertex[i]) = field.segment<3>(3 * static_cast<long>(i)).transpose();
@@ -129,23 +129,23 @@ SparseShape faded(Points field, const Fade& fade) {
 
 }  // namespace
 
-LowRank low_rank(std::vector<TermField> fields, const std::vector<PlayedFrame>& frames,
+LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
                  const Points& rest, const Eigen::VectorXd& area, const Compression& how) {
     LowRank out;
     if (fields.empty()) return out;
     Stack stack = stacked(fields, frames, rest.rows());
-    const Eigen::MatrixXd terms = terms_in(frames, fields);
-    fit(stack, frames, terms, how.price);
+    const Eigen::MatrixXd drivers = drivers_in(frames, fields);
+    fit(stack, frames, drivers, how.price);
 
     Eigen::VectorXd use(static_cast<long>(fields.size()));
     for (std::size_t t = 0; t < fields.size(); ++t)
         use[static_cast<long>(t)] = (frames.empty() ? 1 : kOfOthers) * fields[t].use;
     if (!frames.empty())
-        use += terms.colwise().squaredNorm().transpose() / static_cast<double>(frames.size());
+        use += drivers.colwise().squaredNorm().transpose() / static_cast<double>(frames.size());
     const Eigen::VectorXd root_use = use.cwiseSqrt(), root_area = area.cwiseSqrt();
     std::array<HalfCorrectives, 2> side;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
-        side[k] = side_of(stack, k == 0, rest, root_area, root_use, terms, how);
+        side[k] = side_of(stack, k == 0, rest, root_area, root_use, drivers, how);
 
     // Of all the same detail, as fine as there is room for
     for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
@@ -158,12 +158,12 @@ LowRank low_rank(std::vector<TermField> fields, const std::vector<PlayedFrame>& 
                 out.bytes += how.bytes_of_a_vertex * static_cast<long>(shape.vertex.size());
                 out.correctives.push_back(
                     {(k == 0 ? "correctiveLeft" : "correctiveRight") + std::to_string(c + 1),
-                     std::move(shape), side[k].of_terms.row(static_cast<long>(c)).transpose()});
+                     std::move(shape), side[k].of_drivers.row(static_cast<long>(c)).transpose()});
             }
         if (out.bytes <= how.budget_bytes) break;
     }
     if (out.correctives.empty()) return out;
-    for (TermField& one : fields) out.terms.push_back(std::move(one.term));
+    for (DriverField& one : fields) out.drivers.push_back(std::move(one.driver));
     return out;
 }
 

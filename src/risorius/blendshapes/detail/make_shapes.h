@@ -1,4 +1,4 @@
-// Blend shapes from physics: every shape of a set as the static pose that its drive brings about, on the mesh as imported.
+// Blend shapes from physics: every shape of a set is the pose in equilibrium with its drive, on the mesh as imported.
 #pragma once
 
 #include <array>
@@ -18,23 +18,23 @@ struct MadeShape {
     ShapeGoal goal;
     blendshapes::SparseShape shape;  ///< head frame, m
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
-    /// Of a shape on top of another: the weight of both at which it was solved, and beyond which it goes on in a line.
+    /// Of a shape on top of another: the weight of both at which it was solved; beyond it the shape is extrapolated linearly.
     double solved_at = 1;
     ShapeCertificate certificate;
 };
 
 struct MadeShapes {
     std::vector<MadeShape> list;
-    /// Largest difference of two halves' sum from the whole as solved, m.
+    /// Largest distance between the sum of two halves and the whole, m.
     double halves_error_m = 0;
     bool mirrored = false;  ///< the head is its own mirror image, so that sides can be compared
 };
 
-/// `solver` has the faces; `progress` goes from 0 to 1.
+/// `solver` provides the faces; `progress` goes from 0 to 1.
 MadeShapes make_shapes(const scene::RigFiles& files, const ShapeSet& set, const ShapeSolver& solver,
                        const ProgressMonitor& monitor = {});
 
-/// The mesh with a shape at weight 1, V x 3, m, head frame; a shape on top of another with that too.
+/// The mesh with a shape at weight 1, V x 3, m, head frame. A shape on top of another is shown with that one.
 Points shown_pose(const MadeShapes& shapes, std::size_t index, const Points& rest);
 
 }  // namespace risorius::blendshapes

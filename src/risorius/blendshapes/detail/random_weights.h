@@ -1,4 +1,4 @@
-// Weights of shapes drawn at random: what a linear rig is tried on, and the same for the same names and seed.
+// Random weights of shapes, for tests of a blend shape rig. They depend only on names and seed.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace risorius::blendshapes {
 
-/// Any shapes at all, four at a time and each frame by itself.
+/// Any four shapes at a time; frames are independent.
 std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames, unsigned seed);
 
 /// Frames, a second apart, of a track in which the action units of FACS's upper and lower face (AU1 to AU28, AU38, AU39, AU43; not the

@@ -1,4 +1,4 @@
-// Weights of blend shapes over time, and the tables that other programs play them from.
+// Weights of blend shapes over time, and the tables from which other programs play them.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct ShapeAnimation {
     std::vector<track::Drive> drives;  ///< per frame, for the pose of head and eyes
 };
 
-/// A script's frames as weights of `goals`: muscles follow their drive as they do in a render, the face is taken to be in equilibrium.
+/// Converts the frames of a script to weights of `goals`: muscles follow their drive as in a render, and the face is in equilibrium.
 ShapeAnimation bake_script(const std::filesystem::path& script, const scene::RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights);
 

@@ -1,5 +1,5 @@
-// What a blend shape is worth as physics, measured on the pose it was made from and on the mesh it leaves: is tissue kept, does
-// anything pass through anything, do eyes close, are both sides alike.
+// Measures of the physical quality of a blend shape, on its simulated pose and on the displaced mesh: change of volume, penetration, gaps
+// of closed eyes, symmetry.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,24 @@
 
 namespace risorius::blendshapes {
 
-/// What a certificate has to stay within.
+/// Limits of a certificate.
 struct ShapeLimits {
     double volume_ratio = 0.02;     ///< change of the tissue's volume
     double penetration_m = 0.3e-3;  ///< lip in lip, skin in eye
-    double lid_gap_m = 0.3e-3;      ///< left open by a blink
+    double lid_gap_m = 0.3e-3;      ///< gap that a blink leaves
     double asymmetry_m = 0.2e-3;    ///< on a head that is its own mirror image
 };
 
 struct ShapeCertificate {
-    double volume_change = 0;           ///< ratio, of all tissue
-    double lip_depth_m = 0;             ///< deepest penetration of lip in lip, beyond that at rest
-    double bone_depth_m = 0;            ///< of tissue in bone and teeth, whose surfaces are guessed
+    double volume_change = 0;  ///< ratio, of all tissue
+    double lip_depth_m = 0;    ///< largest penetration of lip in lip beyond that at rest
+    double bone_depth_m =
+        0;  ///< penetration of tissue in bone and teeth, whose surfaces are estimated
     double eye_depth_m = 0;             ///< of skin in the eyes
-    std::optional<double> lid_gap_m;    ///< of shapes that shut the eye
-    std::optional<double> lip_gap_m;    ///< of shapes that shut the mouth over an open jaw
+    std::optional<double> lid_gap_m;    ///< only for shapes that close the eye
+    std::optional<double> lip_gap_m;    ///< only for shapes that close the mouth over an open jaw
     std::optional<double> asymmetry_m;  ///< of a shape, or of it and its namesake
-    /// The same before both were made mirror images of each other: large where lips have buckled to one side.
+    /// The asymmetry before both sides were made mirror images: large where lips have buckled to one side.
     std::optional<double> asymmetry_as_solved_m;
     blendshapes::Stretch stretch;  ///< of the simulated skin
     double peak_m = 0;             ///< largest displacement
@@ -35,7 +36,7 @@ struct ShapeCertificate {
     bool converged = true;
     int inverted_tets = 0;
 
-    /// What is beyond its limit, in words; nothing when all is well.
+    /// The values beyond their limits in words; empty when there are none.
     std::vector<std::string> complaints(const ShapeLimits& limits = {}) const;
     Json json() const;  ///< lengths in mm
 };

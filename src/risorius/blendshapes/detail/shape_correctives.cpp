@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "risorius/blendshapes/detail/corrective_terms.h"
+#include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/low_rank.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/expression_score.h"
@@ -60,6 +60,67 @@ std::vector<Candidate> candidates_of(const std::vector<Unit>& units, const MadeS
     return out;
 }
 
+/// Poses that show more of some candidates: the index of the first pose of each kind.
+struct CloserPoses {
+    std::optional<std::size_t> on_its_way, one_sided;
+};
+struct CloserLook {
+    std::vector<CloserPoses> of;  ///< each candidate
+    std::vector<track::Drive> drives;
+};
+
+// Candidates that do not go straight, on their way: shapes a quarter and three quarters of it, pairs where either or both are half
+// way; and those of them that have sides, where either or both are on one side.
+CloserLook poses_closer_by(const std::vector<Candidate>& candidates, const std::vector<Unit>& units,
+                           const MadeShapes& shapes, const std::vector<Points>& lacking,
+                           const std::vector<TriedCorrective>& tried,
+                           const CorrectiveOptions& options, const track::ChannelTable& channels) {
+    const track::Drive rest = no_drive(channels);
+    const auto drive_of = [&](int shape) {
+        return shapes.list[static_cast<std::size_t>(shape)].goal.drive;
+    };
+    CloserLook out;
+    out.of.resize(candidates.size());
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        if (lacking[c].size() == 0) continue;
+        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
+        const bool half = candidates[c].a == candidates[c].b;
+        if (!half && !options.bent_pairs) continue;
+        if (half || tried[c].greatest_m >= kBentPair_m) out.of[c].on_its_way = out.drives.size();
+        if (half)
+            for (const double weight : {0.25, 0.75})
+                out.drives.push_back(sum_of(rest, a.drive, weight, channels));
+        else if (out.of[c].on_its_way)
+            for (const PairOnItsWay& at : kPairsOnTheirWay)
+                out.drives.push_back(
+                    sum_of(sum_of(rest, a.drive, at.a, channels), b.drive, at.b, channels));
+        if (half || tried[c].greatest_m < kOneSidedPair_m) continue;
+        out.of[c].one_sided = out.drives.size();
+        for (const OneSidedPair& at : one_sided_pairs(a, b))
+            out.drives.push_back(sum_of(at.a_alone ? drive_of(a.of_side(at.side)) : a.drive,
+                                        at.b_alone ? drive_of(b.of_side(at.side)) : b.drive, 1,
+                                        channels));
+    }
+    return out;
+}
+
+// What the shapes alone leave of each frame of the scripts that was solved; the frames' poses begin with `first`.
+std::vector<blendshapes::PlayedFrame> frames_left_to_explain(
+    const ScriptFrames& played, const std::vector<SolvedPose>& poses, std::size_t first,
+    const blendshapes::BlendShapeRig& rig) {
+    std::vector<blendshapes::PlayedFrame> frames;
+    for (std::size_t f = 0; f < played.drives.size(); ++f) {
+        const SolvedPose& pose = poses[first + f];
+        if (!pose.figures.converged) continue;
+        blendshapes::PlayedFrame& frame = frames.emplace_back();
+        frame.weights = played.weights.row(played.simulated[f]).transpose();
+        Points sum = Points::Zero(pose.moved.rows(), 3);
+        rig.add_to(sum, frame.weights);
+        frame.left = pose.moved - sum;
+    }
+    return frames;
+}
+
 }  // namespace
 
 CorrectiveOptions correctives_of_set(const std::string& set) {
@@ -81,10 +142,6 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
     const std::vector<Candidate> candidates =
         candidates_of(units, shapes, area, options.pairs, played.weights);
-
-    const auto drive_of = [&](int shape) {
-        return shapes.list[static_cast<std::size_t>(shape)].goal.drive;
-    };
 
     std::vector<track::Drive> drives;
     const track::Drive rest = no_drive(channels);
@@ -114,68 +171,35 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
         lacking.push_back(tried.put_right ? Points(poses[c].moved - sum) : Points());
     }
 
-    // Those that go round a corner, on their way: shapes a quarter and three quarters of it, pairs where either or both are half
-    // way; and those of them that have sides, where either or both are on one side
-    struct Closer {
-        std::optional<std::size_t> on_its_way, one_sided;  // the first of the poses
-    };
-    std::vector<Closer> closer(candidates.size());
-    drives.clear();
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-        if (lacking[c].size() == 0) continue;
-        const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
-        const bool half = candidates[c].a == candidates[c].b;
-        if (!half && !options.bent_pairs) continue;
-        if (half || out.tried[c].greatest_m >= kBentPair_m) closer[c].on_its_way = drives.size();
-        if (half)
-            for (const double weight : {0.25, 0.75})
-                drives.push_back(sum_of(rest, a.drive, weight, channels));
-        else if (closer[c].on_its_way)
-            for (const PairOnItsWay& at : kPairsOnTheirWay)
-                drives.push_back(
-                    sum_of(sum_of(rest, a.drive, at.a, channels), b.drive, at.b, channels));
-        if (half || out.tried[c].greatest_m < kOneSidedPair_m) continue;
-        closer[c].one_sided = drives.size();
-        for (const OneSidedPair& at : one_sided_pairs(a, b))
-            drives.push_back(sum_of(at.a_alone ? drive_of(a.of_side(at.side)) : a.drive,
-                                    at.b_alone ? drive_of(b.of_side(at.side)) : b.drive, 1,
-                                    channels));
-    }
+    const CloserLook closer =
+        poses_closer_by(candidates, units, shapes, lacking, out.tried, options, channels);
     const std::vector<SolvedPose> near =
-        solver.solve(drives, monitor.subrange(first, 1), {.again = false});
+        solver.solve(closer.drives, monitor.subrange(first, 1), {.again = false});
 
-    TermMaker terms(head, shapes, units, area);
+    DriverMaker drivers(head, shapes, units, area);
     for (std::size_t c = 0; c < candidates.size(); ++c)
-        if (const std::optional<std::size_t> way = closer[c].on_its_way;
+        if (const std::optional<std::size_t> way = closer.of[c].on_its_way;
             way && candidates[c].a == candidates[c].b)
-            terms.add_way(units[candidates[c].a], lacking[c], near[*way], near[*way + 1]);
-    terms.shapes_are_done();
+            drivers.add_way(units[candidates[c].a], lacking[c], near[*way], near[*way + 1]);
+    drivers.shapes_are_done();
     for (std::size_t c = 0; c < candidates.size(); ++c) {
         const Candidate& one = candidates[c];
         if (lacking[c].size() == 0 || one.a == one.b) continue;
         const auto poses_from = [&](std::optional<std::size_t> at) {
             return at ? &near[*at] : nullptr;
         };
-        terms.add_pair(units[one.a], units[one.b], lacking[c],
-                       {poses_from(closer[c].on_its_way), poses_from(closer[c].one_sided)});
+        drivers.add_pair(units[one.a], units[one.b], lacking[c],
+                         {poses_from(closer.of[c].on_its_way), poses_from(closer.of[c].one_sided)});
     }
 
-    std::vector<blendshapes::PlayedFrame> frames;
-    for (std::size_t f = 0; f < played.drives.size(); ++f) {
-        const SolvedPose& pose = poses[candidates.size() + f];
-        if (!pose.figures.converged) continue;
-        blendshapes::PlayedFrame& frame = frames.emplace_back();
-        frame.weights = played.weights.row(played.simulated[f]).transpose();
-        Points sum = Points::Zero(head.vertices.rows(), 3);
-        out.rig.add_to(sum, frame.weights);
-        frame.left = pose.moved - sum;
-    }
-    blendshapes::LowRank made =
-        blendshapes::low_rank(terms.take(), frames, head.vertices, scene::seen_areas(solver.face()),
-                              {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
-                               .half_width_m = head.mm(kSharedStrip_mm),
-                               .budget_bytes = options.budget_bytes});
-    out.rig.terms = std::move(made.terms);
+    const std::vector<blendshapes::PlayedFrame> frames =
+        frames_left_to_explain(played, poses, candidates.size(), out.rig);
+    blendshapes::LowRank made = blendshapes::low_rank(
+        drivers.take(), frames, head.vertices, scene::seen_areas(solver.face()),
+        {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
+         .half_width_m = head.mm(kSharedStrip_mm),
+         .budget_bytes = options.budget_bytes});
+    out.rig.drivers = std::move(made.drivers);
     out.rig.correctives = std::move(made.correctives);
     out.bytes = made.bytes;
     return out;

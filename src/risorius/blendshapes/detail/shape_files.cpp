@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "risorius/blendshapes/detail/corrective_terms.h"
+#include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
 #include "risorius/io/read_mesh.h"
@@ -23,14 +23,15 @@ const Vec3 kScleraColour(0.93, 0.91, 0.89), kTeethColour(0.90, 0.87, 0.78),
 
 // The colour of the iris round the axis the eye looks along.
 void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
-              const rig::LookDescription& look, double size, const Points& vertices, Points& tint) {
+              const rig::AppearanceDescription& appearance, double size, const Points& vertices,
+              Points& tint) {
     const double iris = 1e-3 * sizes.iris_radius_mm * size,
                  pupil = 1e-3 * sizes.pupil_radius_mm * size;
     for (long v = 0; v < vertices.rows(); ++v) {
         const Vec3 from = vertices.row(v).transpose() - eye.centre;
         const double along = from.dot(eye.forward), aside = (from - along * eye.forward).norm();
         if (from.norm() > 1.5 * eye.radius_m || along <= 0 || aside > iris) continue;
-        const Vec3 colour = aside < pupil ? kPupilColour : look.iris_tone;
+        const Vec3 colour = aside < pupil ? kPupilColour : appearance.iris_tone;
         tint.row(v) = colour.cwiseQuotient(kScleraColour).transpose();
     }
 }
@@ -38,9 +39,9 @@ void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
 /// Of a role; false for what is not to be seen.
 bool describe_part(const std::string& role, const scene::RigFiles& files, const rig::Head& head,
                    io::MorphPart& part) {
-    const rig::LookDescription& look = files.rig.look;
+    const rig::AppearanceDescription& appearance = files.rig.appearance;
     if (role == "skin") {
-        part.colour = look.skin_tone;
+        part.colour = appearance.skin_tone;
     } else if (role == "mouth" || role == "eye_socket") {
         part.colour = kMouthColour;
         part.roughness = 0.4;
@@ -50,7 +51,8 @@ bool describe_part(const std::string& role, const scene::RigFiles& files, const 
         part.roughness = 0.1;
         part.tint = Points::Ones(head.vertices.rows(), 3);
         const rig::EyeGeometry& eye = head.eyes[role == "eye_l" ? 0 : 1];
-        if (eye.present) tint_eye(eye, files.rig.eyes, look, head.size, head.vertices, part.tint);
+        if (eye.present)
+            tint_eye(eye, files.rig.eyes, appearance, head.size, head.vertices, part.tint);
     } else if (role.starts_with("cornea")) {
         part.roughness = 0.02;
         part.opacity = 0.08;
@@ -63,7 +65,7 @@ bool describe_part(const std::string& role, const scene::RigFiles& files, const 
     } else if (role == "tongue") {
         part.colour = kTongueColour;
     } else if (role.starts_with("lashes")) {
-        part.colour = look.hair_tone;
+        part.colour = appearance.hair_tone;
         part.see_both_sides = true;
     } else {
         return false;
@@ -109,20 +111,20 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
             out.push_back(shapes.list[static_cast<std::size_t>(i)].goal.name);
         return out;
     };
-    Json terms = Json::array(), correctives = Json::array();
-    for (const blendshapes::Term& term : linear.terms) {
-        Json& rule = terms.emplace_back(Json{{"name", term.name},
-                                             {"drivers", names_of(term.drivers)},
-                                             {"value", weight_rule(term)}});
-        if (term.drivers.size() == 1) rule["part"] = term.part;
-        if (!term.fades_with.empty()) rule["fades_with"] = names_of(term.fades_with);
+    Json drivers = Json::array(), correctives = Json::array();
+    for (const blendshapes::Driver& driver : linear.drivers) {
+        Json& rule = drivers.emplace_back(Json{{"name", driver.name},
+                                               {"drivers", names_of(driver.shapes)},
+                                               {"value", weight_rule(driver)}});
+        if (driver.shapes.size() == 1) rule["part"] = driver.part;
+        if (!driver.fades_with.empty()) rule["fades_with"] = names_of(driver.fades_with);
     }
     for (const blendshapes::Corrective& corrective : linear.correctives) {
         model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
-        Json of_terms = Json::array();
-        for (const double share : corrective.of_terms)
-            of_terms.push_back(static_cast<float>(share));
-        correctives.push_back({{"name", corrective.name}, {"of_terms", of_terms}});
+        Json of_drivers = Json::array();
+        for (const double share : corrective.of_drivers)
+            of_drivers.push_back(static_cast<float>(share));
+        correctives.push_back({{"name", corrective.name}, {"of_terms", of_drivers}});
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)
@@ -134,7 +136,7 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                       {"set", set},
                       {"vertices", head.vertices.rows()},
                       {"on_top_of", on_top},
-                      {"terms", terms},
+                      {"terms", drivers},
                       {"correctives", correctives}}}};
     if (animation) {
         io::MorphAnimation& out = model.animations.emplace_back();

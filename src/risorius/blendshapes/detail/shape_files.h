@@ -1,4 +1,4 @@
-// Blend shapes as files: glTF, OBJ, and the plain table that `evaluate` reads too.
+// Writes blend shapes to files: glTF, OBJ, and the plain table that `evaluate` reads too.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@
 
 namespace risorius::blendshapes {
 
-/// Parts by role, in the colours of the rig's look; shapes as morph targets. Its extras name the rig and the set.
-/// Correctives come behind the shapes; their drivers stand under "correctives" of the extras. `animation` may be null.
+/// Parts by role, in the colours of the rig's appearance; shapes as morph targets. The extras name the rig and the set. Correctives follow
+/// after the shapes; their drivers are listed under "correctives" of the extras. `animation` may be null.
 io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
                            const ShapeAnimation* animation);
 
-/// folder/cache.json and cache.f32: every vertex in every frame of the animation, mesh units, by the linear rig.
+/// folder/cache.json and cache.f32: every vertex in every frame of the animation, mesh units, from the blend shape rig.
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,

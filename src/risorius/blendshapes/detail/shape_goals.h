@@ -16,11 +16,11 @@
 
 namespace risorius::blendshapes {
 
-/// How a shape and its namesake on the other side hang together.
+/// How a shape and its namesake on the other side belong together.
 enum class Sides {
     kNone,     ///< there is none
-    kHalves,   ///< both together are one expression: a smile
-    kOpposed,  ///< either is the other's mirror image, and they are not meant together: a jaw aside
+    kHalves,   ///< both together form one expression: a smile
+    kOpposed,  ///< mirror images that are not meant to be used together: the jaw to one side
 };
 
 struct ShapeGoal {
@@ -30,13 +30,13 @@ struct ShapeGoal {
     int partner = -1;    ///< index of the namesake
     bool left = false;   ///< of the two
     int on_top_of = -1;  ///< index of the shape it corrects, at the same weight
-    std::string whole;   ///< what both halves make, "mouthSmile"; its own name without halves
+    std::string whole;  ///< name of both halves together, "mouthSmile"; its own name without halves
 };
 
 struct ShapeSet {
     std::string name;
     std::vector<ShapeGoal> goals;
-    /// What the table has and no shape can be: name, why.
+    /// Entries of the table that cannot be shapes: name, reason.
     std::vector<std::pair<std::string, std::string>> left_out;
 
     std::optional<int> index(const std::string& name) const;

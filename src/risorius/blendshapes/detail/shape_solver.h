@@ -1,5 +1,5 @@
-// The poses of a face in equilibrium with a list of drives, several at a time. Each is found from rest, so that what comes out hangs
-// on nothing but the drive: not on the number of threads, nor on the order.
+// Solves the poses of a face in equilibrium with a list of drives, several at a time. Each starts from rest, so the results depend only on
+// the drive, not on the number of threads or the order.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ struct SolvedPose {
     Points moved;  ///< displacement of every vertex, V x 3, m, head frame
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
     face::StepStats figures;
-    double volume_ratio = 1;  ///< of the tissue, against rest
+    double volume_ratio = 1;  ///< volume of the tissue / that at rest
     int inverted_tets = 0;
 };
 
-/// How a pose is approached from rest.
+/// How a pose is reached from rest.
 struct Approach {
-    int steps = 1;      ///< equal ones
-    bool again = true;  ///< in small ones, when it did not come to rest
+    int steps = 1;      ///< number of equal steps
+    bool again = true;  ///< tries again in small steps when it did not converge
 };
 
 class ShapeSolver {
@@ -35,27 +35,27 @@ class ShapeSolver {
     ShapeSolver(const scene::RigFiles& files, const face::Quality& quality, int threads);
     ~ShapeSolver();
 
-    /// In the order of the drives. Throws Interrupted, and soon.
+    /// Returns the poses in the order of the drives. Throws Interrupted.
     std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives,
                                   const ProgressMonitor& monitor, const Approach& how = {}) const;
 
-    /// For what does not move: poses are sought with it.
+    /// A face for reading what does not move; it is used for poses too.
     const face::Face& face() const { return *faces_.front(); }
 
-    /// One of the caller's own.
+    /// A face of the caller's own.
     std::unique_ptr<face::Face> another() const;
 
   private:
     SolvedPose pose(face::Face& face, const track::Drive& drive, const Approach& how,
                     const std::function<bool()>& stopped) const;
-    face::Face& idle() const;  ///< one that is not in use
+    face::Face& idle() const;  ///< a face that is not in use
 
     const scene::RigFiles& files_;
     face::Quality quality_;
     int threads_;
     double rest_volume_m3_;
     mutable std::mutex mutex_;
-    mutable std::vector<std::unique_ptr<face::Face>> faces_;  ///< all that were made; one at least
+    mutable std::vector<std::unique_ptr<face::Face>> faces_;  ///< all faces so far; at least one
     mutable std::vector<face::Face*> idle_;
 };
 

@@ -1,4 +1,4 @@
-// Which weights of a set of shapes come nearest to a drive: what turns a script for muscles into one for blend shapes.
+// Finds the weights of a set of shapes that come nearest to a drive. With it a script for muscles becomes one for blend shapes.
 //
 //   S   drive of every shape, one column each        E   displacement of the face per drive, linear at rest
 //   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1; of what lies on top of another shape no more than of that
@@ -14,12 +14,12 @@ namespace risorius::blendshapes {
 
 class ShapeWeights {
   public:
-    /// Leaves `face` at rest. The goals' drives must be of its rig. `linear`, when given, gets what each goal's drive would do
-    /// if the face answered to it in a straight line from rest, V x 3, m.
+    /// Leaves `face` at rest. The goals' drives must be of its rig. `linear`, when given, receives the linearised displacement at rest for each
+    /// goal's drive, V x 3, m.
     ShapeWeights(face::Face& face, const track::ChannelTable& channels,
                  const std::vector<ShapeGoal>& goals, std::vector<Points>* linear = nullptr);
 
-    /// One per goal. The head's own motion is no part of it.
+    /// One weight per goal. The motion of the head is not included.
     Eigen::VectorXd of(const track::Drive& drive) const;
 
   private:

@@ -1,5 +1,5 @@
-// The page of a set of blend shapes: every shape in pictures, its certificate and what drives it. No scripts, nothing from the
-// network.
+// The HTML page of a set of blend shapes: every shape in pictures, its certificate and its drive. It has no scripts and loads nothing from
+// the network.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& fi
                            const rig::Head& head, const std::filesystem::path& folder,
                            const ProgressMonitor& monitor);
 
-/// `pictures` null: numbers only.
+/// `pictures` null: only numbers.
 std::string shapes_page(const ShapesReport& report, const ShapesPictures* pictures);
 
 }  // namespace risorius::blendshapes

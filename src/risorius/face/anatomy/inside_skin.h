@@ -1,7 +1,7 @@
-// Whether points of bone lie inside of the skin, and how deep under it they can.
+// Tests whether points of bone lie inside of the skin, and how deep bone can lie under it.
 //
-// Where skin folds on itself, as in the wings of the nose, a thickness measured elsewhere reaches through to the skin on
-// the other side. There is no bone there but cartilage between two skins: tissue ends before the other one.
+// Where skin folds back on itself, as in the wings of the nose, a thickness measured elsewhere would reach through to the skin on the
+// other side. There is no bone there, only cartilage between two layers of skin, so the tissue ends before the other layer.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ namespace risorius::face {
 
 class InsideSkin {
   public:
-    /// `skin` N x 3, m, wound as seen from outside.
+    /// `skin` N x 3, m; triangles counter-clockwise seen from outside.
     InsideSkin(const Points& skin, const Triangles& triangles);
 
-    /// Away from the skin on its outer side. Beside the border of the skin there is no outside.
+    /// Whether p lies on the outer side of the skin. Beyond the border of the skin nothing is outside.
     bool outside(const Vec3& p) const;
-    /// The greatest depth along `direction`, unit and outwards, not over `wanted_m`, at which no other skin is as near as half
-    /// of it; not below `least_m`.
+    /// The largest depth along `direction` (unit, outwards) at which no other skin is nearer than half of it, m; at most `wanted_m`, at
+    /// least `least_m`.
     double depth(const Vec3& skin, const Vec3& direction, double wanted_m, double least_m) const;
-    /// Outwards, unit, mean of the triangles around a skin vertex.
+    /// Outward unit normal at a skin vertex, mean of its triangles.
     const Vec3& normal(int vertex) const { return normal_[static_cast<std::size_t>(vertex)]; }
 
   private:

@@ -1,4 +1,4 @@
-// What can be seen of a pose's eyelids: whether they leave the eye open, and whether they reach into it.
+// Measures of the eyelids in a pose: the opening they leave, and how far they reach into the eye.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace risorius::face {
 
-/// The largest stretch, m, along which the eye's centre looks out between the lids, over the whole fissure and beyond.
+/// Height of the largest opening between the lids through which the eye's centre is visible, m, over the whole fissure and beyond.
 double largest_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices);
 
-/// How much deeper than at rest the skin around the eyes reaches into their surfaces, m; 0 when nowhere. `turn`: of each eye.
+/// How much deeper than at rest the skin around the eyes reaches into the eyes' surfaces, m; 0 where it does not. `turn`: rotation of each eye.
 double depth_in_eyes_m(const rig::Head& head, const std::array<Mat3, 2>& turn,
                        const Points& vertices);
 

@@ -1,14 +1,14 @@
-// Eyelids: tarsal plates that turn about the canthal axis through the eye centre until the margins meet.
+// Eyelids: tarsal plates that turn about the axis through the canthi and the eye centre until the margins meet.
 //
 //   s      place along the canthal axis, 0 at the inner, 1 at the outer canthus
 //   angle  of a point about the axis, rad, 0 forward, positive up
 //   A(s)   angle of a lid's margin at rest, measured on the mesh where skin ends before the eye
 //   q      height over the margin: 1 at the crease of the upper lid, 1 where the lower lid ends
 //
-// Gaze, wide opening and a tightened lower lid give each margin its curve; both then close on the line where they meet:
+// Gaze, wide opening and a tightened lower lid shape the curve of each margin. Both margins then close on the line where they meet:
 //   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - share) (U - L)
-// A margin point slides along its curve, inwards in a blink and with the gaze, so that closed lids meet wherever it goes.
-// The plate's skin turns with gaze as one piece up to the crease; when the eye closes it unrolls from below the crease.
+// A margin point slides along its curve, inwards in a blink and sideways with the gaze, so that closed lids meet in every gaze.
+// The skin of the plate turns with gaze as one piece up to the crease. When the eye closes, it unrolls from below the crease.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@
 
 namespace risorius::face {
 
-/// How far each lid has turned: ratio of the way to the meeting line, plus angles that follow gaze.
+/// How far each lid has turned: fraction of the way to the line where lids meet, plus angles that follow gaze.
 struct LidPose {
     double upper_closure = 0.0;
     double lower_closure = 0.0;
@@ -29,13 +29,13 @@ struct LidPose {
     double aside_rad = 0.0;       ///< positive takes both lids to the subject's left
 };
 
-/// Where a point lies on a lid.
+/// Position of a point on a lid.
 struct LidMember {
     bool upper = true;
     double place = 0.0;   ///< s
     double height = 0.0;  ///< q, 0 on the margin and before it
-    double share = 1.0;   ///< of the upper lid's motion, the lower lid's takes the rest
-    double beyond = 0.0;  ///< the canthi, m
+    double share = 1.0;   ///< fraction of the upper lid's motion; the rest is the lower lid's
+    double beyond = 0.0;  ///< distance beyond the canthi, m
 };
 
 class EyeLids {
@@ -43,13 +43,13 @@ class EyeLids {
     EyeLids(const rig::Head& head, int side, double upper_share);
 
     LidMember member(const Vec3& p) const;
-    /// How firmly a point rides on its tarsal plate: 1 on the margin, 0 where the lid ends and beyond the canthi. The ratios
-    /// are heights.
+    /// How firmly a point is attached to its tarsal plate: 1 on the margin, 0 where the lid ends and beyond the canthi. The bounds are
+    /// heights q.
     static double firmness(const LidMember& member, double upper_core, double upper_end,
                            double lower_core, double lower_end);
     double margin_distance(const Vec3& p) const;
 
-    /// Displacement of a rest point that rides on its lid.
+    /// Displacement of a point at rest that is attached to its lid, m.
     Vec3 ride(const Vec3& rest, const LidMember& member, const LidPose& pose) const;
 
     double fissure_m() const { return fissure_m_; }  ///< canthus to canthus

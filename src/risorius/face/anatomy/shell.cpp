@@ -185,151 +185,215 @@ std::vector<Vec3> lip_line(const rig::Head& head) {
             mid("uli_l", "lli_l"), head.landmark("ch_l")};
 }
 
-Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
-                  const ShellOptions& options) {
-    const long count = head.vertices.rows();
-    const std::vector<Vec3> lips = lip_line(head);
-    Shell shell;
+namespace {
 
-    // Region of the face
+// Builds a shell, step by step in the order of the public functions.
+class ShellMaker {
+  public:
+    ShellMaker(const rig::Head& head, const std::array<EyeLids, 2>& lids)
+        : head_(head),
+          lids_(lids),
+          lips_(lip_line(head)),
+          count_(head.vertices.rows()),
+          used_(static_cast<std::size_t>(count_), 0),
+          border_(static_cast<std::size_t>(count_), 0),
+          direction_given_(static_cast<std::size_t>(count_), 0) {}
+
+    void choose_region();
+    void find_directions();
+    void make_directions_symmetric();
+    void keep_what_faces_outwards();
+    void set_sizes();
+    void decimate(int vertices);
+    Shell take(const Jaw& jaw);
+
+  private:
+    Vec3 at(long v) const { return head_.vertices.row(v).transpose(); }
+    Triangles facing_triangles() const;
+    double wanted_size_mm(const Vec3& p) const;
+    void number_vertices(const geom::Decimated& coarse);
+
+    const rig::Head& head_;
+    const std::array<EyeLids, 2>& lids_;
+    const std::vector<Vec3> lips_;
+    const long count_;                   // V
+    Triangles face_ = Triangles(0, 3);   // region of the face
+    std::vector<char> used_, border_;    // V, vertices of the region and of what lies next to it
+    std::vector<char> direction_given_;  // V, near the mouth or an eye
+    geom::MirrorPairs mirror_;           // of the region
+    Triangles half_ = Triangles(0, 3);   // one side of the fine shell, if it has pairs
+    Shell shell_;
+};
+
+void ShellMaker::choose_region() {
     const auto in_region = [&](const Vec3& p) {
-        return p.z() > head.mm(8) && p.y() > head.mm(-135) && p.y() < head.mm(112);
+        return p.z() > head_.mm(8) && p.y() > head_.mm(-135) && p.y() < head_.mm(112);
     };
-    std::vector<char> inside(static_cast<std::size_t>(count), 0);
-    for (long v = 0; v < count; ++v) inside[v] = in_region(head.vertices.row(v).transpose());
+    std::vector<char> inside(static_cast<std::size_t>(count_), 0);
+    for (long v = 0; v < count_; ++v) inside[v] = in_region(at(v));
     std::vector<long> region;
-    std::vector<char> border(static_cast<std::size_t>(count), 0);
-    std::vector<char> used(static_cast<std::size_t>(count), 0);
-    for (long f = 0; f < head.skin.rows(); ++f) {
+    for (long f = 0; f < head_.skin.rows(); ++f) {
         const bool whole =
-            inside[head.skin(f, 0)] && inside[head.skin(f, 1)] && inside[head.skin(f, 2)];
-        for (int k = 0; k < 3; ++k) (whole ? used : border)[head.skin(f, k)] = 1;
+            inside[head_.skin(f, 0)] && inside[head_.skin(f, 1)] && inside[head_.skin(f, 2)];
+        for (int k = 0; k < 3; ++k) (whole ? used_ : border_)[head_.skin(f, k)] = 1;
         if (whole) region.push_back(f);
     }
+    face_.resize(static_cast<long>(region.size()), 3);
+    for (std::size_t i = 0; i < region.size(); ++i)
+        face_.row(static_cast<long>(i)) = head_.skin.row(region[i]);
+}
 
-    // Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given
-    shell.direction = smooth_normals(head.vertices, head.skin, used, head.mm(7));
-    std::vector<char> direction_given(static_cast<std::size_t>(count), 0);
-    for (long v = 0; v < count; ++v) {
-        if (!used[v]) continue;
-        const Vec3 p = head.vertices.row(v).transpose();
-        Vec3 d = shell.direction.row(v).transpose();
-        const double from_mouth = geom::distance_to_polyline(p, lips);
-        const Vec3 out_of_mouth = Vec3(0.035 * p.x() / head.mm(1), 0, 1).normalized();
-        const double mouth = 1.0 - geom::smoothstep(head.mm(6), head.mm(18), from_mouth);
+// Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given.
+void ShellMaker::find_directions() {
+    shell_.direction = smooth_normals(head_.vertices, head_.skin, used_, head_.mm(7));
+    for (long v = 0; v < count_; ++v) {
+        if (!used_[v]) continue;
+        const Vec3 p = at(v);
+        Vec3 d = shell_.direction.row(v).transpose();
+        const double from_mouth = geom::distance_to_polyline(p, lips_);
+        const Vec3 out_of_mouth = Vec3(0.035 * p.x() / head_.mm(1), 0, 1).normalized();
+        const double mouth = 1.0 - geom::smoothstep(head_.mm(6), head_.mm(18), from_mouth);
         d = ((1 - mouth) * d + mouth * out_of_mouth).normalized();
         double given = mouth;
-        for (const EyeLids& lid : lids) {
+        for (const EyeLids& lid : lids_) {
             const Vec3 r = p - lid.centre();
             const double eye =
-                1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head.mm(6.5), r.norm());
+                1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head_.mm(6.5), r.norm());
             d = ((1 - eye) * d + eye * r.normalized()).normalized();
             given = std::max(given, eye);
         }
-        direction_given[v] = given > 0.5;
-        shell.direction.row(v) = d.transpose();
+        direction_given_[v] = given > 0.5;
+        shell_.direction.row(v) = d.transpose();
     }
+}
 
-    // A head with vertices in pairs gets a shell that is its own mirror image
-    Triangles face(static_cast<long>(region.size()), 3);
-    for (std::size_t i = 0; i < region.size(); ++i)
-        face.row(static_cast<long>(i)) = head.skin.row(region[i]);
-    const geom::MirrorPairs mirror =
-        geom::find_mirror_pairs(face, head.vertices, Vec3::UnitX(), 0.0);
-    if (mirror.found())
-        for (long v = 0; v < count; ++v) {
-            if (!used[v] || mirror.side(static_cast<int>(v), head.vertices) < 0) continue;
-            const Vec3 here = shell.direction.row(v).transpose(),
-                       there = shell.direction.row(mirror.partner[v]).transpose();
-            const Vec3 d = (here + mirror.reflect(there)).normalized();
-            shell.direction.row(v) = d.transpose();
-            shell.direction.row(mirror.partner[v]) = mirror.reflect(d).transpose();
-        }
+// A head with vertices in pairs gets a shell that is its own mirror image.
+void ShellMaker::make_directions_symmetric() {
+    mirror_ = geom::find_mirror_pairs(face_, head_.vertices, Vec3::UnitX(), 0.0);
+    if (!mirror_.found()) return;
+    for (long v = 0; v < count_; ++v) {
+        if (!used_[v] || mirror_.side(static_cast<int>(v), head_.vertices) < 0) continue;
+        const Vec3 here = shell_.direction.row(v).transpose(),
+                   there = shell_.direction.row(mirror_.partner[v]).transpose();
+        const Vec3 d = (here + mirror_.reflect(there)).normalized();
+        shell_.direction.row(v) = d.transpose();
+        shell_.direction.row(mirror_.partner[v]) = mirror_.reflect(d).transpose();
+    }
+}
 
-    // Shell rule: what turns away from the direction is left out, and what lies in a nostril: tissue under its walls would bind
-    // the wing to the septum, and leave no depth for either.
-    constexpr double kLeastFacing = 0.12;
-    const Cavities cavities(head);
-    Triangles facing(face.rows(), 3);
+// Leaves out what turns away from the direction, and what lies in a nostril: tissue under its walls would bind the wing to the septum,
+// and leave no depth for either.
+Triangles ShellMaker::facing_triangles() const {
+    constexpr double kMinFacing = 0.12;
+    const Cavities cavities(head_);
+    Triangles facing(face_.rows(), 3);
     long rows = 0;
-    for (long f = 0; f < face.rows(); ++f) {
-        const int a = face(f, 0), b = face(f, 1), c = face(f, 2);
-        const Vec3 pa = head.vertices.row(a), pb = head.vertices.row(b), pc = head.vertices.row(c);
+    for (long f = 0; f < face_.rows(); ++f) {
+        const int a = face_(f, 0), b = face_(f, 1), c = face_(f, 2);
+        const Vec3 pa = at(a), pb = at(b), pc = at(c);
         const Vec3 n = (pb - pa).cross(pc - pa).normalized();
-        const Vec3 d = (shell.direction.row(a) + shell.direction.row(b) + shell.direction.row(c))
+        const Vec3 d = (shell_.direction.row(a) + shell_.direction.row(b) + shell_.direction.row(c))
                            .transpose()
                            .normalized();
-        if (n.dot(d) < kLeastFacing) continue;
-        const bool given = direction_given[a] && direction_given[b] && direction_given[c];
+        if (n.dot(d) < kMinFacing) continue;
+        const bool given = direction_given_[a] && direction_given_[b] && direction_given_[c];
         if (!given && cavities.hold((pa + pb + pc) / 3, n)) continue;
-        facing.row(rows++) = face.row(f);
+        facing.row(rows++) = face_.row(f);
     }
     facing.conservativeResize(rows, 3);
-    Triangles half(0, 3);
-    // Fans that are dropped may have held others
-    if (mirror.found()) {
-        half = geom::first_half(facing, head.vertices, mirror);
-        for (long before = -1; half.rows() != before;) {
-            before = half.rows();
-            const Triangles whole = geom::with_mirror_image(half, mirror);
-            half = geom::paired_half(largest_piece(without_bow_ties(whole), count), head.vertices,
-                                     mirror);
-        }
-        shell.fine = geom::with_mirror_image(half, mirror);
-    } else {
-        shell.fine = largest_piece(without_bow_ties(facing), count);
+    return facing;
+}
+
+void ShellMaker::keep_what_faces_outwards() {
+    const Triangles facing = facing_triangles();
+    if (!mirror_.found()) {
+        shell_.fine = largest_piece(without_bow_ties(facing), count_);
+        return;
     }
+    // Fans that are dropped may have held others
+    half_ = geom::first_half(facing, head_.vertices, mirror_);
+    for (long before = -1; half_.rows() != before;) {
+        before = half_.rows();
+        const Triangles whole = geom::with_mirror_image(half_, mirror_);
+        half_ = geom::paired_half(largest_piece(without_bow_ties(whole), count_), head_.vertices,
+                                  mirror_);
+    }
+    shell_.fine = geom::with_mirror_image(half_, mirror_);
+}
 
-    // Size field: fine at lips and lids, coarse on forehead and cheek
-    const auto wanted_mm = [&](const Vec3& p) {
-        double near = geom::distance_to_polyline(p, lips);
-        for (const EyeLids& lid : lids) near = std::min(near, lid.margin_distance(p));
-        for (const char* nose : {"sn", "ac_l", "ac_r"})
-            near = std::min(near, (p - head.landmark(nose)).norm() + head.mm(4));
-        return 2.6 + 6.0 * geom::smoothstep(head.mm(3), head.mm(48), near);
-    };
-    shell.spacing_m.assign(static_cast<std::size_t>(count), 0);
-    for (long v = 0; v < count; ++v)
-        if (used[v]) shell.spacing_m[v] = head.mm(wanted_mm(head.vertices.row(v).transpose()));
+// Size field: fine at lips and lids, coarse on forehead and cheek.
+double ShellMaker::wanted_size_mm(const Vec3& p) const {
+    double near = geom::distance_to_polyline(p, lips_);
+    for (const EyeLids& lid : lids_) near = std::min(near, lid.margin_distance(p));
+    for (const char* nose : {"sn", "ac_l", "ac_r"})
+        near = std::min(near, (p - head_.landmark(nose)).norm() + head_.mm(4));
+    return 2.6 + 6.0 * geom::smoothstep(head_.mm(3), head_.mm(48), near);
+}
 
-    // Scale the size field until the wanted number of vertices is left; the mouth by steps
-    std::vector<double> off_mouth(static_cast<std::size_t>(count), 1.0);
-    for (long v = 0; v < count; ++v)
-        if (used[v])
-            off_mouth[v] = geom::smoothstep(
-                head.mm(kMouth_mm), head.mm(kOffMouth_mm),
-                geom::distance_to_polyline(head.vertices.row(v).transpose(), lips));
+void ShellMaker::set_sizes() {
+    shell_.spacing_m.assign(static_cast<std::size_t>(count_), 0);
+    for (long v = 0; v < count_; ++v)
+        if (used_[v]) shell_.spacing_m[v] = head_.mm(wanted_size_mm(at(v)));
+}
+
+// Scales the size field until the wanted number of vertices is left; the mouth by steps.
+void ShellMaker::decimate(int vertices) {
+    std::vector<double> off_mouth(static_cast<std::size_t>(count_), 1.0);
+    for (long v = 0; v < count_; ++v)
+        if (used_[v])
+            off_mouth[v] = geom::smoothstep(head_.mm(kMouth_mm), head_.mm(kOffMouth_mm),
+                                            geom::distance_to_polyline(at(v), lips_));
     geom::Decimated coarse;
     double low = 0.15, high = 4.0;
-    std::vector<double> length(static_cast<std::size_t>(count));
+    std::vector<double> length(static_cast<std::size_t>(count_));
     for (int attempt = 0; attempt < 12; ++attempt) {
         const double scale = std::sqrt(low * high), of_mouth = stepped(scale);
-        for (long v = 0; v < count; ++v)
-            length[v] = (of_mouth + off_mouth[v] * (scale - of_mouth)) * shell.spacing_m[v];
-        coarse = mirror.found() ? geom::decimate_mirrored(half, head.vertices, length, mirror)
-                                : geom::decimate(shell.fine, head.vertices, length, {});
+        for (long v = 0; v < count_; ++v)
+            length[v] = (of_mouth + off_mouth[v] * (scale - of_mouth)) * shell_.spacing_m[v];
+        coarse = mirror_.found() ? geom::decimate_mirrored(half_, head_.vertices, length, mirror_)
+                                 : geom::decimate(shell_.fine, head_.vertices, length, {});
         const int kept = static_cast<int>(coarse.kept.size());
-        if (std::abs(kept - options.vertices) < options.vertices / 100) break;
-        (kept > options.vertices ? low : high) = scale;
+        if (std::abs(kept - vertices) < vertices / 100) break;
+        (kept > vertices ? low : high) = scale;
     }
-    shell.spacing_m = std::move(length);
+    shell_.spacing_m = std::move(length);
+    number_vertices(coarse);
+}
 
-    shell.vertex = coarse.kept;
-    std::vector<int> index(static_cast<std::size_t>(count), -1);
+void ShellMaker::number_vertices(const geom::Decimated& coarse) {
+    shell_.vertex = coarse.kept;
+    std::vector<int> index(static_cast<std::size_t>(count_), -1);
     for (std::size_t i = 0; i < coarse.kept.size(); ++i)
         index[coarse.kept[i]] = static_cast<int>(i);
-    shell.triangles = coarse.triangles;
-    for (long f = 0; f < shell.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) shell.triangles(f, k) = index[coarse.triangles(f, k)];
-    shell.collapsed_to.assign(static_cast<std::size_t>(count), -1);
-    for (long v = 0; v < count; ++v)
-        if (coarse.collapsed_to[v] >= 0) shell.collapsed_to[v] = index[coarse.collapsed_to[v]];
-    for (int v : shell.vertex) {
-        shell.fixed.push_back(border[v]);
-        if (mirror.found()) shell.mirrored.push_back(index[mirror.partner[v]]);
+    shell_.triangles = coarse.triangles;
+    for (long f = 0; f < shell_.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) shell_.triangles(f, k) = index[coarse.triangles(f, k)];
+    shell_.collapsed_to.assign(static_cast<std::size_t>(count_), -1);
+    for (long v = 0; v < count_; ++v)
+        if (coarse.collapsed_to[v] >= 0) shell_.collapsed_to[v] = index[coarse.collapsed_to[v]];
+    for (int v : shell_.vertex) {
+        shell_.fixed.push_back(border_[v]);
+        if (mirror_.found()) shell_.mirrored.push_back(index[mirror_.partner[v]]);
     }
-    shell.over_bite_m = bite_heights(head, jaw, shell);
-    return shell;
+}
+
+Shell ShellMaker::take(const Jaw& jaw) {
+    shell_.over_bite_m = bite_heights(head_, jaw, shell_);
+    return std::move(shell_);
+}
+
+}  // namespace
+
+Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
+                  const ShellOptions& options) {
+    ShellMaker maker(head, lids);
+    maker.choose_region();
+    maker.find_directions();
+    maker.make_directions_symmetric();
+    maker.keep_what_faces_outwards();
+    maker.set_sizes();
+    maker.decimate(options.vertices);
+    return maker.take(jaw);
 }
 
 Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone) {

@@ -1,8 +1,8 @@
-// The part of the skin that is simulated: an open shell of triangles facing outwards, coarsened to a size field.
+// The simulated part of the skin: an open shell of outward-facing triangles, coarsened to a size field.
 //
-// Region: the face from hairline to throat and back to the front of the ears. Triangles that turn away from the smooth outward direction
-// (inner lips, lid margins) are left out: under them prisms would invert; so are the walls of nostrils. They follow by harmonic extension
-// (skin_binding.h). On a head that is its own mirror image so is the shell, to the last diagonal. Source: measured face formulation, geometry pipeline.
+// Region: the face from hairline to throat and back to the front of the ears. Two kinds of triangles are left out: those that turn away
+// from the smooth outward direction (inner lips, lid margins), since prisms under them would be inverted, and walls of nostrils. These
+// parts follow by harmonic extension (skin_binding.h). The shell of a head that is its own mirror image is symmetric in every edge.
 #pragma once
 
 #include <array>
@@ -35,11 +35,11 @@ struct Shell {
 Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
                   const ShellOptions& options);
 
-/// The shell without the vertices that are flagged, N, and their faces. What had collapsed to one of them belongs to its nearest
-/// neighbour that stays; a vertex that loses its last face goes too.
+/// The shell without the flagged vertices (N flags) and their faces. Mesh vertices that had collapsed to a removed vertex are assigned to
+/// its nearest remaining neighbour. A vertex that loses its last face is removed too.
 Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone);
 
-/// The line between the lips, corner to corner, from landmarks.
+/// The line between the lips from corner to corner, through landmarks: five points, head frame, m.
 std::vector<Vec3> lip_line(const rig::Head& head);
 
 }  // namespace risorius::face

@@ -11,7 +11,7 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kLeastVolume = 0.12;  // of a tet's nominal volume
+constexpr double kMinVolume = 0.12;  // of a tet's nominal volume
 constexpr int kRepairRounds = 60;
 constexpr double kThinnest_mm = 0.8;
 
@@ -51,150 +51,232 @@ double interpolate_thickness(const rig::Head& head,
     return sum / weights;
 }
 
-TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
-                             const Shell& shell, const std::array<EyeLids, 2>& lids) {
-    const int count = static_cast<int>(shell.vertex.size());
-    TissueMesh mesh;
-    std::vector<Vec3> skin(static_cast<std::size_t>(count));
-    mesh.direction.resize(static_cast<std::size_t>(count));
-    mesh.thickness_m.resize(static_cast<std::size_t>(count));
-    Points coarse(count, 3);
-    for (int v = 0; v < count; ++v) coarse.row(v) = head.vertices.row(shell.vertex[v]);
-    const InsideSkin inside(coarse, shell.triangles);
-    const double least = head.mm(kThinnest_mm);
-    const std::vector<Vec3> lips = lip_line(head);
-    const double arch_z = head.teeth_front_m;
-    for (int v = 0; v < count; ++v) {
-        const Vec3 p = head.vertices.row(shell.vertex[v]).transpose();
-        skin[v] = p;
-        mesh.direction[v] = shell.direction.row(shell.vertex[v]).transpose();
-        double thickness = interpolate_thickness(head, rig.atlas.thickness, p);
+namespace {
+
+// Builds the tissue under a shell, step by step in the order of the public functions.
+class TissueMaker {
+  public:
+    TissueMaker(const rig::Head& head, const Shell& shell);
+
+    void choose_thickness(const rig::RigDescription& rig, const std::array<EyeLids, 2>& lids);
+    void cut_prisms();
+    void measure_triangles();
+    void repair_columns();
+    TissueMesh take();
+
+  private:
+    void place_nodes();
+    std::vector<char> find_thin_columns();
+    void find_bone_outside();
+    void repair_round(const std::vector<char>& thin, bool late);
+
+    const rig::Head& head_;
+    const Shell& shell_;
+    const int count_;           // columns: vertices of the shell
+    const double min_depth_m_;  // of a column that is made thinner
+    std::vector<Vec3> skin_;    // of each column
+    InsideSkin inside_;
+    std::vector<std::set<int>> neighbours_;
+    std::vector<double> face_area_;               // of each triangle of the shell, m2
+    std::vector<std::array<int, 4>> tets_;        // six for each triangle
+    std::vector<char> good_;                      // of each tet: thick enough
+    std::vector<char> looked_at_, bone_outside_;  // of each column
+    TissueMesh mesh_;
+};
+
+Points skin_points(const rig::Head& head, const Shell& shell) {
+    Points out(static_cast<long>(shell.vertex.size()), 3);
+    for (long v = 0; v < out.rows(); ++v) out.row(v) = head.vertices.row(shell.vertex[v]);
+    return out;
+}
+
+TissueMaker::TissueMaker(const rig::Head& head, const Shell& shell)
+    : head_(head),
+      shell_(shell),
+      count_(static_cast<int>(shell.vertex.size())),
+      min_depth_m_(head.mm(kThinnest_mm)),
+      skin_(static_cast<std::size_t>(count_)),
+      inside_(skin_points(head, shell), shell.triangles),
+      neighbours_(static_cast<std::size_t>(count_)),
+      looked_at_(static_cast<std::size_t>(count_), 1),
+      bone_outside_(static_cast<std::size_t>(count_), 0) {
+    mesh_.direction.resize(static_cast<std::size_t>(count_));
+    for (int v = 0; v < count_; ++v) {
+        skin_[v] = head.vertices.row(shell.vertex[v]).transpose();
+        mesh_.direction[v] = shell.direction.row(shell.vertex[v]).transpose();
+    }
+}
+
+// How far a point near the lips lies in front of the teeth, within limits, m. The arch of the teeth is a parabola.
+double depth_to_teeth(const rig::Head& head, const Vec3& p, double lip_y) {
+    const double x_mm = p.x() / head.mm(1);
+    const double overjet = head.mm(2.6) * geom::smoothstep(head.mm(2), head.mm(-2), p.y() - lip_y);
+    const double arch = head.teeth_front_m - overjet - head.mm(0.03 * x_mm * x_mm);
+    return std::clamp(p.z() - arch, head.mm(3), head.mm(14));
+}
+
+void TissueMaker::choose_thickness(const rig::RigDescription& rig,
+                                   const std::array<EyeLids, 2>& lids) {
+    const std::vector<Vec3> lips = lip_line(head_);
+    mesh_.thickness_m.resize(static_cast<std::size_t>(count_));
+    for (int v = 0; v < count_; ++v) {
+        const Vec3& p = skin_[v];
+        double thickness = interpolate_thickness(head_, rig.atlas.thickness, p);
 
         // Lips lie on the teeth
         const double lip =
-            1.0 - geom::smoothstep(head.mm(7), head.mm(16), geom::distance_to_polyline(p, lips));
-        if (lip > 0) {
-            const double x_mm = p.x() / head.mm(1);
-            const double overjet =
-                head.mm(2.6) * geom::smoothstep(head.mm(2), head.mm(-2), p.y() - lips[2].y());
-            const double arch = arch_z - overjet - head.mm(0.03 * x_mm * x_mm);
-            const double to_arch = std::clamp(p.z() - arch, head.mm(3), head.mm(14));
-            thickness = (1 - lip) * thickness + lip * to_arch;
-        }
+            1.0 - geom::smoothstep(head_.mm(7), head_.mm(16), geom::distance_to_polyline(p, lips));
+        if (lip > 0)
+            thickness = (1 - lip) * thickness + lip * depth_to_teeth(head_, p, lips[2].y());
         // Lids lie on the eyeball
         bool on_lid = false;
         for (int side = 0; side < 2; ++side) {
             const double from_centre = (p - lids[side].centre()).norm();
             const double lid =
-                1.0 - geom::smoothstep(lids[side].zone_m() - head.mm(2.5),
-                                       lids[side].zone_m() + head.mm(3), from_centre);
+                1.0 - geom::smoothstep(lids[side].zone_m() - head_.mm(2.5),
+                                       lids[side].zone_m() + head_.mm(3), from_centre);
             const double to_globe =
-                std::clamp(from_centre - head.eyes[side].radius_m, head.mm(1.0), head.mm(9));
+                std::clamp(from_centre - head_.eyes[side].radius_m, head_.mm(1.0), head_.mm(9));
             thickness = (1 - lid) * thickness + lid * to_globe;
             on_lid = on_lid || lid > 0;
         }
         // Elsewhere no bone comes near the skin of another side
-        if (lip == 0 && !on_lid) thickness = inside.depth(p, mesh.direction[v], thickness, least);
-        mesh.thickness_m[v] = thickness;
+        if (lip == 0 && !on_lid)
+            thickness = inside_.depth(p, mesh_.direction[v], thickness, min_depth_m_);
+        mesh_.thickness_m[v] = thickness;
     }
+}
 
+void TissueMaker::cut_prisms() {
     // No triangle holds a vertex and its image, so within one the ranks differ.
-    std::vector<int> rank(static_cast<std::size_t>(count));
-    for (int v = 0; v < count; ++v)
-        rank[v] = shell.mirrored.empty() ? v : std::min(v, shell.mirrored[v]);
-    std::vector<std::array<int, 4>> tets;
-    for (long f = 0; f < shell.triangles.rows(); ++f) {
-        const std::array<int, 3> base{shell.triangles(f, 0), shell.triangles(f, 1),
-                                      shell.triangles(f, 2)};
-        cut_prism(base, rank, kDeep, kMiddle, tets);
-        cut_prism(base, rank, kMiddle, kSkin, tets);
+    std::vector<int> rank(static_cast<std::size_t>(count_));
+    for (int v = 0; v < count_; ++v)
+        rank[v] = shell_.mirrored.empty() ? v : std::min(v, shell_.mirrored[v]);
+    for (long f = 0; f < shell_.triangles.rows(); ++f) {
+        const std::array<int, 3> base{shell_.triangles(f, 0), shell_.triangles(f, 1),
+                                      shell_.triangles(f, 2)};
+        cut_prism(base, rank, kDeep, kMiddle, tets_);
+        cut_prism(base, rank, kMiddle, kSkin, tets_);
     }
-    std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
-    std::vector<double> face_area(static_cast<std::size_t>(shell.triangles.rows()));
-    mesh.area_m2.assign(static_cast<std::size_t>(count), 0);
-    for (long f = 0; f < shell.triangles.rows(); ++f) {
-        const Vec3 &a = skin[shell.triangles(f, 0)], &b = skin[shell.triangles(f, 1)],
-                   &c = skin[shell.triangles(f, 2)];
-        face_area[f] = 0.5 * (b - a).cross(c - a).norm();
-        for (int k = 0; k < 3; ++k) {
-            mesh.area_m2[shell.triangles(f, k)] += face_area[f] / 3.0;
-            neighbours[shell.triangles(f, k)].insert(shell.triangles(f, (k + 1) % 3));
-            neighbours[shell.triangles(f, (k + 1) % 3)].insert(shell.triangles(f, k));
-        }
-    }
+}
 
-    // A tet that is too thin makes the whole column thinner and turns it towards its neighbours; bone outside of the skin
-    // turns the column's foot under its own skin.
-    mesh.nodes.resize(kLayers * count, 3);
-    std::vector<char> good, looked_at(static_cast<std::size_t>(count), 1),
-        outside(static_cast<std::size_t>(count), 0);
-    for (int round = 0; round <= kRepairRounds; ++round) {
-        for (int v = 0; v < count; ++v) {
-            mesh.nodes.row(node_of(v, kSkin)) = skin[v].transpose();
-            mesh.nodes.row(node_of(v, kMiddle)) =
-                (skin[v] - kMiddleDepth * mesh.thickness_m[v] * mesh.direction[v]).transpose();
-            mesh.nodes.row(node_of(v, kDeep)) =
-                (skin[v] - mesh.thickness_m[v] * mesh.direction[v]).transpose();
+void TissueMaker::measure_triangles() {
+    face_area_.resize(static_cast<std::size_t>(shell_.triangles.rows()));
+    mesh_.area_m2.assign(static_cast<std::size_t>(count_), 0);
+    for (long f = 0; f < shell_.triangles.rows(); ++f) {
+        const Vec3 &a = skin_[shell_.triangles(f, 0)], &b = skin_[shell_.triangles(f, 1)],
+                   &c = skin_[shell_.triangles(f, 2)];
+        face_area_[f] = 0.5 * (b - a).cross(c - a).norm();
+        for (int k = 0; k < 3; ++k) {
+            mesh_.area_m2[shell_.triangles(f, k)] += face_area_[f] / 3.0;
+            neighbours_[shell_.triangles(f, k)].insert(shell_.triangles(f, (k + 1) % 3));
+            neighbours_[shell_.triangles(f, (k + 1) % 3)].insert(shell_.triangles(f, k));
         }
-        good.assign(tets.size(), 1);
-        std::vector<char> bad_vertex(static_cast<std::size_t>(count), 0);
-        bool any_bad = false;
-        for (std::size_t t = 0; t < tets.size(); ++t) {
-            const Vec3 a = mesh.nodes.row(tets[t][0]), b = mesh.nodes.row(tets[t][1]),
-                       c = mesh.nodes.row(tets[t][2]), d = mesh.nodes.row(tets[t][3]);
-            const double volume = (b - a).dot((c - a).cross(d - a)) / 6.0;
-            const long face = static_cast<long>(t / 6);
-            const double share = t % 6 < 3 ? 1 - kMiddleDepth : kMiddleDepth;
-            double thickness = 0;
-            for (int k = 0; k < 3; ++k)
-                thickness += mesh.thickness_m[shell.triangles(face, k)] / 3.0;
-            if (volume < kLeastVolume * face_area[face] * thickness * share / 3.0) {
-                good[t] = 0;
-                any_bad = true;
-                for (int k = 0; k < 3; ++k) bad_vertex[shell.triangles(face, k)] = 1;
-            }
-        }
-        for (int v = 0; v < count; ++v) {
-            if (looked_at[v])
-                outside[v] = inside.outside(mesh.nodes.row(node_of(v, kDeep)).transpose());
-            any_bad = any_bad || outside[v];
-        }
-        if (!any_bad || round == kRepairRounds) break;
-        // In the end that bone is inside comes before whole columns
-        const bool late = round >= kRepairRounds - 10;
-        std::vector<Vec3> turned = mesh.direction;
-        for (int v = 0; v < count; ++v) {
-            looked_at[v] = bad_vertex[v] || outside[v];
-            if (outside[v]) {
-                const double shrink = late ? 0.7 : 0.9;
-                mesh.thickness_m[v] =
-                    std::max(late ? 0.4 * least : least, shrink * mesh.thickness_m[v]);
-                turned[v] =
-                    late ? inside.normal(v) : (mesh.direction[v] + inside.normal(v)).normalized();
-                continue;
-            }
-            if (late || !bad_vertex[v]) continue;
-            mesh.thickness_m[v] = std::max(least, 0.9 * mesh.thickness_m[v]);
-            Vec3 sum = mesh.direction[v];
-            for (int w : neighbours[v])
-                sum += mesh.direction[w] / static_cast<double>(neighbours[v].size());
-            turned[v] = sum.normalized();
-        }
-        mesh.direction = turned;
     }
-    std::vector<std::array<int, 4>> kept;
-    for (std::size_t t = 0; t < tets.size(); ++t) {
-        if (!good[t]) {
-            ++mesh.dropped_tets;
+}
+
+void TissueMaker::place_nodes() {
+    for (int v = 0; v < count_; ++v) {
+        mesh_.nodes.row(node_of(v, kSkin)) = skin_[v].transpose();
+        mesh_.nodes.row(node_of(v, kMiddle)) =
+            (skin_[v] - kMiddleDepth * mesh_.thickness_m[v] * mesh_.direction[v]).transpose();
+        mesh_.nodes.row(node_of(v, kDeep)) =
+            (skin_[v] - mesh_.thickness_m[v] * mesh_.direction[v]).transpose();
+    }
+}
+
+// Columns with a tet of too little volume; says of each tet whether it is good.
+std::vector<char> TissueMaker::find_thin_columns() {
+    good_.assign(tets_.size(), 1);
+    std::vector<char> thin(static_cast<std::size_t>(count_), 0);
+    for (std::size_t t = 0; t < tets_.size(); ++t) {
+        const Vec3 a = mesh_.nodes.row(tets_[t][0]), b = mesh_.nodes.row(tets_[t][1]),
+                   c = mesh_.nodes.row(tets_[t][2]), d = mesh_.nodes.row(tets_[t][3]);
+        const double volume = (b - a).dot((c - a).cross(d - a)) / 6.0;
+        const long face = static_cast<long>(t / 6);
+        const double fraction = t % 6 < 3 ? 1 - kMiddleDepth : kMiddleDepth;
+        double thickness = 0;
+        for (int k = 0; k < 3; ++k) thickness += mesh_.thickness_m[shell_.triangles(face, k)] / 3.0;
+        if (volume < kMinVolume * face_area_[face] * thickness * fraction / 3.0) {
+            good_[t] = 0;
+            for (int k = 0; k < 3; ++k) thin[shell_.triangles(face, k)] = 1;
+        }
+    }
+    return thin;
+}
+
+// Columns whose foot lies outside of the skin.
+void TissueMaker::find_bone_outside() {
+    for (int v = 0; v < count_; ++v)
+        if (looked_at_[v])
+            bone_outside_[v] = inside_.outside(mesh_.nodes.row(node_of(v, kDeep)).transpose());
+}
+
+// Makes a column with a thin tet thinner and turns it towards its neighbours; turns a column with bone outside of the skin under its own
+// skin. In the last rounds, bone inside of the skin is more important than whole columns.
+void TissueMaker::repair_round(const std::vector<char>& thin, bool late) {
+    std::vector<Vec3> turned = mesh_.direction;
+    for (int v = 0; v < count_; ++v) {
+        looked_at_[v] = thin[v] || bone_outside_[v];
+        if (bone_outside_[v]) {
+            const double shrink = late ? 0.7 : 0.9;
+            mesh_.thickness_m[v] =
+                std::max(late ? 0.4 * min_depth_m_ : min_depth_m_, shrink * mesh_.thickness_m[v]);
+            turned[v] =
+                late ? inside_.normal(v) : (mesh_.direction[v] + inside_.normal(v)).normalized();
             continue;
         }
-        kept.push_back(tets[t]);
-        mesh.tet_layer.push_back(t % 6 < 3 ? kMiddle : kSkin);
+        if (late || !thin[v]) continue;
+        mesh_.thickness_m[v] = std::max(min_depth_m_, 0.9 * mesh_.thickness_m[v]);
+        Vec3 sum = mesh_.direction[v];
+        for (int w : neighbours_[v])
+            sum += mesh_.direction[w] / static_cast<double>(neighbours_[v].size());
+        turned[v] = sum.normalized();
     }
-    mesh.tets.resize(static_cast<long>(kept.size()), 4);
+    mesh_.direction = turned;
+}
+
+void TissueMaker::repair_columns() {
+    mesh_.nodes.resize(kLayers * count_, 3);
+    const auto any = [](const std::vector<char>& flags) {
+        return std::find(flags.begin(), flags.end(), 1) != flags.end();
+    };
+    for (int round = 0; round <= kRepairRounds; ++round) {
+        place_nodes();
+        const std::vector<char> thin = find_thin_columns();
+        find_bone_outside();
+        if ((!any(thin) && !any(bone_outside_)) || round == kRepairRounds) return;
+        repair_round(thin, round >= kRepairRounds - 10);
+    }
+}
+
+// The mesh of the good tets.
+TissueMesh TissueMaker::take() {
+    std::vector<std::array<int, 4>> kept;
+    for (std::size_t t = 0; t < tets_.size(); ++t) {
+        if (!good_[t]) {
+            ++mesh_.dropped_tets;
+            continue;
+        }
+        kept.push_back(tets_[t]);
+        mesh_.tet_layer.push_back(t % 6 < 3 ? kMiddle : kSkin);
+    }
+    mesh_.tets.resize(static_cast<long>(kept.size()), 4);
     for (std::size_t t = 0; t < kept.size(); ++t)
-        for (int k = 0; k < 4; ++k) mesh.tets(static_cast<long>(t), k) = kept[t][k];
-    return mesh;
+        for (int k = 0; k < 4; ++k) mesh_.tets(static_cast<long>(t), k) = kept[t][k];
+    return std::move(mesh_);
+}
+
+}  // namespace
+
+TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
+                             const Shell& shell, const std::array<EyeLids, 2>& lids) {
+    TissueMaker maker(head, shell);
+    maker.choose_thickness(rig, lids);
+    maker.cut_prisms();
+    maker.measure_triangles();
+    maker.repair_columns();
+    return maker.take();
 }
 
 Shell drop_unsupported_vertices(Shell shell, const rig::Head& head, const rig::RigDescription& rig,

@@ -1,5 +1,5 @@
-// Soft tissue between the skin shell and the bone, three layers of nodes: deep (on the bone), middle, skin; each prism
-// column cut into tetrahedra.
+// Soft tissue between the skin shell and the bone. It has three layers of nodes: deep (on the bone), middle and skin. Each prism of a
+// column is cut into tetrahedra.
 //
 // Node of shell vertex v in layer l: 3 v + l.
 #pragma once
@@ -24,22 +24,22 @@ struct TissueMesh {
     Points nodes;  ///< 3N x 3, rest
     Tets tets;
     std::vector<Layer>
-        tet_layer;  ///< the outer layer of the slab a tet lies in: kMiddle (deep slab) or kSkin
+        tet_layer;  ///< outer layer of the slab that the tet lies in: kMiddle (deep slab) or kSkin
     std::vector<double> thickness_m;  ///< N
     std::vector<Vec3> direction;      ///< N, outward, unit
-    std::vector<double> area_m2;      ///< N, skin area that a vertex stands for
-    int dropped_tets = 0;             ///< too thin to be used
+    std::vector<double> area_m2;      ///< N, area of skin assigned to the vertex
+    int dropped_tets = 0;             ///< number of tets that were too thin to be used
 };
 
-/// Of the tissue over bone under a place of the skin, m: the rig's samples, weighted by the inverse fourth power of their distance.
+/// Thickness of the tissue over bone below a point of the skin, m: the samples of the rig, weighted by 1 / distance^4.
 double interpolate_thickness(const rig::Head& head,
                              const std::vector<rig::ThicknessSample>& samples, const Vec3& p);
 
 TissueMesh build_tissue_mesh(const rig::Head& head, const rig::RigDescription& rig,
                              const Shell& shell, const std::array<EyeLids, 2>& lids);
 
-/// The shell without corners of its rim under which all tetrahedra were too thin: skin that nothing bears has two places of rest,
-/// one on either side of its neighbours.
+/// Removes vertices of the shell's rim that no tetrahedron supports, because all tets under them were too thin. Unsupported vertices are
+/// bistable: they could rest on either side of their neighbours.
 Shell drop_unsupported_vertices(Shell shell, const rig::Head& head, const rig::RigDescription& rig,
                                 const std::array<EyeLids, 2>& lids);
 

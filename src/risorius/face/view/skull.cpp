@@ -241,12 +241,14 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
                    most = head.mm(1) * (high_mm + Vec3::Constant(15));
         return std::pair<Vec3, Vec3>(low.cwiseMax(least), high.cwiseMin(most));
     };
+    const SkullShapes& shapes = standard_skull_shapes();
+    const auto skull_at = [&](const Vec3& p_mm) { return skull_fields(shapes, p_mm); };
+    const auto mandible_at = [&](const Vec3& p_mm) { return mandible_fields(shapes, p_mm); };
     Skull skull;
     const auto [low, high] = box({-80, -60, -100}, {80, 135, 120});
-    skull.cranium = surface_of(field_of(skull_fields, true), low, high, head.mm(step_mm));
+    skull.cranium = surface_of(field_of(skull_at, true), low, high, head.mm(step_mm));
     const auto [jaw_low, jaw_high] = box({-70, -110, -5}, {70, 10, 100});
-    skull.mandible =
-        surface_of(field_of(mandible_fields, false), jaw_low, jaw_high, head.mm(step_mm));
+    skull.mandible = surface_of(field_of(mandible_at, false), jaw_low, jaw_high, head.mm(step_mm));
     return skull;
 }
 

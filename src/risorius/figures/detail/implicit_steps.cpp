@@ -140,6 +140,37 @@ Found search(const Plan& plan, const softbody::SoftBody& body, const MethodRun& 
     return found;
 }
 
+void add_ratios(const Plan& plan, const std::vector<Found>& found, Outcome& outcome) {
+    const std::size_t grids = plan.grids.size(), methods = plan.methods.size();
+    for (const auto& [above, below] : plan.ratios)
+        for (std::size_t g = 0; g < grids; ++g) {
+            // A method without any usable step is worse than the shortest of the table.
+            const double divisor = found[g * methods + below].step_s;
+            outcome.measured.add(
+                "ratio/" + plan.methods[above].name + "/" + plan.methods[below].name + "/" +
+                    plan.grids[g],
+                "",
+                found[g * methods + above].step_s / (divisor > 0 ? divisor : plan.steps_s.back()));
+        }
+}
+
+// The bodies in equilibrium, as a table and as shapes.
+Table equilibrium_table(const Plan& plan, const std::vector<Settled>& rest, Outcome& outcome) {
+    Table settled{.name = "rest", .columns = {"force_ratio", "speed_per_s"}, .rows = {}};
+    for (std::size_t g = 0; g < plan.grids.size(); ++g) {
+        settled.row_names.push_back(plan.grids[g]);
+        settled.rows.push_back({rest[g].force_ratio, rest[g].speed_ratio});
+        outcome.measured.add("rest_force_ratio/" + plan.grids[g], "", rest[g].force_ratio);
+        const softbody::BodyDescription description = softbody::read_body(plan.bodies[g]);
+        const softbody::SoftBody body = softbody::build_body(description);
+        // One row, to be compared
+        outcome.figure.shapes.push_back(shape_of(description, body, rest[g].x, "at-rest",
+                                                 "At rest, " + plan.grids[g] + " nodes"));
+        outcome.figure.shapes.back().outline = rest_outline(body);
+    }
+    return settled;
+}
+
 }  // namespace
 
 void run_implicit_steps(const JsonCursor& experiment, const RunOptions& options, Outcome& outcome) {
@@ -219,31 +250,10 @@ void run_implicit_steps(const JsonCursor& experiment, const RunOptions& options,
             chart.series.push_back(published);
         }
     }
-    for (const auto& [above, below] : plan.ratios)
-        for (std::size_t g = 0; g < grids; ++g) {
-            // A method without any usable step is worse than the shortest of the table.
-            const double divisor = found[g * methods + below].step_s;
-            outcome.measured.add(
-                "ratio/" + plan.methods[above].name + "/" + plan.methods[below].name + "/" +
-                    plan.grids[g],
-                "",
-                found[g * methods + above].step_s / (divisor > 0 ? divisor : plan.steps_s.back()));
-        }
-    Table settled{.name = "rest", .columns = {"force_ratio", "speed_per_s"}, .rows = {}};
-    for (std::size_t g = 0; g < grids; ++g) {
-        settled.row_names.push_back(plan.grids[g]);
-        settled.rows.push_back({rest[g].force_ratio, rest[g].speed_ratio});
-        outcome.measured.add("rest_force_ratio/" + plan.grids[g], "", rest[g].force_ratio);
-        const softbody::BodyDescription description = softbody::read_body(plan.bodies[g]);
-        const softbody::SoftBody body = softbody::build_body(description);
-        // One row, to be compared
-        outcome.figure.shapes.push_back(shape_of(description, body, rest[g].x, "at-rest",
-                                                 "At rest, " + plan.grids[g] + " nodes"));
-        outcome.figure.shapes.back().outline = rest_outline(body);
-    }
+    add_ratios(plan, found, outcome);
     outcome.figure.tables.push_back(std::move(steps));
     outcome.figure.tables.push_back(std::move(cost));
-    outcome.figure.tables.push_back(std::move(settled));
+    outcome.figure.tables.push_back(equilibrium_table(plan, rest, outcome));
     outcome.figure.charts.push_back(std::move(chart));
 }
 

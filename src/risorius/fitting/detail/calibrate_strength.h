@@ -1,4 +1,4 @@
-// Finds for one head how strong every muscle has to be for activation 1 to shorten it as published.
+// Finds, for one head, the strength of every muscle with which activation 1 shortens it as published.
 //
 //   s   strength: force / force from the cross-section, ratio, [0.1, 6]
 //   l   mean fibre length / rest length at activation 1
@@ -20,12 +20,12 @@ struct MuscleStrength {
     double strength = 1;
     double stretch = 1;  ///< l reached
     double target_stretch = 1;
-    bool at_limit = false;  ///< the target wants more or less than the limits allow
-    bool converged = true;  ///< the face came to rest in the last trial
+    bool at_limit = false;  ///< the strength that the target needs is outside of the limits
+    bool converged = true;  ///< the face reached equilibrium in the last trial
 };
 
-/// Each muscle of the rig's bands alone, be it a bundle or a solid, one after the other, by the secant method; `face` is left with the strengths
-/// found. Throws Interrupted.
+/// Calibrates each muscle of the rig's bands alone, bundle or solid, one after the other, by the secant method. `face` is left with the
+/// strengths found. Throws Interrupted.
 std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 

@@ -1,4 +1,4 @@
-// The report of a fit as a folder: a page with pictures to look at and results.json for programs.
+// The report of a fit as a folder: a page with pictures, and results.json for programs.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace risorius::fitting {
 
 inline constexpr const char* kFitPicture = "fit.png";
 
-/// Beside the picture, which is there already. Throws RunError when it cannot be written.
+/// Writes next to the picture, which exists already. Throws RunError when it cannot be written.
 void write_fit_report(const FitReport& report, const rig::RigDescription& rig,
                       const std::filesystem::path& folder);
 

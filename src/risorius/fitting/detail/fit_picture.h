@@ -1,5 +1,5 @@
-// What `fit` found, to look at: landmarks given and guessed, lids, mouth and eyes from the front and the side, the thickness
-// of tissue as colour, and the bone it was laid on.
+// Picture of the result of a fit: landmarks given and estimated, lids, mouth and eyes from the front and the side, thickness of the tissue
+// as colour, and the estimated bone.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,18 @@
 
 namespace risorius::fitting {
 
-/// What the moving tissue lies on, as estimated from skin and landmarks: a point of bone under every point of the coarse skin, at rest, m.
+/// The estimated bone under the tissue at rest: one point of bone under every point of the coarse skin, m.
 struct BoneEstimate {
     Points skin, bone;                ///< N x 3
     Triangles triangles;              ///< over both
     std::vector<double> thickness_m;  ///< N
-    std::vector<double> jaw_share;    ///< N, 1 on the mandible, 0 on the skull
+    std::vector<double>
+        jaw_share;  ///< N, fraction of the mandible's motion: 1 on the mandible, 0 on the skull
 };
 BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig,
                            const face::Shell& shell);
 
-/// How the bone lies under the skin.
+/// Thickness of the tissue between skin and bone.
 struct BoneFigures {
     double thinnest_mm = 0, thickest_mm = 0, mean_mm = 0;  ///< tissue between them, at the nodes
     int through_skin = 0;  ///< nodes of bone that are not inside of the skin

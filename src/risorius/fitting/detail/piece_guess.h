@@ -1,5 +1,4 @@
-// What the separate pieces of a mesh without groups are, told from where they lie: eyes behind the lids, teeth and tongue
-// behind the lips.
+// Identifies the separate pieces of a mesh without groups by their position: eyes behind the lids, teeth and tongue behind the lips.
 #pragma once
 
 #include <functional>
@@ -11,9 +10,9 @@
 
 namespace risorius::fitting {
 
-/// Gives the faces of pieces that are no skin groups of their own: "eye_l", "eye_r", "teeth", "tongue", "other". `to_head`
-/// maps mesh units to the head frame, m; `landmarks` are in the head frame; `size` of this head over the average adult.
-/// Returns what was named, for the user; empty when the mesh has several groups or is in one piece.
+/// Puts the faces of pieces that are not skin into groups "eye_l", "eye_r", "teeth", "tongue", "other". `to_head` maps mesh units to the
+/// head frame, m; `landmarks` are in the head frame; `size`: this head / the average adult. Returns messages about what was named; empty
+/// when the mesh has several groups or is in one piece.
 std::vector<std::string> group_pieces(geom::PolygonMesh& mesh,
                                       const std::function<Vec3(const Vec3&)>& to_head,
                                       const std::map<std::string, Vec3>& landmarks, double size);

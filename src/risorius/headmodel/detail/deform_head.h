@@ -1,11 +1,11 @@
-// The average head turned into somebody: every part moved by the handles of the parameters table, its topology kept.
+// Deforms the average head into that of a person: handles of the parameters table move every part; the topology is unchanged.
 //
 // With k(d / reach) Wendland's bell (1 - t)^4 (4 t + 1) about each handle, a point p of the left side goes to
 //   p + sum over handles of  parameter * k * by                (move)
 //                            parameter * k * by (p - at) / 100 (scale)
-// and the right side mirrors it. Round each globe the displacement fades into that of the globe's centre, so that globes
-// keep their form and lids their distance; lid handles then slide lids over the globe. The map is smooth and, within the
-// ranges of identity.h, one to one: what does not run through itself on the average head does not on the others.
+// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
+// form and lids their distance. Then lid handles slide the lids over the globe. The map is smooth and, within the ranges of identity.h,
+// one-to-one, so a mesh without self-intersections stays free of them.
 #pragma once
 
 #include "risorius/headmodel/detail/head_model.h"
@@ -14,19 +14,19 @@
 
 namespace risorius::headmodel {
 
-/// Measures of a person lie within so many standard deviations of the mean of the sex.
+/// Largest deviation of a measure from the mean of the sex, standard deviations.
 inline constexpr double kLargestDeviation = 2.5;
 
-/// The average identity gives the average head to the bit.
+/// The average identity gives exactly the average head.
 HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
                       const Identity& identity);
 
-/// As above, but with shapes scaled down together, at most to nothing, until every measure is within kLargestDeviation;
-/// `identity` receives the shapes used.
+/// The same, but all shape parameters are scaled down together until every measure is within kLargestDeviation; `identity` receives the
+/// values used.
 HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tables,
                                Identity& identity);
 
-/// Throws Error naming the measure that is beyond kLargestDeviation.
+/// Throws Error that names the measure beyond kLargestDeviation.
 void check_spread(const HeadModel& model, const DesignTables& tables, const Identity& identity,
                   const std::string& place);
 

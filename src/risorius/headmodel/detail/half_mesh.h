@@ -1,5 +1,5 @@
-// The subject's left half of the skin while it is being made: vertices, quads, and relaxation over the head surface.
-// The midline is shared by both halves; mirroring at the end makes the whole exactly symmetric.
+// The left half of the skin during construction: vertices, quads, and relaxation over the head surface. Both halves share the midline;
+// mirroring at the end makes the whole exactly symmetric.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ namespace risorius::headmodel {
 
 enum class Hold {
     kOnHead,  ///< slides on the head surface while relaxing
-    kSmooth,  ///< follows its neighbours in space (cap, nostril, ear: lofted parts)
-    kPinned,  ///< stays
+    kSmooth,  ///< follows its neighbours in space (crown, nostril, ear: lofted parts)
+    kPinned,  ///< does not move
 };
 
-/// Of the skin, and the lining of the mouth.
+/// Regions of the skin, and the lining of the mouth.
 enum class Region {
     kScalp,
     kForehead,
@@ -54,23 +54,23 @@ struct HalfMesh {
     int add(const Vec3& p, Hold how, bool on_midline = false);
     void quad(int a, int b, int c, int d, int in_group = 0);
 
-    /// Faces between two loops of equal length, seen from outside counter-clockwise; `closed` joins last to first.
+    /// Adds faces between two loops of equal length, counter-clockwise from outside; `closed` joins last to first.
     void bridge(const std::vector<int>& outer, const std::vector<int>& inner, bool closed,
                 int in_group = 0);
 
-    /// Fills the rectangle bounded by `loop` (left side down `rows`, bottom right `columns`, right side up, top back).
+    /// Fills the rectangle bounded by `loop` with quads (left side down `rows`, bottom right `columns`, right side up, top back).
     void fill(const std::vector<int>& loop, int rows, int columns, Hold how, int in_group = 0);
 
     /// Neighbours along edges; the midline sees both halves.
     std::vector<std::vector<int>> neighbours() const;
 
-    /// Unit vectors outwards at the vertices; on the midline without x.
+    /// Outward unit normals at the vertices; x is 0 on the midline.
     std::vector<Vec3> normals() const;
 
-    /// Takes ripples out without shrinking (Taubin 1995): `share` 0..1 says how much each vertex takes part.
+    /// Removes ripples without shrinking (Taubin 1995). The second argument is the weight of each vertex, 0..1.
     void smooth(int iterations, const std::vector<double>& share);
 
-    /// Moves vertices towards the mean of their neighbours; those on the head are put back on it by `project`.
+    /// Moves vertices towards the mean of their neighbours; `project` puts vertices on the head back onto it.
     void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,
                Hold which);
 };

@@ -1,4 +1,4 @@
-// The whole head: all parts over one vertex array, and the landmarks as its vertices.
+// The complete head: all parts over one vertex array, with the landmarks as vertices.
 #pragma once
 
 #include <map>
@@ -16,8 +16,8 @@ struct HeadModel {
 
 HeadModel make_head(const DesignTables& tables);
 
-/// OBJ with groups and layout, coordinates to a micrometre; beside it the landmarks, and the regions as runs of faces. With the name of
-/// a material library, which is not written, each group is of the material with its name, and vertices have normals.
+/// Writes an OBJ with groups and texture coordinates, to a micrometre, and next to it the landmarks and the regions as ranges of faces. With
+/// the name of a material library (which is not written), each group has the material of its name, and vertices have normals.
 void write_head(const HeadModel& model, const std::filesystem::path& folder,
                 const std::string& library = {});
 

@@ -1,6 +1,6 @@
-// The bare head as a smooth function: distance from a vertical axis segment, over azimuth and height.
+// The head without ears as a smooth function: distance from a vertical axis segment, over azimuth and height.
 //
-// Every point belongs to the nearest point O of the segment (0, 45, 0)-(0, -50, 0); it is named by
+// Every point belongs to the nearest point O of the segment (0, 45, 0)-(0, -50, 0). Its coordinates are
 //   phi   azimuth about the segment, 0 forward, pi backward, rad
 //   s     height on the segment, continued beyond its ends by 90 mm per radian of elevation, mm
 //   rho   distance from O, mm
@@ -27,7 +27,7 @@ class HeadSurface {
 
     double rho(double phi, double s) const;
     Vec3 at(double phi, double s) const { return point_at(phi, s, rho(phi, s)); }
-    /// Along the ray from the axis segment; keeps the side of x.
+    /// Projects along the ray from the axis segment; keeps the side of x.
     Vec3 project(const Vec3& point) const;
 
   private:

@@ -91,7 +91,7 @@ std::vector<std::string> write_head_textures(const render::Scene& scene, int sid
     }
     media::write_png(lash_opacity(side_px / 2), folder / kLashFile);
     files.emplace_back(kLashFile);
-    report::write_text(folder / kTextureLibrary, texture_library(scene.look.hair_tone));
+    report::write_text(folder / kTextureLibrary, texture_library(scene.appearance.hair_tone));
     files.emplace_back(kTextureLibrary);
     return files;
 }

@@ -1,4 +1,4 @@
-// What an exported embedded head looks like in other programs: colours on its texture coordinates, and the material library of its mesh.
+// Textures and material library of an exported head for other programs.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@ namespace risorius::headmodel {
 /// The name for headmodel::write_head().
 constexpr const char* kTextureLibrary = "head.mtl";
 
-/// Writes skin.png (with the wall of the mouth), so many pixels wide and high, eyes.png, teeth.png, gums.png, tongue.png and lashes.png, half of it,
-/// and the library. `crown_height`: headmodel::HeadModel's. The names of the files. Throws Error for a size outside of 256..4096.
+/// Writes skin.png (with the wall of the mouth) of this width and height, and eyes.png, teeth.png, gums.png, tongue.png and lashes.png of
+/// half of it, and the library. `crown_height`: that of HeadModel. Returns the names of the files. Throws Error for a size outside of 256..4096.
 std::vector<std::string> write_head_textures(const render::Scene& scene, int side_px,
                                              const std::vector<double>& crown_height,
                                              const std::filesystem::path& folder);
 
-/// The library alone: a material for each group of the head, lashes in the colour of the hair (sRGB 0..1).
+/// The library alone: one material for each group of the head; lashes have the colour of the hair (sRGB 0..1).
 std::string texture_library(const Vec3& hair_tone);
 
 }  // namespace risorius::headmodel

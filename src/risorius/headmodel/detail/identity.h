@@ -1,4 +1,4 @@
-// Who a head is: sex, age, shapes in standard deviations and colours; from a file, from a seed, or as asked for.
+// The identity of a head: sex, age, shape parameters in standard deviations, and colours. It is read from a file, drawn by a seed, or set.
 //
 // A file names only what differs from the average adult:
 //   {"format": "risorius-identity", "version": 1, "name": "ada", "sex": -1, "age": 34, "shape": {"lips": 1.2}, "skin": "tan"}
@@ -25,18 +25,18 @@ struct Identity {
     std::string skin = "fair", iris = "blue", hair = "brown";  ///< names of the tones table
     double freckles = 0.15;                                    ///< 0..1, as the others below
     double scalp_hair = 0.6;
-    double hairline = 0;  ///< mm: how much higher than on the average forehead hair begins
+    double hairline = 0;  ///< mm: how much higher than average the hair begins on the forehead
     double temples = 0;   ///< mm: how much farther it recedes at the temples
     double beard = 0;
 };
 
-/// Parameters of the table beside sex and age, in its order.
+/// Parameters of the table except sex and age, in its order.
 std::vector<std::string> shape_parameters(const DesignTables& tables);
 
 /// Names that a tone may have; `part` is skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);
 
-/// What an error names as the place of a field: "ada.json:/age", or an option by option_name().
+/// The place of a field in error messages: "ada.json:/age", or an option by option_name().
 using PlaceOf = std::function<std::string(const std::string& field)>;
 
 /// Throws Error on unknown parameters or tones and on values beyond the ranges above.
@@ -48,10 +48,9 @@ Json identity_json(const Identity& identity);
 
 /// Files of models/identities, by name, sorted.
 std::vector<std::string> named_identities();
-std::filesystem::path identity_file(const std::string& name);  ///< whether it is there or not
+std::filesystem::path identity_file(const std::string& name);  ///< whether the file exists or not
 
-/// Drawn by the seed: the same for the same seed anywhere. Shapes are spread as in adults (standard deviation 1, as the
-/// parameters are counted), none beyond 2.
+/// Drawn by the seed; the same on every machine. Shape parameters have standard deviation 1, as in adults, limited to 2.
 Identity random_identity(unsigned seed, const DesignTables& tables);
 
 }  // namespace risorius::headmodel

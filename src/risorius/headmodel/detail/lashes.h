@@ -1,4 +1,4 @@
-// Lashes: one ribbon along each lid margin, standing on it and curving away from the eye. A renderer cuts the single hairs.
+// Lashes: one ribbon along each lid margin that curves away from the eye. The renderer draws single hairs on it.
 #pragma once
 
 #include "risorius/headmodel/detail/skin.h"

@@ -156,27 +156,10 @@ void unfold(const std::vector<FlatTriangle>& triangles, const std::vector<bool>&
     }
 }
 
-}  // namespace
-
-std::vector<Vec2> flatten(const std::vector<Vec3>& points,
-                          const std::vector<std::array<int, 4>>& faces,
-                          const std::vector<bool>& straight) {
-    // Vertices of these faces alone
-    std::vector<int> local(points.size(), -1), global;
-    for (const auto& f : faces)
-        for (const int v : f)
-            if (local[static_cast<std::size_t>(v)] < 0) {
-                local[static_cast<std::size_t>(v)] = static_cast<int>(global.size());
-                global.push_back(v);
-            }
-    const std::size_t n = global.size();
-    std::vector<int> loop = outer_loop(faces);
-    if (loop.size() < 4) throw Error("chart", "a surface with a border", "none");
-
-    // First flat on a round table (Tutte 1963), where nothing can fold: a half disc when part of it is straight.
-    std::vector<Vec2> at(n, Vec2::Zero());
-    std::vector<bool> on_border(n, false), on_line(n, false);
-    for (std::size_t i = 0; i < n; ++i) on_line[i] = straight[static_cast<std::size_t>(global[i])];
+/// Puts the border on a circle, or on a half circle with its straight part on the diameter; says whether a part is straight.
+bool place_border(std::vector<int>& loop, const std::vector<int>& local,
+                  const std::vector<bool>& straight, std::vector<Vec2>& at,
+                  std::vector<bool>& on_border) {
     // Begin after the last straight vertex, so that all between the first and the last of them lies on the line.
     std::size_t begin = 0, longest = 0, gap = 0;
     for (std::size_t k = 0; k < 2 * loop.size(); ++k) {
@@ -204,6 +187,68 @@ std::vector<Vec2> flatten(const std::vector<Vec3>& points,
             at[i] = 300 * Vec2(0, 1 - 2 * share);
         }
     }
+    return lined;
+}
+
+/// The right sides of the joining: the edges of every triangle, turned as the triangle lies now.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> turned_edges(const std::vector<FlatTriangle>& triangles,
+                                                         const std::vector<Vec2>& at,
+                                                         const Unknowns& free_u,
+                                                         const Unknowns& free_v) {
+    Eigen::VectorXd right_u = Eigen::VectorXd::Zero(free_u.count),
+                    right_v = Eigen::VectorXd::Zero(free_v.count);
+    for (const FlatTriangle& t : triangles) {
+        Eigen::Matrix2d join = Eigen::Matrix2d::Zero();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+            join += t.weight[k] *
+                    (at[static_cast<std::size_t>(t.corner[b])] -
+                     at[static_cast<std::size_t>(t.corner[a])]) *
+                    (t.at[b] - t.at[a]).transpose();
+        }
+        // The nearest turn of a plane matrix
+        const double c = join(0, 0) + join(1, 1), s = join(1, 0) - join(0, 1);
+        const double size = std::max(std::hypot(c, s), 1e-12);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+            const Vec2 d = t.at[b] - t.at[a];
+            const Vec2 turned(t.weight[k] * (c * d.x() - s * d.y()) / size,
+                              t.weight[k] * (s * d.x() + c * d.y()) / size);
+            const auto push = [&](const Unknowns& unknown, Eigen::VectorXd& right, int axis) {
+                const int i = unknown.index[static_cast<std::size_t>(t.corner[a])],
+                          j = unknown.index[static_cast<std::size_t>(t.corner[b])];
+                if (i >= 0) right[i] -= turned[axis];
+                if (j >= 0) right[j] += turned[axis];
+            };
+            push(free_u, right_u, 0);
+            push(free_v, right_v, 1);
+        }
+    }
+    return {right_u, right_v};
+}
+
+}  // namespace
+
+std::vector<Vec2> flatten(const std::vector<Vec3>& points,
+                          const std::vector<std::array<int, 4>>& faces,
+                          const std::vector<bool>& straight) {
+    // Vertices of these faces alone
+    std::vector<int> local(points.size(), -1), global;
+    for (const auto& f : faces)
+        for (const int v : f)
+            if (local[static_cast<std::size_t>(v)] < 0) {
+                local[static_cast<std::size_t>(v)] = static_cast<int>(global.size());
+                global.push_back(v);
+            }
+    const std::size_t n = global.size();
+    std::vector<int> loop = outer_loop(faces);
+    if (loop.size() < 4) throw Error("chart", "a surface with a border", "none");
+
+    // First flat on a round table (Tutte 1963), where nothing can fold: a half disc when part of it is straight.
+    std::vector<Vec2> at(n, Vec2::Zero());
+    std::vector<bool> on_border(n, false), on_line(n, false);
+    for (std::size_t i = 0; i < n; ++i) on_line[i] = straight[static_cast<std::size_t>(global[i])];
+    const bool lined = place_border(loop, local, straight, at, on_border);
     std::vector<Spring> even;
     for (const auto& f : faces)
         for (std::size_t k = 0; k < 4; ++k)
@@ -244,35 +289,7 @@ std::vector<Vec2> flatten(const std::vector<Vec3>& points,
     const Unknowns free_u(held_u), free_v(held_v);
     const Solver solver_u(stiffness(springs, free_u)), solver_v(stiffness(springs, free_v));
     for (int round_number = 0; round_number < kRounds; ++round_number) {
-        Eigen::VectorXd right_u = Eigen::VectorXd::Zero(free_u.count),
-                        right_v = Eigen::VectorXd::Zero(free_v.count);
-        for (const FlatTriangle& t : triangles) {
-            Eigen::Matrix2d join = Eigen::Matrix2d::Zero();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-                join += t.weight[k] *
-                        (at[static_cast<std::size_t>(t.corner[b])] -
-                         at[static_cast<std::size_t>(t.corner[a])]) *
-                        (t.at[b] - t.at[a]).transpose();
-            }
-            // The nearest turn of a plane matrix
-            const double c = join(0, 0) + join(1, 1), s = join(1, 0) - join(0, 1);
-            const double size = std::max(std::hypot(c, s), 1e-12);
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-                const Vec2 d = t.at[b] - t.at[a];
-                const Vec2 turned(t.weight[k] * (c * d.x() - s * d.y()) / size,
-                                  t.weight[k] * (s * d.x() + c * d.y()) / size);
-                const auto push = [&](const Unknowns& unknown, Eigen::VectorXd& right, int axis) {
-                    const int i = unknown.index[static_cast<std::size_t>(t.corner[a])],
-                              j = unknown.index[static_cast<std::size_t>(t.corner[b])];
-                    if (i >= 0) right[i] -= turned[axis];
-                    if (j >= 0) right[j] += turned[axis];
-                };
-                push(free_u, right_u, 0);
-                push(free_v, right_v, 1);
-            }
-        }
+        const auto [right_u, right_v] = turned_edges(triangles, at, free_u, free_v);
         const Eigen::VectorXd u = solve(solver_u, free_u, springs, 0, right_u),
                               v = solve(solver_v, free_v, springs, 1, right_v);
         for (std::size_t i = 0; i < n; ++i) {

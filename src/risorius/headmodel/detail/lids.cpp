@@ -31,6 +31,20 @@ std::vector<Vec3> margin_curve(const DesignTables& tables) {
     return points;
 }
 
+// Each landmark of the margin is the vertex nearest to its place in the tables.
+void name_margin_landmarks(Skin& skin, const DesignTables& tables) {
+    const HalfMesh& mesh = skin.mesh;
+    for (const char* id : {"en_l", "llm_l", "pi_l", "lll_l", "ex_l", "ull_l", "ps_l", "ulm_l"}) {
+        int best = skin.lid_margin[0];
+        for (const int v : skin.lid_margin)
+            if ((mesh.point[static_cast<std::size_t>(v)] - tables.landmarks.at(id)).squaredNorm() <
+                (mesh.point[static_cast<std::size_t>(best)] - tables.landmarks.at(id))
+                    .squaredNorm())
+                best = v;
+        skin.landmark[id] = best;
+    }
+}
+
 }  // namespace
 
 void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tables,
@@ -110,15 +124,7 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
     ring(before_margin, Hold::kPinned);
     skin.lid_margin =
         ring([&](int k) { return clear_of_globe(margin[k], globe, 0.9); }, Hold::kPinned);
-    for (const char* id : {"en_l", "llm_l", "pi_l", "lll_l", "ex_l", "ull_l", "ps_l", "ulm_l"}) {
-        int best = skin.lid_margin[0];
-        for (const int v : skin.lid_margin)
-            if ((mesh.point[static_cast<std::size_t>(v)] - tables.landmarks.at(id)).squaredNorm() <
-                (mesh.point[static_cast<std::size_t>(best)] - tables.landmarks.at(id))
-                    .squaredNorm())
-                best = v;
-        skin.landmark[id] = best;
-    }
+    name_margin_landmarks(skin, tables);
     const auto on_globe = [&](int k, double beyond) {
         Vec3 d = (margin[k] - globe.centre).normalized();
         d = (d * 12.0 + beyond * outwards(k)).normalized();

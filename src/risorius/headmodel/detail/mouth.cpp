@@ -21,24 +21,67 @@ std::vector<Vec3> even_curve(const std::vector<Vec3>& points, int count) {
     return curve_points(through, count, false);
 }
 
-/// A section of the cavity behind the lips: half an oval bent back round the dental arch.
-struct Section {
-    double up, down;  ///< above and below the lip line
-    double half_width;
-    double front,
-        front_below;  ///< z at the midline, at its top and its bottom, where the chin recedes
-    double bend;      ///< how far the sides lie behind it
-};
-constexpr Section kSections[] = {{2.6, 2.6, 23.6, 90.8, 90.4, 13.5},
-                                 {8, 7.5, 26.4, 91, 89.6, 16.5},
-                                 {15.5, 14.5, 29, 91, 88, 20.5},
-                                 {20, 19.5, 31.5, 87.8, 83, 24},
-                                 {21.5, 22, 32.5, 80, 77, 23},
-                                 {22, 23, 33.5, 67, 67, 15},
-                                 {22.5, 25, 34.5, 52, 52, 6},
-                                 {20.5, 27, 31, 37, 37, 3},
-                                 {13, 25, 22, 25, 25, 0},
-                                 {5, 10, 10, 21, 21, 0}};
+Vec3 mirror(Vec3 p) {
+    p.x() = -p.x();
+    return p;
+}
+
+// A curve of one lip from the midline to the corner.
+std::vector<Vec3> border_lip(const std::vector<Vec3>& right) {
+    // The curve is made over both sides so that it crosses the midline level.
+    std::vector<Vec3> both;
+    for (auto p = right.rbegin(); p != right.rend(); ++p)
+        if (p->x() > 0) both.push_back(mirror(*p));
+    for (const Vec3& p : right) both.push_back(p);
+    const auto curve = even_curve(both, 2 * kCorner);
+    return std::vector<Vec3>(curve.begin() + kCorner, curve.end());
+}
+
+// Landmarks of the border of the red and of the free margins are the vertices nearest to their places in the tables.
+void name_lip_landmarks(Skin& skin, const std::vector<int>& red, const DesignTables& tables) {
+    const HalfMesh& mesh = skin.mesh;
+    const auto name = [&](const char* id, const std::vector<int>& along) {
+        int best = along[0];
+        for (const int v : along)
+            if ((mesh.point[static_cast<std::size_t>(v)] - tables.landmarks.at(id)).squaredNorm() <
+                (mesh.point[static_cast<std::size_t>(best)] - tables.landmarks.at(id))
+                    .squaredNorm())
+                best = v;
+        skin.landmark[id] = best;
+    };
+    const std::vector<int> upper_red(red.begin() + kCorner, red.end()),
+        lower_red(red.begin(), red.begin() + kCorner);
+    for (const char* id : {"ls", "cph_l", "ulc_l", "ch_l"}) name(id, upper_red);
+    for (const char* id : {"li", "llc_l"}) name(id, lower_red);
+    skin.landmark["stos"] = skin.landmark["sto"] = skin.upper_margin[0];
+    skin.landmark["stoi"] = skin.lower_margin[0];
+    name("uli_l", {skin.upper_margin.begin() + 1, skin.upper_margin.end() - 1});
+    name("lli_l", {skin.lower_margin.begin() + 1, skin.lower_margin.end() - 1});
+}
+
+Vec3 on_section(const MouthSection& section, int k) {
+    const double angle = M_PI * k / kHalfLoop;  // 0 below, pi above
+    const double c = -std::cos(angle), s = std::sin(angle);
+    const double x = section.half_width * std::pow(std::abs(s), kSquareness);
+    const double y = -52.6 + (c > 0 ? section.up : section.down) *
+                                 std::copysign(std::pow(std::abs(c), kSquareness), c);
+    const double w = x / section.half_width;
+    return Vec3(
+        k == 0 || k == kHalfLoop ? 0 : x, y,
+        0.5 * (1 + c) * section.front + 0.5 * (1 - c) * section.front_below - section.bend * w * w);
+}
+
+// The throat closes with two rows of quads, from a vertex on the midline to the corners.
+void close_throat(HalfMesh& mesh, const std::vector<int>& previous) {
+    constexpr int kRows = 2;
+    std::vector<int> throat{previous[kHalfLoop]};
+    const Vec3 floor = mesh.point[static_cast<std::size_t>(previous[0])],
+               roof = mesh.point[static_cast<std::size_t>(previous[kHalfLoop])];
+    for (int r = 1; r < kRows; ++r)
+        throat.push_back(mesh.add(roof + (floor - roof) * r / kRows, Hold::kPinned, true));
+    throat.insert(throat.end(), previous.begin(), previous.end() - 1);
+    mesh.fill(throat, kRows, (kHalfLoop - kRows) / 2, Hold::kPinned, 1);
+}
 
 }  // namespace
 
@@ -46,21 +89,8 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
                const HeadSurface& head) {
     HalfMesh& mesh = skin.mesh;
     const auto at = [&](const char* id) { return tables.landmarks.at(id); };
-    const auto mirror = [](Vec3 p) {
-        p.x() = -p.x();
-        return p;
-    };
 
     // Vermilion border and free margins, from the midline of the lower lip over the corner to that of the upper lip.
-    const auto border_lip = [&](const std::vector<Vec3>& right) {
-        // The curve is made over both sides so that it crosses the midline level.
-        std::vector<Vec3> both;
-        for (auto p = right.rbegin(); p != right.rend(); ++p)
-            if (p->x() > 0) both.push_back(mirror(*p));
-        for (const Vec3& p : right) both.push_back(p);
-        const auto curve = even_curve(both, 2 * kCorner);
-        return std::vector<Vec3>(curve.begin() + kCorner, curve.end());
-    };
     const std::vector<Vec3> upper = border_lip({at("ls"), at("cph_l"), at("ulc_l"), at("ch_l")});
     const std::vector<Vec3> lower = border_lip({at("li"), at("llc_l"), at("ch_l")});
     const std::vector<Vec3> meet =
@@ -116,22 +146,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
         skin.lower_margin.push_back(margin[k]);
         skin.upper_margin.push_back(margin[kHalfLoop - k]);
     }
-    const auto name = [&](const char* id, const std::vector<int>& along) {
-        int best = along[0];
-        for (const int v : along)
-            if ((mesh.point[static_cast<std::size_t>(v)] - at(id)).squaredNorm() <
-                (mesh.point[static_cast<std::size_t>(best)] - at(id)).squaredNorm())
-                best = v;
-        skin.landmark[id] = best;
-    };
-    const std::vector<int> upper_red(red.begin() + kCorner, red.end()),
-        lower_red(red.begin(), red.begin() + kCorner);
-    for (const char* id : {"ls", "cph_l", "ulc_l", "ch_l"}) name(id, upper_red);
-    for (const char* id : {"li", "llc_l"}) name(id, lower_red);
-    skin.landmark["stos"] = skin.landmark["sto"] = skin.upper_margin[0];
-    skin.landmark["stoi"] = skin.lower_margin[0];
-    name("uli_l", {skin.upper_margin.begin() + 1, skin.upper_margin.end() - 1});
-    name("lli_l", {skin.lower_margin.begin() + 1, skin.lower_margin.end() - 1});
+    name_lip_landmarks(skin, red, tables);
     // The lips touch over some millimetres before they part behind the teeth line.
     for (const double depth : {1.2, 2.6})
         ring(
@@ -142,29 +157,9 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
                 return p;
             },
             Hold::kPinned, 0);
-    for (const Section& section : kSections)
-        ring(
-            [&](int k) {
-                const double angle = M_PI * k / kHalfLoop;  // 0 below, pi above
-                const double c = -std::cos(angle), s = std::sin(angle);
-                const double x = section.half_width * std::pow(std::abs(s), kSquareness);
-                const double y = -52.6 + (c > 0 ? section.up : section.down) *
-                                             std::copysign(std::pow(std::abs(c), kSquareness), c);
-                const double w = x / section.half_width;
-                return Vec3(k == 0 || k == kHalfLoop ? 0 : x, y,
-                            0.5 * (1 + c) * section.front + 0.5 * (1 - c) * section.front_below -
-                                section.bend * w * w);
-            },
-            Hold::kPinned, 1);
-    // The throat closes with two rows of quads, from a vertex on the midline to the corners.
-    constexpr int kRows = 2;
-    std::vector<int> throat{previous[kHalfLoop]};
-    const Vec3 floor = mesh.point[static_cast<std::size_t>(previous[0])],
-               roof = mesh.point[static_cast<std::size_t>(previous[kHalfLoop])];
-    for (int r = 1; r < kRows; ++r)
-        throat.push_back(mesh.add(roof + (floor - roof) * r / kRows, Hold::kPinned, true));
-    throat.insert(throat.end(), previous.begin(), previous.end() - 1);
-    mesh.fill(throat, kRows, (kHalfLoop - kRows) / 2, Hold::kPinned, 1);
+    for (const MouthSection& section : tables.mouth_sections)
+        ring([&](int k) { return on_section(section, k); }, Hold::kPinned, 1);
+    close_throat(mesh, previous);
     for (std::size_t v = first_fixed; v < mesh.point.size(); ++v)
         skin.fixed.push_back(static_cast<int>(v));
 }

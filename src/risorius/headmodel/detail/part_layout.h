@@ -1,5 +1,5 @@
-// Texture coordinates of the parts that are swept from rings: eyes and crowns and the tongue as discs about their pole, which have no
-// seam where one sees them, gums and lashes as strips. Each kind of part has a square, which the left and the right, the upper and the lower share.
+// Texture coordinates of parts made of rings: eyes, tooth crowns and the tongue as discs about their pole, without a visible seam; gums and
+// lashes as strips. Each kind of part has a square that left and right, upper and lower parts share.
 #pragma once
 
 #include <array>
@@ -8,17 +8,17 @@
 
 namespace risorius::headmodel {
 
-/// A part as a disc about one of its poles.
+/// A part laid out as a disc about one of its poles.
 struct Disc {
     Vec2 middle{0.5, 0.5};
     double radius = 0.49;
     double turn = 1;  ///< -1 where angles run clockwise, seen from outside
 
-    /// `share` of the way from the pole in the middle to the other end.
+    /// `share`: fraction of the way from the pole in the middle to the other end.
     Vec2 at(double share, double angle) const;
 };
 
-/// Both eyes, one upon the other: the same picture for both. Front pole in the middle.
+/// Both eyes at the same place: one picture for both. The front pole is in the middle.
 Disc eye_disc(double side);
 /// Crown 0..13 of an arch, edge in the middle: the left ones from the front backwards, then the right ones; the upper arch above.
 Disc crown_disc(bool upper, int crown);

@@ -11,45 +11,25 @@ constexpr int kColumns = 48;
 constexpr int kEarColumn0 = 29, kEarColumn1 = 35;
 constexpr int kCapSide = 12;  ///< cells along the front and the back edge of the crown cap
 
-/// A row that follows a feature round the head: its height s at azimuths 0, 60, 100 and 180 degrees.
-struct KeyRow {
-    int row;
-    double s[4];
-};
-constexpr KeyRow kKeyRows[] = {
-    {0, {150, 150, 150, 150}},     // crown
-    {9, {86, 86, 86, 86}},         // hairline
-    {18, {45, 45, 45, 45}},        // brow
-    {26, {18, 18, 17, 15}},        // pupil
-    {34, {-7.5, -8, -11, -9.5}},   // where the wing of the nose begins
-    {44, {-33, -34, -39, -34}},    // base of the nose
-    {50, {-53, -51, -50, -44}},    // lips
-    {56, {-72, -65, -57, -48}},    // mentolabial furrow
-    {65, {-105, -86, -68, -56}},   // border of the jaw
-    {72, {-134, -118, -96, -70}},  // cervical point
-    {74, {-144, -130, -107, -77}}  // end of the measured neck
-};
 constexpr int kJawRow = 65, kNeckRow = 74, kNeckBaseRows = 5, kSkirtRows = 11;
 /// The strip from the tip of the nose to the lip, where the skin runs almost along the rays of the head surface: its rows are even on
 /// the skin, not by height.
 constexpr int kStripRow = 34, kStripColumns = 1;
-constexpr double kStripHeight[] = {-7.5,  -10.7, -13.9, -17.3, -20.8, -23.9,
-                                   -26.0, -27.4, -28.7, -30.2, -33};
-constexpr double kKeyAzimuth[4] = {0, 60, 100, 180};
 
 double smooth_between(double a, double b, double t) { return a + (b - a) * t * t * (3 - 2 * t); }
 
-double row_height(int row, double azimuth_deg) {
+double row_height(const GridTable& rows, int row, double azimuth_deg) {
     std::size_t k = 0;
-    while (k + 2 < std::size(kKeyRows) && kKeyRows[k + 1].row <= row) ++k;
-    const double t =
-        static_cast<double>(row - kKeyRows[k].row) / (kKeyRows[k + 1].row - kKeyRows[k].row);
-    int a = 0;
-    while (a < 2 && kKeyAzimuth[a + 1] < azimuth_deg) ++a;
+    while (k + 2 < rows.rows.size() && rows.rows[k + 1] <= row) ++k;
+    const double t = (row - rows.rows[k]) / (rows.rows[k + 1] - rows.rows[k]);
+    std::size_t a = 0;
+    while (a < 2 && rows.columns[a + 1] < azimuth_deg) ++a;
     const double u = std::clamp(
-        (azimuth_deg - kKeyAzimuth[a]) / (kKeyAzimuth[a + 1] - kKeyAzimuth[a]), 0.0, 1.0);
-    const auto at = [&](const KeyRow& key) { return smooth_between(key.s[a], key.s[a + 1], u); };
-    return at(kKeyRows[k]) * (1 - t) + at(kKeyRows[k + 1]) * t;
+        (azimuth_deg - rows.columns[a]) / (rows.columns[a + 1] - rows.columns[a]), 0.0, 1.0);
+    const auto at = [&](std::size_t key) {
+        return smooth_between(rows.value[key][a], rows.value[key][a + 1], u);
+    };
+    return at(k) * (1 - t) + at(k + 1) * t;
 }
 
 double column_azimuth(int column, int row) {
@@ -192,51 +172,31 @@ double philtrum(const Vec3& p) {
 
 /// A line along which the skin is raised, or carved where its height is below 0.
 struct ReliefLine {
-    struct Point {
-        Vec3 at;
-        double height, width;  ///< mm; width where 1/e of the height is left
-    };
-    std::vector<Point> points;
+    const std::vector<SkinReliefPoint>& points;
 
-    /// The greatest at a place, mm, of what its stretches add there.
+    /// Height at a place, mm: the largest of what its segments add there.
     double height(const Vec3& p) const {
-        double greatest = 0;
+        double max_height = 0;
         for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-            const Point &a = points[k], &b = points[k + 1];
+            const SkinReliefPoint &a = points[k], &b = points[k + 1];
             const Vec3 along = b.at - a.at, from = p - a.at;
             const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
-            const double width = a.width + t * (b.width - a.width),
-                         full = a.height + t * (b.height - a.height);
+            const double width = a.width_mm + t * (b.width_mm - a.width_mm),
+                         full = a.height_mm + t * (b.height_mm - a.height_mm);
             const double here =
                 full * std::exp(-(from - t * along).squaredNorm() / (width * width));
-            if (std::abs(here) > std::abs(greatest)) greatest = here;
+            if (std::abs(here) > std::abs(max_height)) max_height = here;
         }
-        return greatest;
+        return max_height;
     }
 };
 
 /// The groove that sets the wing of the nose off from its side and the cheek, with the dimple before the tip; the ridge of
 /// lobule and columella, which hangs below the wings and stands out between the nostrils; and the bridge, which is round across.
-void shape_nose(Skin& skin) {
-    const ReliefLine groove{{{Vec3(17.4, -28.3, 89), -0.5, 1.6},
-                             {Vec3(18.2, -25, 88.7), -1.1, 1.6},
-                             {Vec3(18.3, -21, 89.2), -1.3, 1.7},
-                             {Vec3(17.4, -16.8, 91.6), -1.3, 1.8},
-                             {Vec3(15.6, -14, 95.2), -0.9, 2},
-                             {Vec3(13, -13.2, 100.5), -0.4, 2.4},
-                             {Vec3(11, -15, 107), 0, 3}}},
-        columella{{{Vec3(0, -25.5, 112.6), 0, 3.6},
-                   {Vec3(0, -27.5, 109.4), 0.3, 3.2},
-                   {Vec3(0, -29.3, 104.2), 0.2, 2.4},
-                   {Vec3(0, -31, 100.6), 0, 2.1}}},
-        bridge{{{Vec3(0, 12, 101), 0, 2},
-                {Vec3(0, 6, 104.4), 0.3, 2},
-                {Vec3(0, -6, 111.6), 0.25, 2},
-                {Vec3(0, -12, 115.4), 0, 2}}},
-        flank{{{Vec3(3.2, 12, 100.3), 0, 1.6},
-               {Vec3(3.2, 6, 103.4), -0.35, 1.6},
-               {Vec3(3.4, -6, 110.6), -0.35, 1.6},
-               {Vec3(3.6, -12, 114.5), 0, 1.6}}};
+void shape_nose(Skin& skin, const DesignTables& tables) {
+    const auto line = [&](const char* name) { return ReliefLine{tables.nose_relief.at(name)}; };
+    const ReliefLine groove = line("groove"), columella = line("columella"),
+                     bridge = line("bridge"), flank = line("flank");
     const std::set<int> fixed(skin.fixed.begin(), skin.fixed.end());
     HalfMesh& mesh = skin.mesh;
     const std::vector<Vec3> before = mesh.point;
@@ -315,9 +275,11 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
             if (in_block(r, c)) continue;
             const double azimuth = column_azimuth(c, r);
             const bool strip = c <= kStripColumns && r >= kStripRow &&
-                               r - kStripRow < static_cast<int>(std::size(kStripHeight));
-            const Vec3 p = head.at(azimuth * M_PI / 180,
-                                   strip ? kStripHeight[r - kStripRow] : row_height(r, azimuth));
+                               r - kStripRow < static_cast<int>(tables.skin_strip.size());
+            const Vec3 p =
+                head.at(azimuth * M_PI / 180,
+                        strip ? tables.skin_strip[static_cast<std::size_t>(r - kStripRow)]
+                              : row_height(tables.skin_rows, r, azimuth));
             skin.grid[r][c] =
                 mesh.add(p, r == kNeckRow ? Hold::kPinned : Hold::kOnHead, c == 0 || c == kColumns);
         }
@@ -361,7 +323,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
     add_skirt(skin);
     smooth_joints(skin);
-    shape_nose(skin);
+    shape_nose(skin, tables);
     fit_landmarks(skin, tables);
     return skin;
 }

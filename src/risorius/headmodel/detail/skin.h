@@ -1,5 +1,5 @@
-// The skin of the left half: a grid of columns (azimuth) and rows (height) over the head, with blocks cut out of it and
-// filled by edge loops round the eye, the mouth, the nasal wing and the ear; below the neck a skirt of shoulder.
+// The skin of the left half: a grid of columns (azimuth) and rows (height) over the head. Blocks are cut out of it and filled by edge loops
+// around the eye, the mouth, the nasal wing and the ear. Below the neck follow the shoulders.
 #pragma once
 
 #include <map>
@@ -15,8 +15,7 @@ struct Skin {
     HalfMesh mesh;
     std::vector<std::vector<int>> grid;           ///< [row][column], -1 inside a block
     std::vector<int> upper_margin, lower_margin;  ///< lips, midline to corner, corner shared
-    std::vector<int>
-        fixed;  ///< keep their sharpness when the rest is smoothed: nostril rims, lids, lips
+    std::vector<int> fixed;  ///< vertices that smoothing leaves unchanged: nostril rims, lids, lips
     std::vector<int>
         lid_margin;  ///< outer edge, from the inner canthus along the lower lid and back
     std::map<std::string, int> landmark;  ///< those that are vertices by construction
@@ -34,10 +33,10 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
 void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables,
              const HeadSurface& head);
 
-/// Names the landmarks that lie on free skin and moves the skin smoothly onto them.
+/// Names the landmarks on free skin and moves the skin smoothly onto them.
 void fit_landmarks(Skin& skin, const DesignTables& tables);
 
-/// Skin points stay outside the globe by a lid's thickness.
+/// Moves a point of the skin out of the globe by at least `gap`, mm.
 Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap);
 
 Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe& globe);

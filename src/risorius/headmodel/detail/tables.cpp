@@ -88,6 +88,49 @@ std::map<std::string, std::vector<ReliefPoint>> read_relief(const std::filesyste
     return features;
 }
 
+/// A row of numbers after `names` cells of text.
+std::vector<double> numbers_of(const std::filesystem::path& file,
+                               const std::vector<std::string>& row, std::size_t names,
+                               std::size_t count) {
+    if (row.size() != names + count)
+        throw Error(file.string(), std::to_string(names + count) + " cells",
+                    std::to_string(row.size()));
+    std::vector<double> out;
+    for (std::size_t c = names; c < row.size(); ++c) out.push_back(number(file, row[c]));
+    return out;
+}
+
+std::vector<double> read_skin_strip(const std::filesystem::path& file) {
+    std::vector<double> out;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r)
+        out.push_back(numbers_of(file, cells[r], 1, 1)[0]);
+    return out;
+}
+
+std::map<std::string, std::vector<SkinReliefPoint>> read_nose_relief(
+    const std::filesystem::path& file) {
+    std::map<std::string, std::vector<SkinReliefPoint>> out;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const std::vector<double> n = numbers_of(file, cells[r], 1, 5);
+        out[cells[r][0]].push_back({Vec3(n[0], n[1], n[2]), n[3], n[4]});
+    }
+    for (const char* line : {"groove", "columella", "bridge", "flank"})
+        if (!out.count(line)) throw Error(file.string(), std::string("the line ") + line, "none");
+    return out;
+}
+
+std::vector<MouthSection> read_mouth_sections(const std::filesystem::path& file) {
+    std::vector<MouthSection> out;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const std::vector<double> n = numbers_of(file, cells[r], 0, 6);
+        out.push_back({n[0], n[1], n[2], n[3], n[4], n[5]});
+    }
+    return out;
+}
+
 std::vector<Measure> read_measures(const std::filesystem::path& file) {
     std::vector<Measure> measures;
     const auto cells = read_csv(file);
@@ -138,6 +181,13 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     tables.nose_loops = read_loops(folder / "nose_loops.csv");
     tables.ear_loops = read_loops(folder / "ear_loops.csv");
     tables.ear_relief = read_relief(folder / "ear_relief.csv");
+    tables.skin_rows = read_grid(folder / "skin_rows.csv");
+    if (tables.skin_rows.columns.size() != 4 || tables.skin_rows.rows.size() < 2)
+        throw Error((folder / "skin_rows.csv").string(), "four azimuths and two rows or more",
+                    "others");
+    tables.skin_strip = read_skin_strip(folder / "skin_strip.csv");
+    tables.nose_relief = read_nose_relief(folder / "nose_relief.csv");
+    tables.mouth_sections = read_mouth_sections(folder / "mouth_sections.csv");
     tables.measures = read_measures(folder / "anthropometry.csv");
     tables.handles = read_handles(folder / "parameters.csv");
     const auto tones = folder / "tones.csv";

@@ -1,4 +1,4 @@
-// The measured and designed numbers the head is made from, read from the model's design folder. Lengths in mm.
+// Measured and designed numbers of the head, read from the model's design folder. Lengths in mm.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ struct GridTable {
     std::vector<std::vector<double>> value;  ///< [row][column]
 };
 
-/// A closed or open curve: points pinned to places along an edge loop of the mesh.
+/// A point of a curve that is pinned to a place along an edge loop of the mesh.
 struct LoopPoint {
     double place;  ///< vertex number along the loop
     Vec3 point;
 };
 
-/// A point of a ridge or pit of the ear: the line through them is raised, and falls off to both sides like a bell.
+/// A point of a ridge or pit of the ear. The skin along the line through such points is raised; the height falls off like a bell curve.
 struct ReliefPoint {
     Vec2 place;        ///< back, up in the ear frame, mm
     double height_mm;  ///< outwards; below 0: a pit
@@ -31,14 +31,29 @@ struct ReliefPoint {
     double lean_mm;    ///< backwards, where it overhangs
 };
 
-/// A distance between two landmarks and how it is spread among adults.
+/// A point of a line along which the skin is raised, or carved where its height is below 0.
+struct SkinReliefPoint {
+    Vec3 at;           ///< head frame, mm
+    double height_mm;  ///< along the normal
+    double width_mm;   ///< where 1/e of the height is left
+};
+
+/// A section of the cavity behind the lips, mm: half an oval bent back round the dental arch.
+struct MouthSection {
+    double up, down;  ///< above and below the line of the lips
+    double half_width;
+    double front,
+        front_below;  ///< z in the midline, at its top and its bottom, where the chin recedes
+    double bend;      ///< how far the sides lie behind it
+};
+
+/// A distance between two landmarks and its distribution among adults.
 struct Measure {
     std::string name, from, to;
     double mean_mm, sd_mm, men_less_women_mm;
 };
 
-/// How one parameter moves the average head: everything within `reach` of a place is moved along `by`, or enlarged about it.
-/// Each works on both sides.
+/// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
 struct Handle {
     std::string parameter;
     enum class Kind { kMove, kScale, kLid } kind;
@@ -55,12 +70,17 @@ struct DesignTables {
     std::map<std::string, std::vector<LoopPoint>>
         ear_loops;  ///< left side, ear frame: back, up, out
     std::map<std::string, std::vector<ReliefPoint>> ear_relief;  ///< ridges and pits by name
+    GridTable skin_rows;             ///< y of rows of the skin's grid over columns azimuth
+    std::vector<double> skin_strip;  ///< y of rows 34 and on, from the tip of the nose to the lip
+    std::map<std::string, std::vector<SkinReliefPoint>>
+        nose_relief;                           ///< ridges and grooves by name
+    std::vector<MouthSection> mouth_sections;  ///< from the lips to the throat
     std::vector<Measure> measures;
     std::vector<Handle> handles;
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
 };
 
-/// models/ of the tree this was built from.
+/// The folder `models` of the data folder.
 std::filesystem::path models_folder();
 
 /// Throws Error on a missing or malformed table.

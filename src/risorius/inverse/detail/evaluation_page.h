@@ -1,5 +1,5 @@
-// The page of an evaluation: means, a table that can be put in any order, and every expression in pictures, numbers and activations.
-// No scripts, nothing from the network.
+// The HTML page of an evaluation: means, a sortable table, and every expression in pictures, numbers and activations. It has no scripts
+// and loads nothing from the network.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace risorius::inverse {
 
-/// `pictures` null: numbers only.
+/// `pictures` null: only numbers.
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationPictures* pictures);
 
-/// A row per expression, for other programs: tab-separated, lengths in mm.
+/// One row per expression for other programs: tab-separated, lengths in mm.
 std::string evaluation_table(const Evaluation& evaluation);
 
 }  // namespace risorius::inverse

@@ -1,5 +1,4 @@
-// The pictures of an evaluation: every expression as simulated and as measured, and what lies between as colour on the face; contact
-// sheets of all of them.
+// The pictures of an evaluation: every expression as simulated and as measured, the difference as colour on the face, and contact sheets.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace risorius::inverse {
 /// Cameras of the pictures, in this order.
 const std::vector<std::string>& evaluation_cameras();
 
-/// mm that the colours of the errors end at, the same for every head and run.
+/// Upper end of the colour scale of errors, mm; the same for every head and run.
 inline constexpr double kErrorScale_mm = 6;
 
 struct EvaluationPictures {
@@ -30,7 +29,7 @@ struct EvaluationPictures {
     std::vector<std::string> files() const;
 };
 
-/// Written below `folder`; names of files are relative to it. `area`: of each vertex, 0 where nothing is compared.
+/// Writes below `folder`; file names are relative to it. `area`: of each vertex, m2, 0 where nothing is compared.
 EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
                                    const geom::PolygonMesh& mesh, const rig::Head& head,
                                    const Eigen::VectorXd& area, const std::filesystem::path& folder,

@@ -1,9 +1,8 @@
-// Wavefront OBJ by its own indices: vertex i of the result is the i-th "v" of the file.
+// Reads Wavefront OBJ and keeps its numbering: vertex i of the result is the i-th "v" of the file.
 //
-// assimp splits an OBJ by object and material and gives every face corner a vertex of its own; the
-// index of the "v" line is lost, and positions cannot bring it back because several vertices of a
-// face may share one (a closed lid, a seam between regions). Displacement tables and landmark lists
-// are by that index, so this format is read here.
+// assimp splits an OBJ by object and material and gives every face corner its own vertex. The index of the "v" line is lost, and positions
+// cannot restore it, because several vertices of a face may have the same position (a closed lid, a seam between regions). Displacement
+// tables and landmark lists use that index, so this format is read here.
 #pragma once
 
 #include <string>
@@ -13,7 +12,7 @@
 
 namespace risorius::io::detail {
 
-/// What the faces are made of, by name; the libraries that tell more are not read here.
+/// Materials of the faces by name; the material libraries are not read here.
 struct ObjMaterials {
     std::vector<std::string> libraries;  ///< of "mtllib", as written
     std::vector<std::string> names;

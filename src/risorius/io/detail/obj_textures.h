@@ -1,4 +1,4 @@
-// Colour pictures of an OBJ's materials, from the MTL files that it names.
+// Finds the colour textures of an OBJ's materials in the MTL files that it names.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace risorius::io::detail {
 
-/// Gives the faces of materials with a "map_Kd" its picture. An MTL file that is not there is passed over, as by other
-/// programs; a picture is only looked for by who wants it. Throws Error for a "map_Kd" that cannot be followed.
+/// Assigns to faces the picture of their material's "map_Kd". MTL files that do not exist are ignored, as other programs do; whether the
+/// picture exists is not checked. Throws Error for a "map_Kd" that cannot be interpreted.
 void add_obj_textures(const std::filesystem::path& obj, const ObjMaterials& materials,
                       geom::PolygonMesh& mesh);
 

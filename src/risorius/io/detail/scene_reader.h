@@ -1,5 +1,4 @@
-// What assimp reads, as one polygon mesh in metres. See io/read_mesh.h for what becomes of order,
-// groups and units.
+// The result of assimp as one polygon mesh in metres. See io/read_mesh.h for order, groups and units.
 #pragma once
 
 #include <filesystem>

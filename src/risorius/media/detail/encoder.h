@@ -1,4 +1,4 @@
-// Pictures and their sound into one file. Knows nothing of temporary names.
+// Encodes pictures and their sound to one file. It does not handle temporary names.
 //
 // bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
 // milliseconds; the exact frame period stands in its DefaultDuration.

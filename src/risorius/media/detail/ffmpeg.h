@@ -1,4 +1,4 @@
-// Owners and error texts for the C objects of the FFmpeg libraries.
+// Owning pointers and error messages for the C objects of the FFmpeg libraries.
 #pragma once
 
 #include <memory>
@@ -35,10 +35,10 @@ inline std::string ffmpeg_text(int code) {
     return text;
 }
 
-/// The "file:" keeps a colon in a file's name from being read as a protocol.
+/// The prefix "file:" prevents FFmpeg from reading a colon in a file's name as a protocol.
 inline std::string ffmpeg_url(const std::string& path) { return "file:" + path; }
 
-/// A library does not write to standard error: what went wrong is in the exceptions.
+/// Keeps FFmpeg from writing to standard error; errors are reported by exceptions.
 inline void silence_ffmpeg() { av_log_set_level(AV_LOG_QUIET); }
 
 }  // namespace risorius::media::detail

@@ -17,13 +17,13 @@ namespace risorius::media::detail {
 
 class PictureCoder {
   public:
-    /// `name` stands in messages. `headers_apart`: the container wants the codec's headers by themselves.
+    /// `name` is used in messages. `headers_apart`: the container stores the codec's headers separately.
     PictureCoder(std::string name, Coding coding, const VideoOptions& options, bool alpha,
                  bool headers_apart);
 
     void send(const Image& frame);
     void send_end();
-    /// False when it needs more pictures, or has given all.
+    /// False when it needs more pictures or has returned all packets.
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }
 

@@ -1,4 +1,4 @@
-// PNG files of samples as they are, without a thought of what they mean: grey, colour, colour with alpha; 8 or 16 bits.
+// Reads and writes PNG files as raw samples without colour conversion: grey, colour, colour with alpha; 8 or 16 bits.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Pixels of 8-bit RGB frames, packed or in planes, to and from pictures, to the bit.
+// Lossless conversion between pixels of 8-bit RGB frames, packed or planar, and pictures.
 #pragma once
 
 #include "risorius/core/image.h"
@@ -6,7 +6,7 @@
 
 namespace risorius::media::detail {
 
-/// Whether a frame of this format is one of those.
+/// Whether this is a format of such frames.
 bool is_rgb_of_bytes(AVPixelFormat format);
 void put_rgb_pixels(const Image& image, AVFrame& frame);
 Image rgb_pixels_of(const AVFrame& frame);  ///< opaque when the frame has no alpha

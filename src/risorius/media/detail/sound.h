@@ -1,5 +1,5 @@
-// Sound in memory, and out of files through the FFmpeg libraries: recordings to put beside a video, or the sound of a
-// video to measure. Decoders' own delay (AAC's priming, Opus' pre-skip) is taken away as the file says.
+// Sound in memory, read through the FFmpeg libraries: recordings for a video, or the sound of a video to be measured. The delay of decoders
+// (AAC's priming, Opus' pre-skip) is removed as the file states.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ struct Sound {
     }
 };
 
-/// Throws Error when the file is missing, has no sound or less of it than its header says.
+/// Throws Error when the file is missing, has no sound, or is shorter than its header says.
 Sound read_sound(const std::filesystem::path& file);
 /// The same of WAV or FLAC only.
 Sound read_recording(const std::filesystem::path& file);
 
-/// At another rate, every sample at its own time.
+/// Resamples without a delay.
 Sound resampled(const Sound& sound, int rate_hz);
 
 }  // namespace risorius::media

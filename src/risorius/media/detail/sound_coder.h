@@ -1,7 +1,7 @@
-// Sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
+// Encodes sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
 //
-// The stream begins with the first frame and ends with the last: silence before and after the recording, and what reaches
-// beyond is cut. So the place of a sample does not hang on time stamps, which Matroska rounds to a millisecond.
+// The stream begins with the first frame and ends with the last: silence is added before and after the recording, and what lies outside is
+// cut. So the position of a sample does not depend on time stamps, which Matroska rounds to a millisecond.
 #pragma once
 
 #include <string>
@@ -13,13 +13,14 @@ namespace risorius::media::detail {
 
 class SoundCoder {
   public:
-    /// `offset_samples` of the recording's own rate from the first frame to its first sample.
+    /// `offset_samples`: from the first frame to the first sample, in samples of the recording's own rate.
     SoundCoder(std::string name, Form form, const Sound& recording, std::int64_t offset_samples,
                bool headers_apart);
 
-    /// Hands the encoder what comes before a time; true while there are packets to receive() first.
+    /// Sends what comes before a time to the encoder; true while there are packets to receive() first.
     bool send_until(std::int64_t sample);
-    void send_end(std::int64_t sample);  ///< the same, with a last piece of any length
+    void send_end(
+        std::int64_t sample);  ///< the same with the last block, which may have any length
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }
 

@@ -1,5 +1,4 @@
-// Output under a temporary name beside its target, so that a half-written result never carries the
-// target's name.
+// Writes output under a temporary name next to its target, so that an incomplete result never has the target's name.
 #pragma once
 
 #include <filesystem>

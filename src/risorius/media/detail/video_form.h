@@ -1,4 +1,4 @@
-// What a target's ending asks for: the container, and which way pictures are coded in it.
+// The container and the coding of pictures that a file name's ending asks for.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +29,7 @@ Coding coding_of(Form form, const VideoOptions& options, bool alpha);
 /// Colour at half the resolution of brightness.
 bool halves_colour(Coding coding, const VideoOptions& options);
 
-/// The options against the form, place first: Throws Error for what the form cannot do.
+/// Checks the options against the form. Throws Error for what the form cannot do.
 void check_options(const std::string& place, Form form, const VideoOptions& options);
 
 }  // namespace risorius::media::detail

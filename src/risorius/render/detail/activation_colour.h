@@ -1,13 +1,13 @@
-// The colour of a muscle by its activation: from the deep red-brown of flesh at rest through orange to a clear yellow.
+// The colour of a muscle by its activation: from dark red-brown at rest through orange to yellow.
 //
-// CIE lightness grows evenly with activation, so more active reads as brighter in grey and without colour vision too.
+// CIE lightness is linear in activation, so a more active muscle is brighter in grey and for colour-blind viewers too.
 #pragma once
 
 #include "risorius/core/types.h"
 
 namespace risorius::render {
 
-/// Linear light, sRGB primaries, 0..1; `activation` is taken as 0..1, beyond as its ends.
+/// Linear light, sRGB primaries, 0..1. `activation` is clamped to 0..1.
 Vec3 activation_colour(double activation);
 
 }  // namespace risorius::render

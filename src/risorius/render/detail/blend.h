@@ -1,4 +1,4 @@
-// Painting on a finished picture.
+// Draws on a finished picture.
 #pragma once
 
 #include <cmath>

@@ -61,7 +61,7 @@ BoneLayer::BoneLayer(const Scene& scene)
     surface_.attach();
 
     skin_.use();
-    set_colour(skin_, "tone", linear_from_srgb(scene.look.skin_tone));
+    set_colour(skin_, "tone", linear_from_srgb(scene.appearance.skin_tone));
 }
 
 BoneLayer::~BoneLayer() {

@@ -1,5 +1,5 @@
-// Skull and mandible as one would see them with the skin made of glass: bone and teeth, and over them the nearest skin, clear
-// where one looks straight through it and pale at its edges.
+// Skull and mandible under transparent skin: bone and teeth, and over them the nearest skin, clear where it faces the camera and pale at its
+// edges.
 #pragma once
 
 #include "risorius/render/detail/gl_context.h"
@@ -11,7 +11,7 @@ namespace risorius::render {
 
 class BoneLayer {
   public:
-    /// Throws Error for a scene without bones, and for triangles that name a vertex there is not.
+    /// Throws Error for a scene without bones, and for triangles with a vertex index out of range.
     explicit BoneLayer(const Scene& scene);
     ~BoneLayer();
     BoneLayer(const BoneLayer&) = delete;
@@ -20,7 +20,7 @@ class BoneLayer {
     /// Throws Error when the pose has other bones than the scene.
     void upload(const Pose& pose);
 
-    /// Into the framebuffer that is bound, by the frame's uniforms: bone, teeth of the buffers, their skin.
+    /// Draws bone, teeth of the buffers and their skin into the bound framebuffer, with the frame's uniforms.
     void draw(const SceneBuffers& buffers) const;
 
   private:

@@ -1,4 +1,4 @@
-// Named portrait cameras, framed on the landmarks so that any head fills the picture the same way.
+// Named portrait cameras, framed by landmarks so that every head fills the picture in the same way.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct Camera {
     Vec3 up = Vec3::UnitY();   ///< unit, of the picture
     bool orthographic = false;
 
-    /// Where views come together; without perspective so far away that they are parallel.
+    /// The point where lines of sight meet; for an orthographic camera so far away that they are parallel.
     Vec3 eye_point() const { return orthographic ? Vec3(position + 1e3 * backward) : position; }
 };
 
@@ -33,8 +33,8 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
                    const Vec3& skin_min, const Vec3& skin_max, double aspect,
                    const Lens& lens = {});
 
-/// The camera moved to places of its lens' opening, evenly over the disc, so that the plane of the eyes stays where it is; the
-/// camera itself when it has no opening.
+/// The camera moved to points of its lens' aperture, distributed evenly, so that the plane of the eyes stays in focus; the camera itself
+/// when it has no aperture.
 std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, Vec3>& landmarks,
                              const Lens& lens);
 

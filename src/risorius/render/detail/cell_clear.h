@@ -1,4 +1,4 @@
-// Clears the cells of a picture that are drawn in samples, and only these: memory costs as much as drawing.
+// Clears only those cells of a picture that are drawn in samples: clearing memory takes as long as drawing.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// A surface of fewer triangles, for pictures whose samples are wider than what it loses.
+// Simplified surfaces for pictures whose samples are wider than the error.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,12 @@
 
 namespace risorius::render {
 
-/// How far drawn skin and eyes may be from the scene's, m; 0: not at all.
+/// Largest distance of drawn skin and eyes from the scene's, m; 0: no simplification.
 struct Coarseness {
     double seen_m = 0, shadow_m = 0, eyes_m = 0;
-    double moved_m = 0;       ///< where skin is much_moved()
-    bool keeps_folds = true;  ///< skin that may wrinkle stays as it is: its wrinkles are drawn
+    double moved_m = 0;  ///< where skin is much_moved()
+    bool keeps_folds =
+        true;  ///< skin that may wrinkle is not simplified, since its wrinkles are drawn
 };
 
 /// Faces of some of the same vertices, about `error_m` from the given ones at most at rest (by quadrics, Garland & Heckbert 1997),

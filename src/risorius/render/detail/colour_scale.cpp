@@ -21,9 +21,9 @@ constexpr double kLeastLetter_px = 5;
 constexpr double kRim = 0.35;
 
 /// As the shaders show it where light and view come straight on.
-Vec3 under_skin(const Vec3& muscle, const Appearance& look) {
+Vec3 under_skin(const Vec3& muscle, const Appearance& appearance) {
     const Vec3 x =
-        (1 - kSkinOverMuscles) * muscle + kSkinOverMuscles * linear_from_srgb(look.skin_tone);
+        (1 - kSkinOverMuscles) * muscle + kSkinOverMuscles * linear_from_srgb(appearance.skin_tone);
     return x.unaryExpr([](double c) {  // shown() of shader_lighting.cpp
         const double over = std::max(c - kStraightTo, 0.0) / (1 - kStraightTo);
         return std::min(c, kStraightTo) + (1 - kStraightTo) * over / (1 + over);
@@ -64,9 +64,9 @@ void draw_colour_scale(const ColourScale& scale, const Background& background, I
     write_text(scale.to, {left + length - text_width(scale.to) * letters, below}, style, image);
 }
 
-ColourScale activation_scale(const Appearance& look) {
-    return {.name = "activation", .from = "0", .to = "1", .colour = [look](double share) {
-                return under_skin(activation_colour(share), look);
+ColourScale activation_scale(const Appearance& appearance) {
+    return {.name = "activation", .from = "0", .to = "1", .colour = [appearance](double share) {
+                return under_skin(activation_colour(share), appearance);
             }};
 }
 

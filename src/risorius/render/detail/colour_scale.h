@@ -1,4 +1,4 @@
-// The scale of what colours mean in the upper left corner of a picture: a bar of colours between two numbers, with its name.
+// The colour scale in the upper left corner of a picture: a bar between two numbers, with its name.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ struct ColourScale {
     std::function<Vec3(double share)> colour;  ///< as it is seen, linear; 0 and 1 are the ends
 };
 
-/// Sizes go with the smaller side of the picture; writing that would be too small to read is left out.
+/// Sizes follow the smaller side of the picture; text that would be too small to read is left out.
 void draw_colour_scale(const ColourScale& scale, const Background& background, Image& image);
 
-/// Of muscles in even light, under the skin of the face.
-ColourScale activation_scale(const Appearance& look);
+/// Of muscles in uniform light under the skin of the face.
+ColourScale activation_scale(const Appearance& appearance);
 ColourScale values_scale(const SkinValues& values);
 
 }  // namespace risorius::render

@@ -1,4 +1,4 @@
-// How strongly a surface bends at its vertices, for light that scatters below it.
+// Curvature of a surface at its vertices, for subsurface scattering.
 #pragma once
 
 #include <vector>

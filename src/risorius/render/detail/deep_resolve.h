@@ -1,4 +1,4 @@
-// From samples in linear light of 32-bit floating point to pixels of 16 bits, and from these to 8.
+// Converts samples of linear light in 32-bit floating point to pixels of 16 bits, and these to 8 bits.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Light from all around as shaders want it: what it gives a matt surface (spherical harmonics), what a glossy one mirrors.
+// Environment light for shaders: irradiance on a matt surface (spherical harmonics), and reflections of glossy ones.
 //
 // Sources: Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps; Karis 2013, Real Shading
 // in Unreal Engine 4 (surroundings blurred beforehand by the lobe of a roughness).
@@ -22,7 +22,7 @@ Surroundings sampled(const Radiance& radiance, int height);
 Vec3 cell_direction(const Surroundings& map, int row, int column);
 /// Of a cell, sr.
 double cell_solid_angle(const Surroundings& map, int row);
-/// Takes the brightest lamp out of the map: direction, and the light of a white card that faces it, over pi as for Irradiance.
+/// Removes the brightest lamp from the map: its direction, and the light of a white card that faces it, divided by pi as for Irradiance.
 struct Lamp {
     Vec3 direction = Vec3::UnitZ();
     Vec3 card = Vec3::Zero();  ///< as a white card that faces it shines

@@ -1,4 +1,4 @@
-// The order and the winding in which triangles are cheapest to draw.
+// Order and winding of triangles that are fastest to draw.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The fibres of a muscle as a texture that repeats: s across them, t along them.
+// The fibres of a muscle as a repeating texture: s across them, t along them.
 #pragma once
 
 #include "risorius/render/detail/gl.h"

@@ -1,4 +1,4 @@
-// What is drawn into: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
+// Render targets: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +43,7 @@ class TiledPicture {
   public:
     TiledPicture(int width_px, int height_px, int supersampling);
 
-    /// From now on pictures get 16 bits besides, over this background; what is drawn into holds linear floats.
+    /// From now on pictures also get 16 bits per channel over this background; the store holds linear floats.
     void keep_deep(const Background& background) { deep_.emplace(background); }
 
     std::vector<Tile> tiles() const;

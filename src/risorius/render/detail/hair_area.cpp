@@ -35,8 +35,8 @@ HairArea::HairArea(const Scene& scene) {
     }
     centre_ = paint_centre(scene, low, high);
     plan_ = plan_skin(scene, centre_);
-    scalp_ =
-        std::max(scene.look.scalp_hair, scene.look.hair_length_mm) > 0 && plan_.hairline[0] < 1;
+    scalp_ = std::max(scene.appearance.scalp_hair, scene.appearance.hair_length_mm) > 0 &&
+             plan_.hairline[0] < 1;
 }
 
 std::optional<Part> HairArea::at(const Vec3& rest) const {

@@ -1,4 +1,4 @@
-// Which skin is covered by hair, by the same plan that paints it: brows and scalp.
+// Where hair covers the skin, by the plan that paints it: brows and scalp.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace risorius::render {
 
 class HairArea {
   public:
-    /// Knows of no hair when the skin is a picture of the mesh's own.
+    /// Has no hair when the skin is a picture of the mesh's own.
     explicit HairArea(const Scene& scene);
 
-    /// What grows at a place of the skin at rest.
+    /// Kind of hair at a place of the skin at rest.
     std::optional<Part> at(const Vec3& rest) const;
 
   private:

@@ -1,7 +1,7 @@
-// What lights a picture: lamps and surroundings, and how they are exposed.
+// The lighting of a picture: lamps, surroundings and exposure.
 //
-// Exposure and white balance are fixed by the light alone: a grey card of 18 % held at the face towards the camera comes out as
-// 18 % in linear light, whoever is in the picture and whatever they do. Up to kStraightTo the picture is linear in light.
+// Exposure and white balance depend only on the light: a grey card of 18 % at the face towards the camera is 18 % in linear light in every
+// picture. Below kStraightTo the picture is linear in light.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct LightOptions {
     bool operator==(const LightOptions&) const = default;
 };
 
-/// Linear light above this share of white is rolled off, so that highlights keep their shape.
+/// Linear light above this fraction of white is compressed, so that highlights keep their shape.
 constexpr double kStraightTo = 0.5;
 
 /// "studio", "soft", "dramatic", "outdoor", "even"

@@ -1,4 +1,4 @@
-// The red of the lips at rest, seen from ahead: inside the polygon of the landmarks on its border.
+// The red of the lips at rest, seen from the front: the inside of the polygon of the landmarks on its border.
 #pragma once
 
 #include <map>
@@ -11,14 +11,14 @@ namespace risorius::render {
 
 class LipArea {
   public:
-    /// Holds nothing when too few of the border's landmarks are given.
+    /// Empty when too few landmarks of the border are given.
     explicit LipArea(const std::map<std::string, Vec3>& landmarks);
 
     bool contains(const Vec3& rest) const;
 
   private:
     std::vector<Vec2> border_;
-    double behind_m_ = 0;  ///< z of what is too far back to be lip
+    double behind_m_ = 0;  ///< z behind which nothing is lip
 };
 
 }  // namespace risorius::render

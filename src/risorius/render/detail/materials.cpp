@@ -111,7 +111,7 @@ Mat3 eye_axes(const Eye& eye) {
 ShaderConstants Materials::constants_of(const Scene& scene, Material material, int eye,
                                         ShaderConstants constants) const {
     constants.set("inside_mouth", inside_mouth(material));
-    const Vec3 skin = linear_from_srgb(look_.skin_tone), scatter = skin_scatter(skin);
+    const Vec3 skin = linear_from_srgb(appearance_.skin_tone), scatter = skin_scatter(skin);
     const Finish finish = finish_of(material, scatter);
     constants.set("scatter", finish.scatter_m);
     constants.set("bounce", inside_mouth(material) ? kMouth : skin);
@@ -134,7 +134,7 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
             constants.set("iris_radius", ball.iris_radius_m);
             constants.set("pupil_radius", ball.pupil_radius_m);
             constants.set("iris_depth", iris_depth_m_[index]);
-            constants.set("iris_tone", linear_from_srgb(look_.iris_tone));
+            constants.set("iris_tone", linear_from_srgb(appearance_.iris_tone));
             constants.set("separate_cornea", static_cast<bool>(separate_cornea_[index]));
             break;
         }
@@ -151,7 +151,7 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
             constants.set("albedo", Vec3(Vec3::Constant(matte_reflectance(scene))));
             break;
         case Material::kLashes:
-            constants.set("albedo", Vec3(0.45 * linear_from_srgb(look_.hair_tone)));
+            constants.set("albedo", Vec3(0.45 * linear_from_srgb(appearance_.hair_tone)));
             break;
         case Material::kTeeth:
             break;
@@ -180,7 +180,7 @@ std::unique_ptr<GlProgram> Materials::make_program(const Kind& kind, bool folds,
 Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
                      double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles)
     : eyes_(scene.eyes),
-      look_(scene.look),
+      appearance_(scene.appearance),
       draft_(draft && skin != Skin::kVeil),
       pores_(shaded_m < kPore_m) {
     for (const Batch& batch : buffers.batches())
@@ -232,7 +232,7 @@ void Materials::tell_colours(const GlProgram& program, Material material, int ey
     glUniform1f(program.location("iris_radius"), static_cast<float>(ball.iris_radius_m));
     glUniform1f(program.location("pupil_radius"), static_cast<float>(ball.pupil_radius_m));
     glUniform1f(program.location("iris_depth"), static_cast<float>(iris_depth_m_[index]));
-    set(program.location("iris_tone"), linear_from_srgb(look_.iris_tone));
+    set(program.location("iris_tone"), linear_from_srgb(appearance_.iris_tone));
 }
 
 void Materials::set_eye(const GlProgram& program, int side, const Pose& pose,

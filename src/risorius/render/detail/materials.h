@@ -1,4 +1,4 @@
-// The shader program of each material and what it needs to know of the head.
+// The shader program of each material and its constants of the head.
 #pragma once
 
 #include <array>
@@ -59,7 +59,7 @@ class Materials {
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};
-    Appearance look_;
+    Appearance appearance_;
     bool draft_, pores_;
 };
 

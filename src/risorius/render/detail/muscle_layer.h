@@ -1,4 +1,4 @@
-// The muscles drawn by themselves, colour and depth, for the skin to show through.
+// Renders the muscles alone, colour and depth, so that they can show through the skin.
 #pragma once
 
 #include <vector>

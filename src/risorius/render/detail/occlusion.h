@@ -11,8 +11,8 @@
 
 namespace risorius::render {
 
-/// Cosine-weighted share of unblocked directions, 0..1 per vertex. Draws of the bound vertex array what is in the batches but
-/// lashes, whose sheets would darken the lids as if they were solid; the context must be current. One depth render of 512 x 512 per direction, 48 directions.
+/// Cosine-weighted fraction of unblocked directions, 0..1 per vertex. Draws the batches of the bound vertex array except lashes, whose ribbons
+/// would darken the lids as if they were solid; the context must be current. 48 directions, one depth render of 512 x 512 each.
 std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
                             const std::vector<Batch>& batches, const Vec3& centre, double radius_m);
 

@@ -1,4 +1,4 @@
-// The mesh's own pictures: baked into the paint of the skin, and looked up on eyes, teeth and tongue.
+// The mesh's own textures: baked into the paint of the skin, and sampled on eyes, teeth and tongue.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace risorius::render {
 
 class OwnTextures {
   public:
-    /// The context must be current from here on. Throws Error for a surface whose texture or texture coordinates there are not.
+    /// The context must be current from here on. Throws Error for a surface whose texture or texture coordinates are missing.
     OwnTextures(const Scene& scene, const SceneBuffers& buffers);
     ~OwnTextures();
     OwnTextures(const OwnTextures&) = delete;

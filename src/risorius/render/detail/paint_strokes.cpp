@@ -48,7 +48,7 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
           RandomSequence& random, StrokePad& pad) {
     if (line.size() < 3) return;
     constexpr int kHairs = 420;
-    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
     for (int i = 0; i < kHairs; ++i) {
         const BrowHair next = next_brow_hair(line, centre, random);
         const double shade = 0.7 + 0.7 * random.next(), density = 0.22 + 0.16 * random.next();
@@ -60,11 +60,11 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
 /// Cropped hair beyond the hairline, lying away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
-    if (scene.look.scalp_hair <= 0 || plan.hairline[0] > 1) return;
+    if (scene.appearance.scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Evenly spread by the sequence of the plastic number (Roberts 2018): chance alone leaves bald spots and clots.
     constexpr int kHairs = 170000;
     constexpr double kPlastic = 1.32471795724474602596;
-    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
     const auto crown = scene.landmarks.find("v");
     const Vec3 top = crown != scene.landmarks.end() ? crown->second : centre + Vec3(0, 0.12, 0);
     const Vec2 whorl = paint_place(top + Vec3(0.008, 0, -0.03), centre);
@@ -89,7 +89,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
                 hair * (0.65 + 0.6 * shade),
-                std::min(1.0, 1.3 * scene.look.scalp_hair) * (0.45 + 0.45 * length_draw) *
+                std::min(1.0, 1.3 * scene.appearance.scalp_hair) * (0.45 + 0.45 * length_draw) *
                     std::clamp(0.35 + inside, 0.0, 1.0));
     }
 }
@@ -97,9 +97,9 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
 /// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
 void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
            const std::vector<unsigned>& skin, RandomSequence& random, StrokePad& pad) {
-    if (scene.look.beard <= 0 || plan.beard.empty()) return;
+    if (scene.appearance.beard <= 0 || plan.beard.empty()) return;
     constexpr double kPerSquareMetre = 1.1e6;  // of a man's chin
-    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.look));
+    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
     const auto at = [&](std::size_t i) -> Vec3 {
         return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
     };
@@ -120,16 +120,18 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
             const Vec3 down = (Vec3(0.9 * (turn - 0.5) + 2.5 * root.x(), -1, 0.0)).normalized();
             const Vec2 from = paint_place(root, centre);
             const Vec2 to = paint_place(
-                root + (0.0004 + 0.0022 * scene.look.beard * (0.5 + 0.5 * length)) * down, centre);
+                root + (0.0004 + 0.0022 * scene.appearance.beard * (0.5 + 0.5 * length)) * down,
+                centre);
             pad.add(from, to, kMapPerMetre * 0.00011, hair * (0.7 + 0.6 * shade),
-                    (0.25 + 0.55 * scene.look.beard) * density);
+                    (0.25 + 0.55 * scene.appearance.beard) * density);
         }
     }
 }
 
 void freckles(const Scene& scene, const SkinPlan& plan, RandomSequence& random, StrokePad& pad) {
-    const int count = static_cast<int>(900 * std::clamp(scene.look.freckles, 0.0, 1.0));
-    const Vec3 tint = linear_from_srgb(scene.look.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
+    const int count = static_cast<int>(900 * std::clamp(scene.appearance.freckles, 0.0, 1.0));
+    const Vec3 tint =
+        linear_from_srgb(scene.appearance.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
     const bool hairless = plan.hairline[0] > 1;
     for (int i = 0; i < count; ++i) {
         // Densest across nose and cheeks, a little below the map's centre
@@ -217,7 +219,7 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Rando
 
 std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                                        const std::vector<unsigned>& skin) {
-    RandomSequence random(scene.look.seed);
+    RandomSequence random(scene.appearance.seed);
     StrokePad pad;
     freckles(scene, plan, random, pad);
     scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
@@ -231,7 +233,7 @@ std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& pl
     std::vector<StrokeVertex> fan;
     if (plan.lip_outline.empty()) return fan;
     const Eigen::Vector3f tone =
-        (0.85 * linear_from_srgb(scene.look.lip_tone)).cwiseSqrt().cast<float>();
+        (0.85 * linear_from_srgb(scene.appearance.lip_tone)).cwiseSqrt().cast<float>();
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : plan.lip_outline)
         middle += p / static_cast<double>(plan.lip_outline.size());

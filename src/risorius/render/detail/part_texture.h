@@ -1,4 +1,4 @@
-// Eyes, teeth and what else is moist, laid out on their texture coordinates by what their materials draw them with.
+// Textures of eyes, teeth and other moist parts: their materials, drawn on their texture coordinates.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Which parts of a tile need samples of their own: where even skin is all there is to see, the places of the skin layer are
-// the picture already, and where nothing was drawn, so is the background.
+// Which cells of a tile need samples of their own. Where a cell shows only smooth skin, the skin layer is the picture already; where nothing
+// was drawn, the background is.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Landmarks that move with the skin, and what of them lights the mouth and the eyes.
+// Landmarks that move with the skin, and the openings of mouth and eyes that their lighting depends on.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ class PosedMarks {
   public:
     PosedMarks(const Scene& scene);
 
-    /// Closed lips have no gap, however the rest pose holds them.
+    /// Closed lips have no gap, also when they are apart in the rest pose.
     MouthGap mouth_gap(const Pose& pose) const;
     LidMarks lids(const Pose& pose, int eye) const;
-    /// How far the lids have closed since rest, 0..1.
+    /// How far the lids have closed relative to rest, 0..1.
     double lids_closed(const Pose& pose, int eye) const;
 
     /// 1 for a skin vertex inside the closed mouth, 0 outside, from its place and how little sky it sees.

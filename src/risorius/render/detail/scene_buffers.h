@@ -1,4 +1,4 @@
-// The scene as GL holds it: one vertex array, and the triangles of each draw.
+// The scene in GL memory: one vertex array, and the triangles of each draw call.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ namespace risorius::render {
 
 class SceneBuffers {
   public:
-    /// Throws Error for triangles that name a vertex there is not. The context must be current from here on.
+    /// Throws Error for triangles with a vertex index out of range. The context must be current from here on.
     SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& paint_centre,
                  const Coarseness& coarseness);
     ~SceneBuffers();

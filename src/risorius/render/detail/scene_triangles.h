@@ -1,4 +1,4 @@
-// Triangles of a scene by material, each material's ordered front to back; of skin and eyes fewer ones besides, for small pictures.
+// Triangles of a scene by material, each ordered front to back; for skin and eyes also simplified ones for small pictures.
 #pragma once
 
 #include <Eigen/Core>

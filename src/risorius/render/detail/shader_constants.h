@@ -1,5 +1,5 @@
-// What of a program's uniforms stays the same while it lives, written into its source as constants: llvmpipe looks a uniform up
-// anew for every pixel, number by number, while a constant is part of an instruction.
+// Writes uniforms that never change into the program's source as constants. llvmpipe fetches a uniform again for every pixel, while a
+// constant is part of an instruction.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Sources of the shader programs, one file per material; what all share is in shader_lighting.cpp.
+// Sources of the shader programs, one file per material; common parts are in shader_lighting.cpp.
 #pragma once
 
 #include <string>
@@ -49,7 +49,7 @@ enum VertexAttribute {
     kColour = 7  ///< of a value on the skin
 };
 
-/// Share of the skin's own light where one looks straight down on a muscle.
+/// Fraction of the skin's own light where the view is perpendicular to a muscle.
 constexpr double kSkinOverMuscles = 0.16;
 
 /// For every material; `key`: with the light of the key lamp, for draft_skin_shader.
@@ -61,8 +61,7 @@ struct SkinRelief {
     bool pores = true;
 };
 std::string skin_shader(const SkinRelief& relief);
-std::string skin_layer_shader(
-    const SkinRelief& relief);              ///< of the skin shaded for others to look up
+std::string skin_layer_shader(const SkinRelief& relief);  ///< of the shaded skin, stored for lookup
 std::string draft_skin_shader(bool layer);  ///< lit at its vertices, without pores and wrinkles
 std::string clear_vertex_shader();
 std::string clear_shader();

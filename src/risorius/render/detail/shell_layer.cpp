@@ -27,7 +27,7 @@ class Lengths {
             const std::vector<unsigned>& skin)
         : texels_(2 * kLengthSide * kLengthSide, 0) {
         const EarMask ears(scene, plan, centre, skin);
-        if (scene.look.hair_length_mm > 0 && plan.hairline[0] < 1)
+        if (scene.appearance.hair_length_mm > 0 && plan.hairline[0] < 1)
             for (int y = 0; y < kLengthSide; ++y)
                 for (int x = 0; x < kLengthSide; ++x) {
                     const Vec2 place((x + 0.5) / kLengthSide, (y + 0.5) / kLengthSide);
@@ -36,7 +36,7 @@ class Lengths {
                     texel(x, y, 0) =
                         byte(smooth(-0.004, 0.060, radius - hairline_radius(plan, place)));
                 }
-        if (scene.look.beard_length_mm <= 0) return;
+        if (scene.appearance.beard_length_mm <= 0) return;
         // Beards grow in places in space: painted triangle by triangle
         for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
             std::array<Vec3, 3> p;
@@ -87,8 +87,8 @@ class Lengths {
 ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
                        const Vec3& paint_centre, const std::vector<unsigned>& skin,
                        ShaderConstants constants) {
-    const double hair_m = 1e-3 * scene.look.hair_length_mm,
-                 beard_m = 1e-3 * scene.look.beard_length_mm;
+    const double hair_m = 1e-3 * scene.appearance.hair_length_mm,
+                 beard_m = 1e-3 * scene.appearance.beard_length_mm;
     if (std::max(hair_m, beard_m) <= 0 || has_own_skin(scene)) return;
     const Lengths lengths(scene, plan, paint_centre, skin);
     std::vector<unsigned> indices;
@@ -136,7 +136,7 @@ ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const Sk
         crown != scene.landmarks.end() ? crown->second : paint_centre + Vec3(0, 0.12, 0);
     constants.set("whorl", Vec3(top + Vec3(0.008, 0, -0.03)));
     constants.set("centre", paint_centre);
-    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.look)));
+    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.appearance)));
     constants.set("full_length", Vec2(hair_m, beard_m));
     constants.set("shells", static_cast<double>(shells_));
     program_ = std::make_unique<GlProgram>("shells", constants.in(shell_vertex_shader()),

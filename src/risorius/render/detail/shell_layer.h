@@ -1,4 +1,4 @@
-// Hair of some length on scalp and chin: many skins over the skin, each with a hole wherever no hair passes through it.
+// Hair of some length on scalp and chin: many layers over the skin, with holes wherever no hair passes through them.
 //
 // Source: Lengyel et al. 2001, Real-Time Fur over Arbitrary Surfaces.
 #pragma once
@@ -16,7 +16,7 @@ namespace risorius::render {
 
 class ShellLayer {
   public:
-    /// `skin` are the painted triangles. Nothing is drawn when the look has no length of hair; `constants` of Lights. The context must be current.
+    /// `skin`: the painted triangles. Draws nothing when the appearance has no length of hair; `constants` of Lights. The context must be current.
     ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
                const Vec3& paint_centre, const std::vector<unsigned>& skin,
                ShaderConstants constants);

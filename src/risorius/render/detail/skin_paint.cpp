@@ -15,16 +15,16 @@
 namespace risorius::render {
 namespace {
 
-void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& look) {
+void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& appearance) {
     const auto colour = [&](const char* name, const Vec3& srgb) {
         const Eigen::Vector3f linear = linear_from_srgb(srgb).cast<float>();
         glUniform3fv(program.location(name), 1, linear.data());
     };
-    colour("skin_tone", look.skin_tone);
-    colour("lip_tone", look.lip_tone);
-    colour("hair_tone", hair_tone_at(look));
-    glUniform1f(program.location("scalp_hair"), static_cast<float>(look.scalp_hair));
-    glUniform1f(program.location("seed"), static_cast<float>(look.seed % 1000));
+    colour("skin_tone", appearance.skin_tone);
+    colour("lip_tone", appearance.lip_tone);
+    colour("hair_tone", hair_tone_at(appearance));
+    glUniform1f(program.location("scalp_hair"), static_cast<float>(appearance.scalp_hair));
+    glUniform1f(program.location("seed"), static_cast<float>(appearance.seed % 1000));
 
     std::vector<float> place, log_tint, oil;
     for (const SkinZone& zone : plan.zones) {
@@ -40,14 +40,14 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
         glUniform4fv(program.location("zone_tint"), zones, log_tint.data());
     }
 
-    glUniform1f(program.location("age"), static_cast<float>(look.age));
-    glUniform1f(program.location("beard"), static_cast<float>(look.beard));
+    glUniform1f(program.location("age"), static_cast<float>(appearance.age));
+    glUniform1f(program.location("beard"), static_cast<float>(appearance.beard));
     std::vector<float> beard;
     for (const SkinZone& zone : plan.beard) {
         for (int k = 0; k < 3; ++k) beard.push_back(static_cast<float>(zone.centre[k]));
         beard.push_back(static_cast<float>(0.5 / (zone.spread_m * zone.spread_m)));
     }
-    const auto spots = static_cast<GLsizei>(look.beard > 0 ? plan.beard.size() : 0);
+    const auto spots = static_cast<GLsizei>(appearance.beard > 0 ? plan.beard.size() : 0);
     glUniform1i(program.location("beard_places"), spots);
     if (spots > 0) glUniform4fv(program.location("beard_place"), spots, beard.data());
 
@@ -134,7 +134,8 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
 
     const SkinPlan plan = plan_skin(scene, centre);
-    const Eigen::Vector3f bare = linear_from_srgb(scene.look.skin_tone).cwiseSqrt().cast<float>();
+    const Eigen::Vector3f bare =
+        linear_from_srgb(scene.appearance.skin_tone).cwiseSqrt().cast<float>();
     glViewport(0, 0, side, side);
     glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -150,7 +151,7 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
         program.use();
         const Eigen::Vector3f middle = centre.cast<float>();
         glUniform3fv(program.location("centre"), 1, middle.data());
-        set_plan(program, plan, scene.look);
+        set_plan(program, plan, scene.appearance);
         GLint outer = 0;  // belongs to the vertex array, which is not ours
         glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &outer);
         glGenBuffers(1, &elements);

@@ -134,7 +134,8 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
 }
 
 /// Hair grows beyond a closed line on the map: over the forehead through the marks, in front of the ears, to the nape.
-void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& look, SkinPlan& plan) {
+void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& appearance,
+                   SkinPlan& plan) {
     plan.hairline.fill(2.0);
     const std::vector<Vec3> front = marks.all({"tr", "fht_l", "fht_r", "t_l", "t_r"});
     if (front.empty()) return;
@@ -147,9 +148,9 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& loo
         knots.push_back({std::atan2(d.x(), d.y()), d.norm()});
     };
     // Higher up the forehead is backwards too; the map only sees the direction from the middle of the head.
-    const Vec3 higher = 1e-3 * look.hairline_mm * Vec3(0, 0.75, -0.65),
-               bay = higher + 1e-3 * look.temples_mm * Vec3(0, 0.7, -0.7),
-               side_bay = 0.4 * higher + 1e-3 * look.temples_mm * Vec3(0, 0.3, -0.6);
+    const Vec3 higher = 1e-3 * appearance.hairline_mm * Vec3(0, 0.75, -0.65),
+               bay = higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.7, -0.7),
+               side_bay = 0.4 * higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.3, -0.6);
     const Vec3 crown = front[0] + higher, &temple_l = front[1], &temple_r = front[2];
     for (const int side : {0, 1}) {
         const double s = side == 0 ? 1 : -1;
@@ -220,9 +221,9 @@ double beard_density(const SkinPlan& plan, const Vec3& rest) {
     return t * t * (3 - 2 * t);
 }
 
-Vec3 hair_tone_at(const Appearance& look) {
-    const double grey = std::clamp(1.6 * look.age - 0.5, 0.0, 1.0);
-    return look.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - look.hair_tone);
+Vec3 hair_tone_at(const Appearance& appearance) {
+    const double grey = std::clamp(1.6 * appearance.age - 0.5, 0.0, 1.0);
+    return appearance.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - appearance.hair_tone);
 }
 
 double hairline_radius(const SkinPlan& plan, const Vec2& place) {
@@ -240,7 +241,7 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
     plan.zones = plan_zones(marks);
     plan_lips(marks, plan);
     plan_beard(marks, plan);
-    plan_hairline(marks, paint_centre, scene.look, plan);
+    plan_hairline(marks, paint_centre, scene.appearance, plan);
     for (const std::size_t side : {0U, 1U}) {
         const std::string s = side == 0 ? "_l" : "_r";
         const std::vector<Vec3> ear = marks.all({"sa" + s, "sba" + s, "t" + s});

@@ -1,4 +1,4 @@
-// Where lips, redness, hairline and ears are on a head, derived from its landmarks. What a head does not mark is left out.
+// Places of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are left out.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
 double beard_density(const SkinPlan& plan, const Vec3& rest);
 
 /// Tone of the hair at an age: grey from the middle of life on.
-Vec3 hair_tone_at(const Appearance& look);
+Vec3 hair_tone_at(const Appearance& appearance);
 
 /// Radius at which hair starts in a direction on the map.
 double hairline_radius(const SkinPlan& plan, const Vec2& place);

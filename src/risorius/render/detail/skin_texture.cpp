@@ -85,7 +85,7 @@ Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std
                 }
         }
     }
-    fill_uncovered(image, scene.look.skin_tone);
+    fill_uncovered(image, scene.appearance.skin_tone);
     return image;
 }
 

@@ -1,4 +1,4 @@
-// The painted skin laid out on texture coordinates, for programs that know nothing of its map.
+// The painted skin on texture coordinates, for programs that do not know its map.
 #pragma once
 
 #include <cstdint>

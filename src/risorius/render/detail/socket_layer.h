@@ -1,5 +1,4 @@
-// What lies behind the eyes: a bowl about each eyeball, open to the front, so that nobody sees through the head past an eye
-// whose lids stand off it, whatever a head has there or lacks.
+// A bowl about each eyeball, open to the front, so that the head is not transparent beside an eye whose lids stand off it.
 #pragma once
 
 #include <array>

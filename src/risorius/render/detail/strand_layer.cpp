@@ -34,7 +34,7 @@ std::vector<unsigned> strand_ribbons(const std::vector<Strand>& strands, double 
 }
 
 std::string with_tone(const Scene& scene, ShaderConstants constants) {
-    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.look)));
+    constants.set("hair_tone", linear_from_srgb(hair_tone_at(scene.appearance)));
     return constants.in(strand_vertex_shader());
 }
 

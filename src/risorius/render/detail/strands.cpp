@@ -237,7 +237,8 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
     for (std::size_t side = 0; side < 2; ++side) {
         const std::vector<Vec3>& line = plan.brows[side];
         if (line.size() < 3) continue;
-        RandomSequence random(scene.look.seed * 31U + 5U);  // the same for both: brows are mirrored
+        RandomSequence random(scene.appearance.seed * 31U +
+                              5U);  // the same for both: brows are mirrored
         const SkinMap map(scene, paint_centre, skin, line);
         for (int i = 0; i < kHairs; ++i) {
             const BrowHair hair = next_brow_hair(line, paint_centre, random);
@@ -273,7 +274,7 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
     const FrontOfEye front = front_between(scene, eye, *corner);
 
     for (const bool upper : {true, false}) {
-        RandomSequence random(scene.look.seed * 131U +
+        RandomSequence random(scene.appearance.seed * 131U +
                               (upper ? 1U : 2U));  // eyes mirror each other
         // Some ninety and fifty lashes, none near the inner corner (textbooks: 90-160 and 75-80 in several rows)
         const int count = upper ? 126 : 66;

@@ -1,5 +1,4 @@
-// Single hairs that grow from the skin and go along with it: brows and lashes, planned from landmarks and from where the lids
-// end, for any head.
+// Single hairs that grow from the skin and move with it: brows and lashes, planned from landmarks and the ends of the lids, for any head.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Triangles whose vertices are made anew for every picture, in a vertex array of their own.
+// Triangles whose vertices are new in every picture, in a vertex array of their own.
 #pragma once
 
 #include <Eigen/Core>

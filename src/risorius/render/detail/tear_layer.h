@@ -1,4 +1,4 @@
-// The tears that stand along the lower lids: a concave line of water between lid and eye, which mirrors the lamps.
+// The tear film along the lower lids: a concave line of water between lid and eye that reflects the lamps.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace risorius::render {
 
 class TearLayer {
   public:
-    /// Without lids that can be found nothing is drawn; `constants` of Lights. The context must be current.
+    /// Draws nothing when no lids are found; `constants` of Lights. The context must be current.
     TearLayer(const Scene& scene, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);

@@ -1,4 +1,4 @@
-// Pictures on texture coordinates while they are made: alpha is 0 where nothing lies yet.
+// Pictures on texture coordinates during their construction: alpha is 0 where nothing lies yet.
 #pragma once
 
 #include "risorius/core/image.h"

@@ -1,4 +1,4 @@
-// Which triangles of a scene are worth drawing in a pose: those that the camera sees, and those whose shadow it may see.
+// Chooses the triangles of a scene to be drawn in a pose: those that the camera sees, and those whose shadows it may see.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ class TriangleChoice {
                    const std::vector<std::uint8_t>& wrinkled)
         : triangles_(triangles), positions_(positions), wrinkled_(wrinkled) {}
 
-    /// To be told whenever positions are others.
+    /// Call when positions have changed.
     void moved() { looked_from_.reset(); }
     /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
     /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest. As coarse as may be unless

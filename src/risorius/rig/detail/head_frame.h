@@ -23,7 +23,7 @@ struct HeadFrame {
     Points to_mesh(const Points& head) const;
 };
 
-/// Rigid fit of the given landmarks (mesh units) to the atlas, symmetrised left to right; the size is found, not removed.
+/// Rigid fit with scale of the given landmarks (mesh units) to the atlas, made symmetric. The scale is returned as `size`.
 HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const Atlas& atlas,
                           double metres_per_unit);
 

@@ -1,5 +1,5 @@
-// Landmarks that were not given: the atlas warped through those that were, then dropped on the skin. Margins of the lips are
-// dropped on their own lip, as the other one touches it.
+// Estimates landmarks that were not given: the atlas is warped through those that were, and the points are projected onto the skin.
+// Points on the margin of a lip are projected onto that lip only, since the other lip touches it.
 #pragma once
 
 #include <map>
@@ -10,8 +10,8 @@
 
 namespace risorius::rig {
 
-/// `given` holds landmarks of the atlas in the head frame, m, stomion and both midline vermilion borders among them; the
-/// answer holds all that were not. `skin` is welded; `size` of this head over the atlas head.
+/// `given`: landmarks of the atlas in the head frame, m; stomion and both midline points of the vermilion border must be among them.
+/// Returns all others. `skin` is welded; `size` is the size of this head / that of the atlas head.
 std::map<std::string, Vec3> missing_landmarks(const Points& vertices, const Triangles& skin,
                                               const Atlas& atlas,
                                               const std::map<std::string, Vec3>& given,

@@ -1,7 +1,7 @@
-// A value over time through keys: held before the first and after the last, between them stepped, straight or smooth.
+// A value over time given by keys. Before the first and after the last key it is constant; between keys it is stepped, linear or smooth.
 //
-// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, no overshoot
-// between two keys; its slope is 0 at both ends, so that it joins what is held.
+// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, without overshoot between
+// two keys. Its slope is 0 at both ends, where it joins the constant parts.
 #pragma once
 
 #include <vector>
@@ -28,7 +28,7 @@ class Curve {
     Interpolation interpolation_;
 };
 
-/// A value recorded at a constant rate: straight between samples, 0 before the first and after the last.
+/// A value recorded at a constant rate: linear between samples, 0 before the first and after the last.
 class SampledCurve {
   public:
     /// The first sample is at `start_s`.
@@ -41,7 +41,7 @@ class SampledCurve {
     double rate_hz_, start_s_;
 };
 
-/// Shortest movement from 0 to 1 in the sense of jerk: rest at both ends; s is clamped to [0, 1].
+/// Minimum-jerk movement from 0 to 1, at rest at both ends; s is clamped to [0, 1].
 /// Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
 double minimum_jerk(double s);
 

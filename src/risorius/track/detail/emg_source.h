@@ -2,12 +2,12 @@
 //
 //   {"file": "emg.csv", "rate_hz": 1000, "channels": {"zygomaticus_major.l": "ZYG_L"}}
 //
-// Each channel is filtered (signal/emg_envelope.h), counted from its rest, divided by its maximum, and held within 0 and 1:
+// Each channel is filtered (signal/emg_envelope.h), its value at rest is subtracted, and it is divided by its maximum and clamped to 0..1:
 //
 //   e = (envelope - rest) / (maximum - rest)      u = e; of a muscle with resting tone that can be taken away, which is
 //                                                 silent at u = min: min + (1 - min) e
 //
-// Where several channels, or other sources of the script, drive one muscle, they add up.
+// Several channels, or other sources of the script, that drive one muscle are added.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a face does when nothing is asked of it: blinks, small saccades, a head that sways and breathes. Seeded.
+// Spontaneous movement of a face: blinks, small saccades, sway of the head, and breathing. Reproducible from a seed.
 //
 // Blinks come at intervals drawn from a lognormal law, SD 0.6 of the mean, never within 0.3 s. Between saccades the gaze rests;
 // a saccade takes 22 ms + 2.3 ms per degree along a minimum-jerk curve, its size is exponential, its direction that of
@@ -18,8 +18,8 @@ namespace risorius::track {
 /// Field names are the keys of "idle" in a script. 0 turns a part off.
 struct IdleOptions {
     double blinks_per_minute = 17;  ///< [0, 60]
-    double partial_blinks = 0;      ///< share that does not close the lids, [0, 1]
-    double saccade_deg = 2;         ///< how far from straight ahead gaze wanders, [0, 25]
+    double partial_blinks = 0;      ///< fraction of blinks that do not close the lids, [0, 1]
+    double saccade_deg = 2;         ///< mean eccentricity of the gaze, [0, 25]
     double fixation_s = 0.4;  ///< mean; each lasts half to one and a half times as long, [0.1, 20]
     double sway = 1;  ///< ratio of 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, SD, [0, 5]
     double breaths_per_minute = 14;  ///< [0, 60]
@@ -29,7 +29,7 @@ struct IdleEvent {
     double start_s = 0, end_s = 0;
     IdleOptions options;
     int seed = 1;    ///< of the script
-    int number = 0;  ///< of the event among its like, so that two do not move alike
+    int number = 0;  ///< number of the event among those of its kind, so that two events differ
 };
 
 IdleOptions read_idle_options(const JsonCursor& json);
@@ -38,7 +38,7 @@ struct IdleBlink {
     double start_s;
     double intensity;
 };
-/// Those that come within the event.
+/// The blinks within the event.
 std::vector<IdleBlink> idle_blinks(const IdleEvent& event);
 
 struct IdleSaccade {
@@ -50,7 +50,7 @@ class IdleMotion {
   public:
     explicit IdleMotion(const IdleEvent& event);
 
-    /// What gaze and head get at t; nothing outside of the event.
+    /// Gaze and head motion at t; zero outside of the event.
     KinematicValues at(double t_s) const;
     const std::vector<IdleSaccade>& saccades() const { return saccades_; }
 

@@ -1,5 +1,5 @@
-// How the deep tissue is held: sliding and lifting stiffness over the bone, interpolated from landmarks; bone moves with
-// skull or mandible.
+// Attachment of the deep tissue to bone: stiffness against sliding and lifting, interpolated from landmarks. The bone moves with skull or
+// mandible.
 #pragma once
 
 #include <vector>
@@ -16,16 +16,17 @@ struct Attachment {
     int shell_vertex;
     double normal_n_per_m;
     double tangential_n_per_m;
-    double jaw_weight;  ///< share of the mandible's motion its bone follows
-    Vec3 floor_bulge;   ///< m for every metre that the chin comes back
+    double jaw_weight;  ///< fraction of the mandible's motion that its bone follows
+    Vec3
+        floor_bulge;  ///< displacement of the floor of the mouth per metre that the chin moves back
 
-    /// Where what lies at `rest` is held when the mandible has moved.
+    /// Position of the attachment with rest position `rest` after this motion of the mandible, m.
     Vec3 target(const Vec3& rest, const Rigid& moved, double chin_back_m) const {
         return rest + jaw_weight * (moved * rest - rest) + chin_back_m * floor_bulge;
     }
 };
 
-/// One per shell vertex that is not fixed.
+/// One for each shell vertex that is not fixed.
 std::vector<Attachment> place_attachments(const rig::Head& head, const rig::RigDescription& rig,
                                           const Jaw& jaw, const Shell& shell,
                                           const TissueMesh& mesh);

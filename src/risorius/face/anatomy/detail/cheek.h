@@ -1,7 +1,7 @@
-// The cheek beside the nasolabial fold: skin that gives way along a crease, and the malar fat pad that it folds against.
+// The cheek beside the nasolabial fold: soft skin along a crease, and the malar fat pad that it folds against.
 //
-// Muscles that lift the lip take hold of it in front of the fold and pass under the fat, which ligaments hold over the cheekbone.
-// So skin shortens across the crease, by a third in a measured smile, while the cheek behind it moves as one.
+// Muscles that lift the lip attach in front of the fold and pass under the fat, which ligaments hold over the cheekbone. So skin shortens
+// across the crease, by a third in a measured smile, while the cheek behind it moves as one piece.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ class CheekRegions {
   public:
     explicit CheekRegions(const rig::Head& head);
 
-    /// Share of the crease at a skin point: 1 in a strip beside the line from nose wing to mouth corner, 0 away from it.
+    /// Weight of the crease at a skin point: 1 in a strip beside the line from nose wing to mouth corner, 0 away from it.
     double crease(const Vec3& p) const;
-    /// Share of the fat pad: 1 in its middle, below the cheekbone, 0 in the crease and away from both.
+    /// Weight of the fat pad: 1 in its middle, below the cheekbone, 0 in the crease and away from both.
     double fat(const Vec3& p) const;
 
   private:

@@ -1,4 +1,4 @@
-// The mandible: its rigid motion, and how much of it each point of the face follows.
+// The mandible: its rigid motion, and the fraction of it that each point of the face follows.
 #pragma once
 
 #include <string>
@@ -17,22 +17,22 @@ class Jaw {
     /// Motion of the mandible from rest. open 0..1, forward -0.2..1, side -1..1 (positive to the subject's left).
     Rigid motion(double open, double forward, double side) const;
 
-    /// Share of the mandible's motion that tissue at its bone side follows: 1 on the lower lip and chin, 0 above the occlusal
-    /// line, blended over the cheek and ramus, fading down the neck.
+    /// Fraction of the mandible's motion that the deep side of the tissue follows: 1 on the lower lip and chin, 0 above the occlusal line, with
+    /// a transition over cheek and ramus; it fades down the neck.
     double weight(const Vec3& p) const { return weight(p, height_over_bite(p)); }
-    /// For skin whose side of the bite is known better than by its height (see bite_heights).
+    /// The same for skin whose side of the bite is given (see bite_heights) instead of taken from its height.
     double weight(const Vec3& p, double height_over_bite_m) const;
 
-    /// How far the floor of the mouth and the throat below it give way for every metre that the chin comes back, m: tongue and
-    /// floor hardly change volume, so they bulge downwards, and the hyoid goes down and back with them.
+    /// Displacement, m, of the floor of the mouth and the throat for every metre that the chin moves back. Tongue and floor hardly change
+    /// volume, so they bulge downwards, and the hyoid moves down and back with them.
     Vec3 floor_bulge(const Vec3& p) const;
-    /// Share of what lies under the mandible, behind the chin's edge, at a point: 1 there and on the neck, 0 on the face.
+    /// Weight of tissue under the mandible behind the edge of the chin: 1 there and on the neck, 0 on the face.
     double in_floor(const Vec3& p) const;
-    /// How far the chin has come back, m.
+    /// Distance that the chin has moved back, m.
     double chin_back(const Rigid& motion) const { return (chin() - motion * chin()).z(); }
     const Vec3& chin() const { return border_.front(); }
 
-    /// Signed height over the line on which the lips meet and, behind them, the occlusal plane, m.
+    /// Signed height over the line where the lips meet and, behind them, over the occlusal plane, m.
     double height_over_bite(const Vec3& p) const;
 
     /// Signed height over the lower border of the mandible, m.
@@ -51,8 +51,8 @@ class Jaw {
 
 struct Shell;
 
-/// Height over the bite of every shell vertex, m. At the lips, which touch and may roll over each other, the side comes from
-/// the way along the skin to the upper and the lower vermilion border.
+/// Height over the bite of every shell vertex, m. Lips touch and may roll over each other, so there the side comes from the distance
+/// along the skin to the upper and the lower vermilion border.
 std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Shell& shell);
 
 }  // namespace risorius::face

@@ -1,17 +1,17 @@
-// The forward-dynamic jaw: the mandible as a rigid body on two condyles, and the hyoid bone, moved by their muscles.
+// The dynamic jaw: the mandible as a rigid body on two condyles, and the hyoid bone, both moved by their muscles.
 //
-//   q     coordinates (jaw_joint.h)     p_i  six points of the mandible that stand for its mass and inertia, and the hyoid
+//   q     coordinates (jaw_joint.h)     p_i  six points that carry the mass and inertia of the mandible, and the hyoid
 // A step of length h minimises over q
 //   E = sum m_i |p_i(q) - a_i|^2 / (2 h^2) + |q - q_n|^2_D / (2 h) + muscles + limits + hyoid sling + weight + tone,
 //   a_i = p_i(q_n) + h v_i                                      (implicit Euler, as the tissue's: face_tissue.h)
-// by Newton with a positive second derivative and a line search. Tissue, if any, comes in through `JawLoad`.
+// It uses Newton's method with a positive second derivative and a line search. The tissue acts through `JawLoad`.
 //
-// Rest: the closers keep a tone (a constant activation of 0.012). It carries the weight and, with what is over,
-// presses the molars lightly together; what it pulls along the slides, and the passive tension at rest, is taken to be in
-// balance with the capsules. So rest is an exact equilibrium, and a jaw that is let go closes.
-// Hyoid: geniohyoid, mylohyoid and digastric need it held. The infrahyoid muscles, which the muscle table does not have, are a
-// sling (a spring) towards the place that goes with the jaw's opening at the start of the step: 14 mm back and 10 mm down at 32
-// degrees (skull.json).
+// At rest the closing muscles have a constant tone (activation 0.012). It carries the weight of the jaw and presses the molars lightly
+// together. Its pull along the slides and the passive tension at rest are assumed to be in balance with the capsules. So rest is an exact
+// equilibrium, and a jaw that is released closes.
+// The hyoid must be held against geniohyoid, mylohyoid and digastric. The infrahyoid muscles are not in the muscle table; a spring takes
+// their place. It pulls towards a place that depends on the opening of the jaw at the start of the step: 14 mm back and 10 mm down at 32
+// degrees.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ namespace risorius::face {
 
 inline constexpr double kGravity_m_s2 = 9.81;
 
-/// A quadratic energy of the jaw about `at`: what else acts on it.
+/// A quadratic energy of the jaw about `at`, for forces from outside.
 struct JawLoad {
     JawVector at = JawVector::Zero();
     JawVector gradient = JawVector::Zero();   ///< N
@@ -37,7 +37,7 @@ struct JawLoad {
 
 class JawDynamics {
   public:
-    /// Muscles named in `solids` keep only their tone: something else pulls in their place.
+    /// Muscles named in `solids` keep only their tone here; solids pull in their place.
     JawDynamics(const rig::Head& head, const rig::RigDescription& rig,
                 const std::set<std::string>& solids = {});
 
@@ -49,21 +49,21 @@ class JawDynamics {
     };
     static MassPoints still();
 
-    /// What the head does to it: motion of what rests in space as seen from the step's end, and gravity in the head's frame.
+    /// Motion of the head as seen by the jaw: where points at rest in space lie at the end of the step, and gravity in the head frame.
     struct Carriage {
         Rigid moved = Rigid::Identity();
         Vec3 gravity_m_s2 = upright_gravity();
     };
     static Vec3 upright_gravity() { return {0, -kGravity_m_s2, 0}; }
 
-    /// What a step holds fixed.
+    /// Constants of a step.
     struct Step {
         double h = 0;
         JawVector start = JawVector::Zero();
         MassPoints from, aim;  ///< p_i(q_n) carried into the frame of the step's end, a_i
         Vec3 gravity_m_s2 = upright_gravity();
         std::vector<JawMuscles::Drive> drive;
-        Vec3 sling = Vec3::Zero();  ///< where the hyoid is drawn to, from rest
+        Vec3 sling = Vec3::Zero();  ///< target of the hyoid's spring, relative to rest, m
     };
     /// `activation` per column of the rig.
     Step begin(double h, const State& state, const Eigen::VectorXd& activation,
@@ -81,7 +81,7 @@ class JawDynamics {
         double last_step_m = 0;
         bool converged = false;
     };
-    /// Moves q to the least E, with `load` added when given.
+    /// Moves q to the minimum of E, plus `load` when given.
     Report minimise(const Step& step, JawVector& q, const JawLoad* load = nullptr,
                     int iterations = 40) const;
 
@@ -91,7 +91,7 @@ class JawDynamics {
     Report advance(double h, const Eigen::VectorXd& activation, State& state) const;
 
     double kinetic_energy_j(const State& state) const;
-    /// Of weight, limits, sling, passive muscles and the tone, J. With the kinetic energy it falls when nothing is active.
+    /// Energy of weight, limits, spring of the hyoid, passive muscles and tone, J. Without active muscles, its sum with the kinetic energy falls.
     double potential_energy_j(const JawVector& q) const;
 
     const JawJoint& joint() const { return joint_; }

@@ -1,5 +1,5 @@
-// How the mandible hangs on the skull: two condyles that slide on the articular eminences and turn, ligaments that limit them,
-// and the teeth, on which the closed jaw rests.
+// The joint of mandible and skull: two condyles that slide on the articular eminences and rotate, ligaments that limit them, and the
+// teeth, on which the closed jaw rests.
 //
 //   q   open, slide left, slide right, side, hyoid x, y, z, all in m:
 //       open   turn about the line through both condyles x distance of the incisors from it
@@ -8,9 +8,9 @@
 //       hyoid  displacement of the hyoid bone
 //   E_stop = sum k/2 max(0, c(q))^2 over the limits c
 //
-// Condyles stay on their eminences: disc and capsule are taken as rigid across the path, so that what is left to solve is soft.
-// Sources: skull.json's ranges and path (Hannam et al. 2008; Travers 2000; Ferrario 2005). Stiffness of limits: chosen so that the
-// greatest muscle forces pass them by less than a millimetre.
+// Condyles stay on their eminences: disc and capsule are assumed rigid across the path, so that the remaining problem is not stiff.
+// Sources of ranges and path: Hannam et al. 2008; Travers 2000; Ferrario 2005. The stiffness of the limits is chosen so that the largest
+// muscle forces exceed them by less than a millimetre.
 #pragma once
 
 #include <array>
@@ -27,23 +27,23 @@ inline constexpr int kMandibleCoordinates = 4;
 using JawVector = Eigen::Matrix<double, kJawCoordinates, 1>;
 using JawMatrix = Eigen::Matrix<double, kJawCoordinates, kJawCoordinates>;
 
-/// Motion of the mandible from rest, and how it changes with each of its coordinates.
+/// Motion of the mandible from rest, and its derivative by each coordinate.
 struct JawPose {
     Rigid motion = Rigid::Identity();
     Vec3 centre = Vec3::Zero();  ///< the middle between the condyles
     std::array<Vec3, kMandibleCoordinates> turn,
         shift;  ///< of the mandible, and of its centre, per m
 
-    /// Where a point of the mandible moves per m of coordinate k; `place` is where it is now.
+    /// Velocity of a point of the mandible per m of coordinate k; `place` is its current position.
     Vec3 velocity(int k, const Vec3& place) const {
         return shift[k] + turn[k].cross(place - centre);
     }
 };
 
-/// What a wrench on the mandible does per m of each of its coordinates, N.
+/// Generalised force of a wrench on the mandible for each of its coordinates, N.
 JawVector along(const JawPose& pose, const Wrench& wrench);
 
-/// The jaw as measured.
+/// Measured quantities of the jaw's position.
 struct JawPlace {
     double open_rad = 0;
     double open_m = 0;     ///< travel of the lower incisors along the opening path
@@ -57,21 +57,21 @@ class JawJoint {
 
     JawPose pose(const JawVector& q) const;
     JawPlace place(const JawVector& q) const;
-    JawPlace place(const Rigid& motion) const;  ///< of a jaw moved otherwise
+    JawPlace place(const Rigid& motion) const;  ///< of a jaw that something else moved
 
-    /// Adds E_stop, its gradient and a positive part of its second derivative.
+    /// Adds E_stop, its gradient and a positive approximation of its second derivative.
     double add_stops(const JawVector& q, const JawPose& pose, JawVector& gradient,
                      JawMatrix& hessian) const;
 
-    /// The molars are pressed together at rest by what closes the jaw with this force along kOpen, N.
+    /// Sets the force along kOpen, N, with which the molars are pressed together at rest.
     void close_with(double force_n);
-    /// Something hard of this height between the incisors; 0: nothing.
+    /// Puts a rigid object of this height between the incisors; 0: none.
     void set_bite_block(double height_m) { bite_block_m_ = height_m; }
-    /// What the lower incisors, and what all teeth, press with, N.
+    /// Bite force of the lower incisors, and of all teeth, N.
     double incisor_force_n(const JawVector& q) const;
     double tooth_force_n(const JawVector& q) const;
 
-    /// Height of a condyle over its rest after sliding forward by s, m, and dh/ds.
+    /// Height of a condyle over its rest position after sliding forward by s, m, and dh/ds.
     struct Height {
         double value, slope;
     };
@@ -88,7 +88,7 @@ class JawJoint {
         JawVector slope = JawVector::Zero();
         JawMatrix bend = JawMatrix::Zero();
     };
-    /// A surface of the skull that a tooth rides on: height allowed, and how it changes as the tooth moves.
+    /// A surface of the skull that a tooth rests on: allowed height, and its derivatives by the tooth's position.
     struct Guide {
         double height = 0;
         Vec3 slope = Vec3::Zero();

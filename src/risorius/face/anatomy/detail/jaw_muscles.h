@@ -1,8 +1,8 @@
-// The muscles of jaw and hyoid as lines of action of Hill type, on skull, mandible and hyoid.
+// The muscles of jaw and hyoid: Hill-type muscles along lines of action between skull, mandible and hyoid.
 //
 //   L   length of the path, m        tendons rigid: fibre along the path L - slack, l = sqrt((L - slack)^2 + (l0 sin alpha)^2)
 //   T = F0 [ a fl(l_n) fv(l') + fp(l) + b l' ],  l' = (l - l_n) / (h vmax l0)   (l_n: start of the step; see musculotendon.h)
-// l0 and slack of the table are scaled together, so that on every head fibres are as long at rest as the table says.
+// l0 and slack of the table are scaled together, so that the fibres of every head have the table's relative length at rest.
 #pragma once
 
 #include <set>
@@ -17,10 +17,10 @@
 
 namespace risorius::face {
 
-/// Against the force of the table, which takes 40 N/cm2 throughout: with that much incisors would bite with 540 N, and with this
-/// they do with 350; 150 to 400 are measured.
+/// Factor on the force of the table, which assumes 40 N/cm2 for all muscles. With that the incisors would bite with 540 N, with this
+/// factor with 350 N; 150 to 400 N are measured.
 inline constexpr double kJawForceShare = 0.65;
-/// Relaxed jaw muscles hardly resist: 1.5 % of F0 at half as long again (Peck et al. 2000), else no jaw could open wide.
+/// Passive stiffness of relaxed jaw muscles: 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). With more, no jaw could open wide.
 inline constexpr double kJawPassiveStrain = 2.0;
 
 struct JawMuscle {
@@ -31,7 +31,7 @@ struct JawMuscle {
     std::string id;
     Side side = Side::kLeft;
     int column = 0;  ///< of the activation vector
-    /// A solid pulls for it: only its resting tone is left, without which the jaw would hang otherwise.
+    /// A solid pulls in its place; only its tone at rest is left, since without it the jaw would hang in another position.
     bool tone_only = false;
     double f0_n = 0, optimal_m = 0, slack_m = 0, thickness_m = 0, greatest_speed_m_s = 0;
     std::vector<Point> path;
@@ -39,11 +39,11 @@ struct JawMuscle {
 
 class JawMuscles {
   public:
-    /// Those of the groups jaw and hyoid; `solids` names those that keep only their tone.
+    /// Muscles of the groups jaw and hyoid; `solids` names those that keep only their tone.
     JawMuscles(const rig::Head& head, const rig::RigDescription& rig,
                const std::set<std::string>& solids);
 
-    /// What a step holds fixed, one per muscle.
+    /// Constants of a step, one per muscle.
     struct Drive {
         double active = 0;    ///< a fl(l_n)
         double length_m = 0;  ///< l_n
@@ -51,11 +51,11 @@ class JawMuscles {
     std::vector<Drive> drive(const JawPose& pose, const Vec3& hyoid,
                              const Eigen::VectorXd& activation) const;
 
-    /// Adds E, its gradient and a positive part of its second derivative for a step of length h.
+    /// Adds E, its gradient and a positive approximation of its second derivative for a step of length h.
     double add_energy(const std::vector<Drive>& drive, double h, const JawPose& pose,
                       const Vec3& hyoid, JawVector& gradient, JawMatrix& hessian) const;
 
-    /// What isometric contraction at these activations could do, J: sum of a F0 l0 (integral of fl).
+    /// Work that isometric contraction at these activations could do, J: sum of a F0 l0 (integral of fl).
     double active_energy_j(const JawPose& pose, const Vec3& hyoid,
                            const Eigen::VectorXd& activation) const;
 

@@ -1,4 +1,4 @@
-// Finds where points lie in the tissue: under which skin, and in which tetrahedron.
+// Locates points in the tissue: the skin above a point, and the tetrahedron that holds it.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -11,17 +11,17 @@ namespace risorius::face {
 
 class TissueLocator {
   public:
-    /// Keeps references.
+    /// Keeps references to its arguments.
     TissueLocator(const Shell& shell, const TissueMesh& mesh);
 
-    /// Skin, thickness and outward direction at a point on, over or under the skin.
+    /// Skin point, thickness and outward direction of the tissue column through a point on, over or under the skin.
     struct Column {
         Vec3 skin, outward;
         double thickness;
     };
     Column column_at(const Vec3& p) const;
 
-    /// Weights on the tet that holds p, or on the nearest one when p lies outside the tissue.
+    /// Weights of p in the tetrahedron that holds it, or in the nearest one when p lies outside of the tissue.
     muscle::FibrePoint embed(const Vec3& p) const;
 
   private:

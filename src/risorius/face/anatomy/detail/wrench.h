@@ -1,4 +1,4 @@
-// Forces on a rigid body, summed.
+// Sums forces on a rigid body.
 #pragma once
 
 #include "risorius/core/types.h"

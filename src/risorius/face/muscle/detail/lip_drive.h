@@ -1,14 +1,14 @@
-// What orbicularis oris does to the lips as a volume, beside the pull of its fibres: its inner and marginal parts lie in the
-// inner lip, which the tissue mesh leaves out (shell.h).
+// The volume effect of orbicularis oris on the lips, in addition to the pull of its fibres. Its inner and marginal parts lie in the inner
+// lip, which the tissue mesh leaves out (shell.h).
 //
 //   r = max(0, marginal - peripheral)   the J-shaped marginal part curls the red lip inwards over the teeth
 //   p = max(0, peripheral - marginal)   the deep peripheral part thickens between teeth and lip and pushes it forwards
 //
-// Each lip by its own activations. In the plane across the lip, with X turned by r w theta about an axis on the teeth and
-// flattened against them to the target t, n outwards, and d the way that the thickened muscle fills:
+// Each lip has its own activations. In the plane across the lip, X is turned by r w theta about an axis on the teeth and projected onto
+// the teeth, which gives the target t. n points outwards, and d is the distance that the thickened muscle fills:
 //   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - (1 - (1 - p)^3) d)^2
-// Targets go with the mandible as far as the tissue there does. Sources: Blair & Smith 1986 (marginal against peripheral
-// part); angles and ways as measured on expression scans.
+// Targets move with the mandible as far as the tissue there does. Sources: Blair & Smith 1986 (marginal against peripheral part);
+// angles and distances from measured expression scans.
 #pragma once
 
 #include <array>
@@ -34,20 +34,20 @@ class LipDrive {
     LipDrive(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
              const TissueMesh& mesh, const std::vector<Attachment>& attachments);
 
-    /// How far activation 1 goes on this head, of the standard way; the turn and the push of both lips.
+    /// Factors of the turn and the push of both lips at activation 1 on this head, relative to the standard head.
     void scale(const rig::LipsDescription& lips);
-    /// Forgets all nodes but those that `row` sends to rows below `rows`, and calls them by these.
+    /// Keeps only nodes that `row` maps to rows below `rows`, and renumbers them so.
     void keep(const std::vector<int>& row, int rows);
 
-    /// How far each lip is turned and pushed, from here on.
+    /// Sets how far each lip is turned and pushed.
     void drive(const Eigen::VectorXd& activation);
-    /// Targets and directions with the mandible there; within a step only targets go with it.
+    /// Sets targets and directions for this motion of the mandible; within a step only the targets move.
     void set_mandible(const Rigid& mandible);
     void move_mandible(const Rigid& mandible);
 
-    /// Returns E(x), J, and adds dE/dx to `gradient`, N.
+    /// Returns E(x), J, and adds dE/dx to `gradient` (N).
     double add_energy(const Points& x, Points& gradient) const;
-    /// dE/d(motion of the mandible).
+    /// dE / d(motion of the mandible), N and N m.
     void add_mandible_gradient(const Points& x, Wrench& sum) const;
     void add_metric(solve::MetricBuilder& builder) const;
     void add_hessian(const Points& x, solve::HessianBuilder& hessian) const;

@@ -16,6 +16,54 @@ int bands_of(const rig::Atlas& atlas, const std::string& muscle) {
                       [&](const rig::MuscleBand& b) { return b.muscle == muscle; }));
 }
 
+// Points too close together would make a stiff segment.
+std::vector<Vec3> without_close_points(const std::vector<Vec3>& path, const rig::Head& head) {
+    std::vector<Vec3> spaced{path.front()};
+    for (std::size_t i = 1; i + 1 < path.size(); ++i)
+        if ((path[i] - spaced.back()).norm() > head.mm(1.5) &&
+            (path[i] - path.back()).norm() > head.mm(1.5))
+            spaced.push_back(path[i]);
+    spaced.push_back(path.back());
+    return spaced;
+}
+
+struct Strand {
+    std::vector<muscle::FibrePoint> points;
+    std::vector<Vec3> places;  ///< of the points at rest, m
+};
+
+// Ends on bone ride on it. The rest is embedded in the tissue; points that fell together outside of the tissue become one.
+Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band,
+                    const TissueLocator& locator, const TissueMesh& mesh, const rig::Head& head) {
+    Strand strand;
+    auto& [points, places] = strand;
+    for (std::size_t i = 0; i < spaced.size(); ++i) {
+        const bool first = i == 0, last = i + 1 == spaced.size();
+        const rig::Body body = first ? band.origin : last ? band.insertion : rig::Body::kSoft;
+        const bool on_bone =
+            (first && band.origin_attach == "bone") || (last && band.insertion_attach == "bone");
+        muscle::FibrePoint point;
+        Vec3 place = spaced[i];
+        if (on_bone && (body == rig::Body::kSkull || body == rig::Body::kMandible)) {
+            point.body = body == rig::Body::kMandible ? kMandibleBody : kSkullBody;
+            point.body_rest = place;
+        } else {
+            point = locator.embed(place);
+            place.setZero();
+            for (int k = 0; k < 4; ++k)
+                place += point.weights[k] * mesh.nodes.row(point.nodes[k]).transpose();
+        }
+        if (!places.empty() && (place - places.back()).norm() < head.mm(1.0)) {
+            if (!last || points.size() < 2) continue;
+            points.pop_back();
+            places.pop_back();
+        }
+        points.push_back(point);
+        places.push_back(place);
+    }
+    return strand;
+}
+
 }  // namespace
 
 MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,
@@ -73,43 +121,9 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                 }
                 through.push_back(p);
             }
-            std::vector<Vec3> path = geom::sample_curve(through, head.mm(kPointSpacing_mm));
-            // Points too close together would make a stiff segment
-            std::vector<Vec3> spaced{path.front()};
-            for (std::size_t i = 1; i + 1 < path.size(); ++i)
-                if ((path[i] - spaced.back()).norm() > head.mm(1.5) &&
-                    (path[i] - path.back()).norm() > head.mm(1.5))
-                    spaced.push_back(path[i]);
-            spaced.push_back(path.back());
-            // Ends on bone ride on it; the rest is embedded, and what fell together outside the tissue is one point
-            std::vector<muscle::FibrePoint> points;
-            std::vector<Vec3> places;
-            for (std::size_t i = 0; i < spaced.size(); ++i) {
-                const bool first = i == 0, last = i + 1 == spaced.size();
-                const rig::Body body = first  ? band.origin
-                                       : last ? band.insertion
-                                              : rig::Body::kSoft;
-                const bool on_bone = (first && band.origin_attach == "bone") ||
-                                     (last && band.insertion_attach == "bone");
-                muscle::FibrePoint point;
-                Vec3 place = spaced[i];
-                if (on_bone && (body == rig::Body::kSkull || body == rig::Body::kMandible)) {
-                    point.body = body == rig::Body::kMandible ? kMandibleBody : kSkullBody;
-                    point.body_rest = place;
-                } else {
-                    point = locator.embed(place);
-                    place.setZero();
-                    for (int k = 0; k < 4; ++k)
-                        place += point.weights[k] * mesh.nodes.row(point.nodes[k]).transpose();
-                }
-                if (!places.empty() && (place - places.back()).norm() < head.mm(1.0)) {
-                    if (!last || points.size() < 2) continue;
-                    points.pop_back();
-                    places.pop_back();
-                }
-                points.push_back(point);
-                places.push_back(place);
-            }
+            const std::vector<Vec3> path = geom::sample_curve(through, head.mm(kPointSpacing_mm));
+            const std::vector<Vec3> spaced = without_close_points(path, head);
+            const auto [points, places] = embed_strand(spaced, band, locator, mesh, head);
             if (points.size() < 2) continue;
             muscle::Fibre fibre;
             fibre.first_point = static_cast<int>(out.points.size());

@@ -1,4 +1,4 @@
-// Mimetic muscles as bundles of fibres through the tissue, placed from their bands in landmark terms.
+// Muscles of expression as bundles of fibres in the tissue, placed from the bands of the atlas.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace risorius::face {
 
 enum BodyIndex { kSkullBody = 0, kMandibleBody = 1, kBodies = 2 };
 
-/// The fibres of one band of a muscle, side by side.
+/// The parallel fibres of one band of a muscle.
 struct FibreBundle {
     std::string muscle;
-    std::optional<Side> side;  ///< none: across the midline
+    std::optional<Side> side;  ///< empty: the muscle crosses the midline
     int column = 0;            ///< of the activation vector
     int first_fibre = 0, fibre_count = 0;
     double width_m = 0;
@@ -28,7 +28,7 @@ struct FibreBundle {
 struct MusclePlacement {
     std::vector<muscle::FibrePoint> points;
     std::vector<muscle::Fibre> fibres;
-    std::vector<std::vector<Vec3>> paths;  ///< of each fibre at rest, for drawing
+    std::vector<std::vector<Vec3>> paths;  ///< path of each fibre at rest, for drawing
     std::vector<FibreBundle> bundles;
 };
 

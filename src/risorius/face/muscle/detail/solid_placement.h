@@ -1,7 +1,7 @@
-// Volume muscles laid into a head: grids of nodes along the paths of the table of muscles, and what holds them.
+// Places volume muscles in a head: grids of nodes along the paths of the muscle table, and what they are attached to.
 //
-// A grid has its m axis along the fibres from origin to insertion, n across, o from bone to skin. Several paths make one
-// sheet. The upper and the lower half of orbicularis oris share their nodes at the corners: one ring of two parts.
+// The m axis of a grid runs along the fibres from origin to insertion, n across, o from bone to skin. Several paths form one sheet. The
+// upper and the lower half of orbicularis oris share their nodes at the corners of the mouth and form one ring.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ namespace risorius::face {
 
 struct SolidNode {
     Vec3 rest = Vec3::Zero();   ///< m
-    double jaw_share = 0;       ///< of the mandible's motion that its bone follows
-    bool on_bone = false;       ///< rides on it
+    double jaw_share = 0;       ///< fraction of the mandible's motion that its bone follows
+    bool on_bone = false;       ///< attached to bone
     bool soft_end = false;      ///< where the muscle takes hold of soft tissue
     bool against_bone = false;  ///< kept off the bone along `outward`
     Vec3 outward = Vec3::UnitZ();

@@ -1,5 +1,5 @@
-// How a face looks when its tissue is where it is: the skin is carried by the tissue, folds where it is pressed together, and lids,
-// eyes, teeth, tongue, lashes and neck ride along.
+// Computes the visible face from the positions of the tissue: the tissue carries the skin, the skin folds where it is compressed, and
+// lids, eyes, teeth, tongue, lashes and neck follow.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@
 
 namespace risorius::face {
 
-/// What a pose is made from.
+/// Inputs of a pose.
 struct FaceMoment {
     const Points& x;                    ///< nodes of the tissue, m
     const Eigen::VectorXd& activation;  ///< of each column of the rig's channels
@@ -32,32 +32,33 @@ struct FaceMoment {
 
 class FacePoser {
   public:
-    /// Whatever is given has to outlive it.
+    /// Keeps references; all arguments must outlive it.
     FacePoser(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
               const JawJoint& joint, const std::array<EyeLids, 2>& lids, const Shell& shell,
               const TissueMesh& mesh);
     FacePoser(const FacePoser&) = delete;
     FacePoser& operator=(const FacePoser&) = delete;
 
-    /// How lids stand, left and right, and how far eyes are turned in the head.
+    /// State of the left and the right lid, and rotation of the eyes in the head.
     std::array<LidPose, 2> lids(const Eigen::VectorXd& activation,
                                 const track::Drive& drive) const {
         return {lid(0, activation, drive), lid(1, activation, drive)};
     }
     std::array<Mat3, 2> gaze(const track::Drive& drive) const;
 
-    /// The jaw is told of as channels place it.
+    /// The pose with the jaw where the channels put it.
     FacePose pose(const FaceMoment& moment) const { return pose(moment, Folds::kFormed, nullptr); }
-    /// `vertices`: the face from elsewhere; eyes and head are turned as the drive says, its skin has no folds yet.
+    /// Applies the drive's motion of eyes and head to a face given by `vertices`; no folds are added.
     FacePose posed(Points vertices, const track::Drive& drive, const Rigid& mandible) const;
-    /// Folds such a face, by the strain of its own skin.
+    /// Depth of folds on such a face, from the strain of its own skin.
     void fold(FacePose& pose, const Eigen::VectorXd& activation) const {
         pose.fold_depth = skin_.fold_depth(activation, pose.vertices);
     }
-    /// The slope of a number by the vertices (V x 3) to that by the nodes of the tissue, folds left out.
+    /// Transpose of the pose: converts a gradient with respect to the vertices (V x 3) to one with respect to the nodes of the tissue. Folds
+    /// are left out.
     Points pull_back(const FaceMoment& moment, const Points& slope) const;
 
-    /// The head's turn on soft points, as in follow.h.
+    /// Applies the motion of the head to soft points, as in rigid_followers.h.
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
         follow_.turn_with_head(head, rest, points);
     }
@@ -67,9 +68,9 @@ class FacePoser {
     LidPose lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const;
     Points skin_displacement(const Points& x) const;
     Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const;
-    /// What the skin's own layer adds to what the tissue does: no part of what is pulled back.
+    /// What the skin layer adds to the motion of the tissue. pull_back() leaves it out.
     enum class Folds { kFormed, kLeftOut };
-    /// `pulled`, when given, is a slope by the vertices and becomes that by the skin before anything rides on it.
+    /// `pulled`, when given: a gradient with respect to the vertices, converted to that of the skin before anything follows it.
     FacePose pose(const FaceMoment& moment, Folds folds, Points* pulled) const;
 
     const rig::Head& head_;

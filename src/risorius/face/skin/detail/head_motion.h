@@ -1,4 +1,4 @@
-// Where the head is, and how its turn spreads down the neck: whole above the jaw line, none at the neck's base.
+// Motion of the head, and how it fades down the neck: full above the jaw line, zero at the base of the neck.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -7,16 +7,16 @@
 
 namespace risorius::face {
 
-/// Motion of the head from rest that its channels ask for: turns about the atlanto-occipital joint, then shifts.
+/// Motion of the head from rest that the channels ask for: a rotation about the atlanto-occipital joint, then a translation.
 Rigid head_motion(const rig::Head& head, const track::Drive& drive);
 
 class Neck {
   public:
     explicit Neck(const rig::Head& head);
 
-    /// How much of the head's motion a soft point takes, 0..1.
+    /// Fraction of the head's motion that a soft point follows, 0..1.
     double share(const Vec3& rest) const;
-    /// What a point of that share takes of it: part of the turn about the same pivot, part of the shift.
+    /// That fraction of the motion: part of the rotation about the same pivot, part of the translation.
     Rigid part(const Rigid& head, double share) const;
 
   private:

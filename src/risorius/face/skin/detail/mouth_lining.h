@@ -1,5 +1,5 @@
-// Keeps the lining of the mouth behind the skin in front of it: both are moved by themselves, the skin by the tissue, the
-// lining by what it grows from (skin_binding.h), and where lips turn out the one would come through the other.
+// Keeps the lining of the mouth behind the skin in front of it. Skin and lining move independently: the tissue moves the skin, and
+// skin_binding.h moves the lining. Where lips turn outwards, the lining would come through the skin.
 //
 //   x   a point of the lining      q   the point of the skin nearest to it at rest     n   outwards there     d = |q - x|
 //   x moves by -n max(0, c - (q - x) . n),  c = min(d / 2, 1.5 mm):  nothing at rest
@@ -31,7 +31,8 @@ class MouthLining {
         double clearance_m;
     };
     std::vector<Kept> kept_;
-    std::vector<std::pair<int, int>> alike_;  // vertex, the one it lies on
+    std::vector<std::pair<int, int>>
+        alike_;  // a vertex, and the vertex at the same place that stands for it
 };
 
 }  // namespace risorius::face

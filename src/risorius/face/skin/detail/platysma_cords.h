@@ -1,15 +1,15 @@
-// The cords of the neck: where platysma spans the hollow under the jaw, its borders stand off the throat as they pull.
+// The cords of the neck: where platysma spans the hollow under the jaw, its borders lift from the throat as they contract.
 //
 //   p(s)   a border on the skin, from collar bone to jaw     n   outwards      T = a F_b   tension, a the activation
-//   h(s)   how far it stands off: a string on a bed of fat and fascia of stiffness k per length,
+//   h(s)   height of the border over the throat: a string on an elastic bed of fat and fascia of stiffness k per length,
 //
 //     T h'' - k h = -T max(0, p'' . n),    h = 0 at both ends
 //
-// so that it rises where the border runs through a hollow and stays where it rounds the jaw. Across it the skin falls off
-// as 1 / cosh(y / w), a stretched sheet that bends. What a mesh is too coarse to show of its ridge goes to the renderer as
-// a wrinkle line of negative depth. Nothing moves at a = 0.
+// The border rises where it spans a hollow and stays where it curves round the jaw. Across the border the height falls off as
+// 1 / cosh(y / w), the shape of a stretched sheet with bending stiffness. The part of the ridge that is finer than the mesh goes to the
+// renderer as a wrinkle line of negative depth. At a = 0 nothing moves.
 //
-// The medial borders stand out most, posterior bands less: de Castro 1980, Plast. Reconstr. Surg. 66(6), 833-841.
+// The medial borders are the most prominent, posterior bands less: de Castro 1980, Plast. Reconstr. Surg. 66(6), 833-841.
 #pragma once
 
 #include <array>
@@ -22,25 +22,25 @@
 
 namespace risorius::face {
 
-/// Heights h, m, of a string under `tension_n` through `stations` (two or more, evenly spaced `spacing_m` apart), with
-/// `outward` of each, on a bed of `bed_n_per_m2`.
+/// Heights h, m, of a string under `tension_n` through `stations` (two or more, `spacing_m` apart) with the outward direction of each,
+/// on a bed of stiffness `bed_n_per_m2`.
 std::vector<double> string_heights(const std::vector<Vec3>& stations,
                                    const std::vector<Vec3>& outward, double spacing_m,
                                    double tension_n, double bed_n_per_m2);
 
 class PlatysmaCords {
   public:
-    /// None on a rig without platysma, or where the mesh ends above the neck.
+    /// Has no cords on a rig without platysma, or when the mesh ends above the neck.
     PlatysmaCords(const rig::Head& head, const rig::RigDescription& rig);
 
-    /// Lays a line along each border where its slot is free; without this, raise() gives no depths.
+    /// Adds a wrinkle line along each border where its slot is free. Without this call, raise() gives no depths.
     void mark(WrinkleLines& lines);
 
-    /// Displaces `vertices` (V x 3, m) by what `activation` raises, a column per muscle and side, and adds what is too fine
-    /// for them to `depth` (as WrinkleLines, or no rows).
+    /// Displaces `vertices` (V x 3, m) by the cords at this `activation` (one column per muscle and side). Adds what is finer than the mesh
+    /// to `depth` (as WrinkleLines, or no rows).
     void raise(const Eigen::VectorXd& activation, Points& vertices, Points& depth) const;
 
-    /// Points of the borders at rest, for tests and pictures.
+    /// Points of the borders at rest, head frame, m. For tests and pictures.
     std::vector<std::vector<Vec3>> lines() const;
 
   private:
@@ -52,9 +52,9 @@ class PlatysmaCords {
     struct Lifted {
         int vertex;
         double station;  ///< place along the border
-        double share;    ///< of the height there
+        double share;    ///< fraction of the height at that place
         double across;   ///< from the border, > 0 to the left, m
-        double ridge;    ///< depth of the line per height there
+        double ridge;    ///< depth of the line / height of the cord
     };
     struct Cord {
         int column;

@@ -1,5 +1,5 @@
-// Everything of the mesh that is not tissue: lids on their tarsal plates over the moving cornea, eyes, teeth, tongue, lashes,
-// and the neck that joins the turning head to the shoulders.
+// Moves the parts of the mesh that are not simulated tissue: lids on their tarsal plates over the moving cornea, eyes, teeth, tongue,
+// lashes, and the neck between the moving head and the shoulders.
 #pragma once
 
 #include <array>
@@ -25,18 +25,18 @@ struct FollowDrive {
 
 class RigidFollowers {
   public:
-    /// Binds lashes through `binding`.
+    /// Attaches lashes to the skin through `binding`.
     RigidFollowers(const rig::Head& head, const rig::RigDescription& rig,
                    const std::array<EyeLids, 2>& lids, SkinBinding& binding);
 
-    /// `vertices` come with the skin already moved.
+    /// `vertices` (V x 3) with the skin already moved.
     void apply(const FollowDrive& drive, Points& vertices) const;
 
-    /// The last parts of that, on vertices that something else has moved: eyes turned by `gaze`, and all with the head.
+    /// Only the last steps, for vertices that something else has moved: turns the eyes by `gaze`, and moves everything with the head.
     void turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices) const;
     void turn_head(const Rigid& head, Points& vertices) const;
 
-    /// The head's turn on soft points of the head and neck, in place; `rest` says how much of it each takes.
+    /// Applies the motion of the head to soft points of head and neck, in place. `rest`: their places at rest, which decide how much they move.
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const;
 
   private:
@@ -45,7 +45,7 @@ class RigidFollowers {
         int side;
         LidMember member;
         double weight;     ///< 1 on the tarsal plate, 0 where tissue alone moves it
-        double clearance;  ///< kept from the eye's surface, m
+        double clearance;  ///< distance kept from the eye's surface, m
     };
     void apply_lids(const FollowDrive& drive, Points& vertices) const;
 
@@ -55,9 +55,10 @@ class RigidFollowers {
     Points rest_;
     std::vector<LidVertex> lid_vertices_;
     Tongue tongue_;
-    std::vector<std::pair<int, double>> on_jaw_;  // vertex, share of the mandible's motion
+    std::vector<std::pair<int, double>>
+        on_jaw_;  // a vertex, and its fraction of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
-    std::vector<double> head_share_;  ///< V, of the head's turn
+    std::vector<double> head_share_;  ///< V, fraction of the head's motion
 };
 
 }  // namespace risorius::face

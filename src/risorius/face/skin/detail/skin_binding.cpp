@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSmallestWeight = 1e-3;
 
-// A row under construction: weights of shell vertices, and the mandible's part.
+// A row under construction: weights of shell vertices, and the weight of the mandible.
 struct Terms {
     std::vector<std::pair<int, double>> nodes;  // ascending
     double jaw = 0.0;
@@ -43,7 +43,7 @@ struct Terms {
         jaw += scale * other.jaw;
         jaw_point += scale * other.jaw_point;
     }
-    // Small weights go; the others grow so that the sum stays.
+    // Drops small weights and scales the others so that the sum stays the same.
     void prune() {
         double all = 0, left = 0;
         for (const auto& [node, w] : nodes) all += w;
@@ -54,7 +54,7 @@ struct Terms {
     }
 };
 
-// Shortest ways along the edges of a surface; infinite where there is none.
+// Length of the shortest way from a set of vertices to every vertex, along the edges of a surface, m; infinite where there is none.
 std::vector<double> surface_ways(const std::vector<int>& from,
                                  const std::vector<std::set<int>>& neighbours,
                                  const Points& vertices) {
@@ -80,232 +80,319 @@ std::vector<double> surface_ways(const std::vector<int>& from,
     return way;
 }
 
-}  // namespace
+// Builds the rows of all vertices, step by step in the order of the public functions.
+class BindingRows {
+  public:
+    BindingRows(const rig::Head& head, const Jaw& jaw, const Shell& shell);
 
-SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
-    const long count = head.vertices.rows();
-    const auto at = [&](int v) { return Vec3(head.vertices.row(v).transpose()); };
-    std::vector<Terms> terms(static_cast<std::size_t>(count));
+    void bind_shell_vertices();
+    void choose_held_vertices();
+    void extend_harmonically();
+    void smooth_over_mesh();
 
-    // Surface graph of skin and lining
-    std::vector<std::set<int>> neighbours(static_cast<std::size_t>(count));
-    std::vector<char> on_surface(static_cast<std::size_t>(count), 0);
+    const std::vector<Terms>& rows() const { return terms_; }
+
+  private:
+    Vec3 at(long v) const { return head_.vertices.row(v).transpose(); }
+    int find_outside_piece();
+    std::vector<double> ways_from_rim(bool upper) const;
+    bool is_behind_lids(const Vec3& p) const;
+    void hold_on_bone(long v);
+    void pull_towards_skin(long v, double from_upper_rim_m, double from_lower_rim_m);
+    std::vector<int> number_unknowns();
+    void number_columns(const std::vector<int>& free);
+    void write_solution(const Eigen::MatrixXd& solution, const std::vector<int>& free);
+
+    const rig::Head& head_;
+    const Jaw& jaw_;
+    const Shell& shell_;
+    long count_;                             // V
+    std::vector<Vec3> lips_;                 // the line of the lips
+    std::vector<Terms> terms_;               // V
+    std::vector<std::set<int>> neighbours_;  // V, over edges of skin and lining
+    std::vector<char> on_surface_, on_shell_, held_;
+    std::vector<int> piece_;      // V, connected piece of what lies off the shell; -1: on it
+    std::vector<double> pull_;    // V, weight of a vertex's own terms, in sums of its edge weights
+    std::vector<int> unknown_;    // V, row in the system of equations; -1: known
+    std::vector<int> column_of_;  // of each shell vertex in the right side; -1: not used
+    std::vector<int> column_node_;  // shell vertex of each column
+};
+
+BindingRows::BindingRows(const rig::Head& head, const Jaw& jaw, const Shell& shell)
+    : head_(head),
+      jaw_(jaw),
+      shell_(shell),
+      count_(head.vertices.rows()),
+      lips_(lip_line(head)),
+      terms_(static_cast<std::size_t>(count_)),
+      neighbours_(static_cast<std::size_t>(count_)),
+      on_surface_(static_cast<std::size_t>(count_), 0),
+      on_shell_(static_cast<std::size_t>(count_), 0),
+      held_(static_cast<std::size_t>(count_), 0),
+      piece_(static_cast<std::size_t>(count_), -1),
+      pull_(static_cast<std::size_t>(count_), 0.0) {
     for (const Triangles* triangles : {&head.skin, &head.lining})
         for (long f = 0; f < triangles->rows(); ++f)
             for (int k = 0; k < 3; ++k) {
                 const int a = (*triangles)(f, k), b = (*triangles)(f, (k + 1) % 3);
-                neighbours[a].insert(b);
-                neighbours[b].insert(a);
-                on_surface[a] = 1;
+                neighbours_[a].insert(b);
+                neighbours_[b].insert(a);
+                on_surface_[a] = 1;
             }
+}
 
-    // On the shell: nearest triangle in the two rings around the vertex it collapsed to
-    const int shell_count = static_cast<int>(shell.vertex.size());
-    std::vector<std::vector<long>> faces_of(static_cast<std::size_t>(shell_count));
-    for (long f = 0; f < shell.triangles.rows(); ++f)
-        for (int k = 0; k < 3; ++k) faces_of[shell.triangles(f, k)].push_back(f);
-    std::vector<char> on_shell(static_cast<std::size_t>(count), 0);
-    for (long v = 0; v < count; ++v) {
-        const int home = shell.collapsed_to[v];
+// A vertex on the shell is bound to the nearest triangle in the two rings around the shell vertex it collapsed to.
+void BindingRows::bind_shell_vertices() {
+    std::vector<std::vector<long>> faces_of(shell_.vertex.size());
+    for (long f = 0; f < shell_.triangles.rows(); ++f)
+        for (int k = 0; k < 3; ++k) faces_of[shell_.triangles(f, k)].push_back(f);
+    for (long v = 0; v < count_; ++v) {
+        const int home = shell_.collapsed_to[v];
         if (home < 0) continue;
         std::set<long> near;
         for (long f : faces_of[home])
             for (int k = 0; k < 3; ++k)
-                for (long g : faces_of[shell.triangles(f, k)]) near.insert(g);
+                for (long g : faces_of[shell_.triangles(f, k)]) near.insert(g);
         double best_squared = 1e300;
         for (long f : near) {
-            const int a = shell.triangles(f, 0), b = shell.triangles(f, 1),
-                      c = shell.triangles(f, 2);
-            const geom::TrianglePoint foot =
-                geom::closest_point_on_triangle(at(static_cast<int>(v)), at(shell.vertex[a]),
-                                                at(shell.vertex[b]), at(shell.vertex[c]));
+            const int a = shell_.triangles(f, 0), b = shell_.triangles(f, 1),
+                      c = shell_.triangles(f, 2);
+            const geom::TrianglePoint foot = geom::closest_point_on_triangle(
+                at(v), at(shell_.vertex[a]), at(shell_.vertex[b]), at(shell_.vertex[c]));
             if (foot.squared_distance >= best_squared) continue;
             best_squared = foot.squared_distance;
             const Vec3& w = foot.barycentric;
-            terms[v].nodes = {{a, w[0]}, {b, w[1]}, {c, w[2]}};
+            terms_[v].nodes = {{a, w[0]}, {b, w[1]}, {c, w[2]}};
         }
-        std::sort(terms[v].nodes.begin(), terms[v].nodes.end());
-        std::erase_if(terms[v].nodes, [](const auto& term) { return term.second < 1e-9; });
-        on_shell[v] = 1;
+        std::sort(terms_[v].nodes.begin(), terms_[v].nodes.end());
+        std::erase_if(terms_[v].nodes, [](const auto& term) { return term.second < 1e-9; });
+        on_shell_[v] = 1;
     }
+}
 
-    // What lies off the shell falls into pieces: the rest of the head, the mouth, the eye sockets, the nostrils
-    std::vector<int> piece(static_cast<std::size_t>(count), -1);
+// What lies off the shell falls into connected pieces: the rest of the head, the mouth, the eye sockets, the nostrils.
+// Returns the piece with the largest bounding box, which is the rest of the head.
+int BindingRows::find_outside_piece() {
     std::vector<Vec3> low, high;
-    for (long seed = 0; seed < count; ++seed) {
-        if (!on_surface[seed] || on_shell[seed] || piece[seed] >= 0) continue;
+    for (long seed = 0; seed < count_; ++seed) {
+        if (!on_surface_[seed] || on_shell_[seed] || piece_[seed] >= 0) continue;
         const int id = static_cast<int>(low.size());
-        low.push_back(at(static_cast<int>(seed)));
+        low.push_back(at(seed));
         high.push_back(low.back());
         std::vector<int> open{static_cast<int>(seed)};
-        piece[seed] = id;
+        piece_[seed] = id;
         while (!open.empty()) {
             const int v = open.back();
             open.pop_back();
             low[id] = low[id].cwiseMin(at(v));
             high[id] = high[id].cwiseMax(at(v));
-            for (int w : neighbours[v])
-                if (!on_shell[w] && piece[w] < 0) {
-                    piece[w] = id;
+            for (int w : neighbours_[v])
+                if (!on_shell_[w] && piece_[w] < 0) {
+                    piece_[w] = id;
                     open.push_back(w);
                 }
         }
     }
-    int outside_piece = -1;
+    int outside = -1;
     for (std::size_t id = 0; id < low.size(); ++id)
-        if (outside_piece < 0 ||
-            (high[id] - low[id]).norm() > (high[outside_piece] - low[outside_piece]).norm())
-            outside_piece = static_cast<int>(id);
+        if (outside < 0 || (high[id] - low[id]).norm() > (high[outside] - low[outside]).norm())
+            outside = static_cast<int>(id);
+    return outside;
+}
 
-    // Which of them is held, and by what
-    const std::vector<Vec3> lips = lip_line(head);
-    const auto near_rim = [&](bool upper) {
-        std::vector<int> from;
-        for (long v = 0; v < count; ++v)
-            if (on_shell[v] && (shell.over_bite_m[shell.collapsed_to[v]] >= 0) == upper &&
-                geom::distance_to_polyline(at(static_cast<int>(v)), lips) < head.mm(6))
-                from.push_back(static_cast<int>(v));
-        return surface_ways(from, neighbours, head.vertices);
-    };
-    const std::vector<double> way_up = near_rim(true), way_down = near_rim(false);
-    std::vector<char> held(static_cast<std::size_t>(count), 0);
-    std::vector<double> pull(static_cast<std::size_t>(count),
-                             0.0);  // towards terms, beside the neighbours
-    for (long v = 0; v < count; ++v) {
-        if (!on_surface[v] || on_shell[v]) continue;
-        const Vec3 p = at(static_cast<int>(v));
-        if (piece[v] == outside_piece) {
-            held[v] = p.z() <= head.mm(8) || p.y() <= head.mm(-135) || p.y() >= head.mm(112);
+// Distance of each vertex from the rim of one lip along the surface, m.
+std::vector<double> BindingRows::ways_from_rim(bool upper) const {
+    std::vector<int> from;
+    for (long v = 0; v < count_; ++v)
+        if (on_shell_[v] && (shell_.over_bite_m[shell_.collapsed_to[v]] >= 0) == upper &&
+            geom::distance_to_polyline(at(v), lips_) < head_.mm(6))
+            from.push_back(static_cast<int>(v));
+    return surface_ways(from, neighbours_, head_.vertices);
+}
+
+// Which vertices off the shell do not move by themselves, and what holds them.
+void BindingRows::choose_held_vertices() {
+    const int outside = find_outside_piece();
+    const std::vector<double> from_upper = ways_from_rim(true), from_lower = ways_from_rim(false);
+    for (long v = 0; v < count_; ++v) {
+        if (!on_surface_[v] || on_shell_[v]) continue;
+        const Vec3 p = at(v);
+        if (piece_[v] == outside) {
+            held_[v] = p.z() <= head_.mm(8) || p.y() <= head_.mm(-135) || p.y() >= head_.mm(112);
             continue;
         }
-        const double from_lips = geom::distance_to_polyline(p, lips);
-        if (from_lips > head.mm(30) && p.y() > head.landmark("sn").y()) {
-            // Eye sockets: still, but for what lies right behind the lids
-            for (const rig::EyeGeometry& eye : head.eyes)
-                if ((p - eye.centre).norm() < eye.radius_m + head.mm(12))
-                    held[v] = held[v] || p.z() < eye.centre.z() + 0.3 * eye.radius_m;
-        } else if (from_lips > head.mm(16) && p.z() < lips[2].z() - head.mm(16)) {
-            held[v] = 1;
-            terms[v].jaw = 1.0 - geom::smoothstep(-head.mm(8), head.mm(8), jaw.height_over_bite(p));
-            terms[v].jaw_point = terms[v].jaw * p;
-        } else if (from_lips > head.mm(4) && from_lips < head.mm(40) &&
-                   p.y() < head.landmark("sn").y() && p.z() < lips[2].z()) {
-            // The lining of lips and cheeks goes with the skin in front of it, or it would come through; that of the upper lip
-            // with the upper lip however near the bite it lies, or a dropping jaw would draw it out from behind the lip
-            const double up = way_up[static_cast<std::size_t>(v)],
-                         down = way_down[static_cast<std::size_t>(v)];
-            if (!std::isfinite(up + down)) continue;
-            const double side = (down - up) / (down + up + 1e-9);
-            int nearest = -1;
-            double least = head.mm(16) * head.mm(16);
-            for (long w = 0; w < count; ++w) {
-                if (!on_shell[w]) continue;
-                const double squared = (head.vertices.row(w) - head.vertices.row(v)).squaredNorm();
-                if (squared < least && side * shell.over_bite_m[shell.collapsed_to[w]] >= 0) {
-                    least = squared;
-                    nearest = static_cast<int>(w);
-                }
-            }
-            if (nearest >= 0) {
-                pull[v] = geom::smoothstep(0.1, 0.5, std::abs(side));
-                terms[v] = terms[nearest];
-            }
+        const double from_lips = geom::distance_to_polyline(p, lips_);
+        if (from_lips > head_.mm(30) && p.y() > head_.landmark("sn").y())
+            held_[v] = is_behind_lids(p);
+        else if (from_lips > head_.mm(16) && p.z() < lips_[2].z() - head_.mm(16))
+            hold_on_bone(v);
+        else if (from_lips > head_.mm(4) && from_lips < head_.mm(40) &&
+                 p.y() < head_.landmark("sn").y() && p.z() < lips_[2].z())
+            pull_towards_skin(v, from_upper[static_cast<std::size_t>(v)],
+                              from_lower[static_cast<std::size_t>(v)]);
+    }
+}
+
+// Eye sockets are still, except for what lies right behind the lids.
+bool BindingRows::is_behind_lids(const Vec3& p) const {
+    for (const rig::EyeGeometry& eye : head_.eyes)
+        if ((p - eye.centre).norm() < eye.radius_m + head_.mm(12) &&
+            p.z() < eye.centre.z() + 0.3 * eye.radius_m)
+            return true;
+    return false;
+}
+
+// The back of the mouth is held by skull and mandible.
+void BindingRows::hold_on_bone(long v) {
+    const Vec3 p = at(v);
+    held_[v] = 1;
+    terms_[v].jaw = 1.0 - geom::smoothstep(-head_.mm(8), head_.mm(8), jaw_.height_over_bite(p));
+    terms_[v].jaw_point = terms_[v].jaw * p;
+}
+
+// The lining of lips and cheeks goes with the skin in front of it, or it would come through. The lining of the upper lip goes with the
+// upper lip however near the bite it lies, or a dropping jaw would draw it out from behind the lip.
+void BindingRows::pull_towards_skin(long v, double from_upper_rim_m, double from_lower_rim_m) {
+    if (!std::isfinite(from_upper_rim_m + from_lower_rim_m)) return;
+    const double side =
+        (from_lower_rim_m - from_upper_rim_m) / (from_lower_rim_m + from_upper_rim_m + 1e-9);
+    int nearest = -1;
+    double min_squared = head_.mm(16) * head_.mm(16);
+    for (long w = 0; w < count_; ++w) {
+        if (!on_shell_[w]) continue;
+        const double squared = (head_.vertices.row(w) - head_.vertices.row(v)).squaredNorm();
+        if (squared < min_squared && side * shell_.over_bite_m[shell_.collapsed_to[w]] >= 0) {
+            min_squared = squared;
+            nearest = static_cast<int>(w);
         }
     }
+    if (nearest < 0) return;
+    pull_[v] = geom::smoothstep(0.1, 0.5, std::abs(side));
+    terms_[v] = terms_[nearest];
+}
 
-    // Harmonic extension to what is left
-    std::vector<int> unknown(static_cast<std::size_t>(count), -1), free;
-    for (long v = 0; v < count; ++v)
-        if (on_surface[v] && !on_shell[v] && !held[v]) {
-            unknown[v] = static_cast<int>(free.size());
+// Vertices whose rows the harmonic extension finds.
+std::vector<int> BindingRows::number_unknowns() {
+    std::vector<int> free;
+    unknown_.assign(static_cast<std::size_t>(count_), -1);
+    for (long v = 0; v < count_; ++v)
+        if (on_surface_[v] && !on_shell_[v] && !held_[v]) {
+            unknown_[v] = static_cast<int>(free.size());
             free.push_back(static_cast<int>(v));
         }
-    if (!free.empty()) {
-        std::vector<Eigen::Triplet<double>> entries;
-        std::vector<int> column_of(static_cast<std::size_t>(shell_count), -1), node_of_column;
-        const auto add_columns = [&](const Terms& row) {
-            for (const auto& [node, weight] : row.nodes)
-                if (column_of[node] < 0) {
-                    column_of[node] = static_cast<int>(node_of_column.size());
-                    node_of_column.push_back(node);
-                }
-        };
-        for (int v : free) {
-            if (pull[v] > 0) add_columns(terms[v]);
-            for (int w : neighbours[v])
-                if (unknown[w] < 0) add_columns(terms[w]);
-        }
-        const long columns = static_cast<long>(node_of_column.size());
-        Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<long>(free.size()), columns + 4);
-        for (std::size_t i = 0; i < free.size(); ++i) {
-            const int v = free[i];
-            double diagonal = 1e-9;
-            const auto add_known = [&](const Terms& row, double weight) {
-                diagonal += weight;
-                for (const auto& [node, share] : row.nodes)
-                    right(static_cast<long>(i), column_of[node]) += weight * share;
-                right(static_cast<long>(i), columns) += weight * row.jaw;
-                for (int k = 0; k < 3; ++k)
-                    right(static_cast<long>(i), columns + 1 + k) += weight * row.jaw_point[k];
-            };
-            double around = 0;
-            for (int w : neighbours[v]) {
-                const double weight = 1.0 / std::max(1e-6, (at(v) - at(w)).norm());
-                around += weight;
-                if (unknown[w] < 0) {
-                    add_known(terms[w], weight);
-                } else {
-                    diagonal += weight;
-                    entries.emplace_back(static_cast<int>(i), unknown[w], -weight);
-                }
-            }
-            if (pull[v] > 0) add_known(terms[v], pull[v] * around);
-            entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal);
-        }
-        Eigen::SparseMatrix<double> laplacian(static_cast<long>(free.size()),
-                                              static_cast<long>(free.size()));
-        laplacian.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
-        const Eigen::MatrixXd solution = factor.solve(right);
-        for (std::size_t i = 0; i < free.size(); ++i) {
-            Terms& row = terms[free[i]];
-            row.nodes.clear();
-            for (long c = 0; c < columns; ++c)
-                if (solution(static_cast<long>(i), c) > 1e-6)
-                    row.nodes.push_back({node_of_column[c], solution(static_cast<long>(i), c)});
-            std::sort(row.nodes.begin(), row.nodes.end());
-            row.jaw = solution(static_cast<long>(i), columns);
-            for (int k = 0; k < 3; ++k)
-                row.jaw_point[k] = solution(static_cast<long>(i), columns + 1 + k);
-            row.prune();
-        }
-    }
+    return free;
+}
 
-    // Smooth over the mesh until facets of the coarse shell no longer show
+// One column of the right side for each shell vertex that known rows next to the unknown ones use.
+void BindingRows::number_columns(const std::vector<int>& free) {
+    column_of_.assign(shell_.vertex.size(), -1);
+    const auto add_columns = [&](const Terms& row) {
+        for (const auto& [node, weight] : row.nodes)
+            if (column_of_[node] < 0) {
+                column_of_[node] = static_cast<int>(column_node_.size());
+                column_node_.push_back(node);
+            }
+    };
+    for (int v : free) {
+        if (pull_[v] > 0) add_columns(terms_[v]);
+        for (int w : neighbours_[v])
+            if (unknown_[w] < 0) add_columns(terms_[w]);
+    }
+}
+
+// Harmonic extension to what is left: each unknown row is the mean of its neighbours', weighted by inverse edge length.
+void BindingRows::extend_harmonically() {
+    const std::vector<int> free = number_unknowns();
+    if (free.empty()) return;
+    number_columns(free);
+    const long columns = static_cast<long>(column_node_.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<long>(free.size()), columns + 4);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const int v = free[i];
+        double diagonal = 1e-9;
+        const auto add_known = [&](const Terms& row, double weight) {
+            diagonal += weight;
+            for (const auto& [node, fraction] : row.nodes)
+                right(static_cast<long>(i), column_of_[node]) += weight * fraction;
+            right(static_cast<long>(i), columns) += weight * row.jaw;
+            for (int k = 0; k < 3; ++k)
+                right(static_cast<long>(i), columns + 1 + k) += weight * row.jaw_point[k];
+        };
+        double around = 0;
+        for (int w : neighbours_[v]) {
+            const double weight = 1.0 / std::max(1e-6, (at(v) - at(w)).norm());
+            around += weight;
+            if (unknown_[w] < 0) {
+                add_known(terms_[w], weight);
+            } else {
+                diagonal += weight;
+                entries.emplace_back(static_cast<int>(i), unknown_[w], -weight);
+            }
+        }
+        if (pull_[v] > 0) add_known(terms_[v], pull_[v] * around);
+        entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal);
+    }
+    Eigen::SparseMatrix<double> laplacian(static_cast<long>(free.size()),
+                                          static_cast<long>(free.size()));
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(laplacian);
+    write_solution(factor.solve(right), free);
+}
+
+void BindingRows::write_solution(const Eigen::MatrixXd& solution, const std::vector<int>& free) {
+    const long columns = static_cast<long>(column_node_.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        Terms& row = terms_[free[i]];
+        row.nodes.clear();
+        for (long c = 0; c < columns; ++c)
+            if (solution(static_cast<long>(i), c) > 1e-6)
+                row.nodes.push_back({column_node_[c], solution(static_cast<long>(i), c)});
+        std::sort(row.nodes.begin(), row.nodes.end());
+        row.jaw = solution(static_cast<long>(i), columns);
+        for (int k = 0; k < 3; ++k)
+            row.jaw_point[k] = solution(static_cast<long>(i), columns + 1 + k);
+        row.prune();
+    }
+}
+
+// Smooths the rows of shell vertices over the mesh until facets of the coarse shell no longer show.
+void BindingRows::smooth_over_mesh() {
     constexpr int kSweeps = 6;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        std::vector<Terms> next = terms;
-        for (long v = 0; v < count; ++v) {
-            if (!on_shell[v] || neighbours[v].empty()) continue;
+        std::vector<Terms> next = terms_;
+        for (long v = 0; v < count_; ++v) {
+            if (!on_shell_[v] || neighbours_[v].empty()) continue;
             double edge = 0;
-            for (int w : neighbours[v]) edge += (at(static_cast<int>(v)) - at(w)).norm();
-            edge /= static_cast<double>(neighbours[v].size());
-            // A sweep of strength s spreads by edge sqrt(s); aim at a third of the coarse spacing in all.
-            const double wanted = 0.33 * shell.spacing_m[v];
+            for (int w : neighbours_[v]) edge += (at(v) - at(w)).norm();
+            edge /= static_cast<double>(neighbours_[v].size());
+            // A sweep of strength s spreads by edge sqrt(s); all sweeps together aim at a third of the coarse spacing.
+            const double wanted = 0.33 * shell_.spacing_m[v];
             const double strength = std::min(0.8, wanted * wanted / (edge * edge * kSweeps));
             Terms row;
-            row.add(terms[v], 1 - strength);
-            for (int w : neighbours[v])
-                row.add(terms[w], strength / static_cast<double>(neighbours[v].size()));
+            row.add(terms_[v], 1 - strength);
+            for (int w : neighbours_[v])
+                row.add(terms_[w], strength / static_cast<double>(neighbours_[v].size()));
             row.prune();
             next[v] = row;
         }
-        terms.swap(next);
+        terms_.swap(next);
     }
+}
 
+}  // namespace
+
+SkinBinding::SkinBinding(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
+    BindingRows binding(head, jaw, shell);
+    binding.bind_shell_vertices();
+    binding.choose_held_vertices();
+    binding.extend_harmonically();
+    binding.smooth_over_mesh();
+
+    const long count = head.vertices.rows();
     rows_.resize(static_cast<std::size_t>(count));
     for (long v = 0; v < count; ++v) {
-        const Terms& row = terms[head.welded[v]];
+        const Terms& row = binding.rows()[head.welded[v]];
         rows_[v].begin = static_cast<int>(column_.size());
         for (const auto& [node, w] : row.nodes) {
             column_.push_back(node);

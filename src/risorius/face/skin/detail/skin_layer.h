@@ -1,5 +1,5 @@
-// What the skin does by itself on top of the tissue: evens out what the coarse tissue carries it to (skin_surface.h),
-// folds where it is compressed (wrinkles.h) and stands off in cords on the neck (platysma_cords.h). At rest it does nothing.
+// What the skin does in addition to the tissue: it evens out the motion of the coarse tissue (skin_surface.h), folds where it is
+// compressed (wrinkles.h), and forms cords on the neck (platysma_cords.h). At rest it does nothing.
 #pragma once
 
 #include <array>
@@ -27,12 +27,11 @@ class SkinLayer {
               const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh,
               const SkinBinding& binding);
 
-    /// `vertices` (V x 3) come as the tissue carries them, with the activation of every muscle. Returns the depth of the folds
-    /// that the mesh is too coarse for, V x 3, m, a column per slot of lines(), < 0 where lines stand out; no rows when
-    /// wrinkles are off.
+    /// `vertices` (V x 3, m) as the tissue carries them, with the activation of every muscle. Returns the depth of folds that are finer than
+    /// the mesh, V x 3, m, one column per slot of lines(); < 0 where lines stand out. No rows when wrinkles are off.
     Points apply(const Eigen::VectorXd& activation, Points& vertices) const;
 
-    /// The depth of those folds on a skin that something else has moved, with what its mesh resolves in place already.
+    /// The depth of such folds on a skin that something else has moved, including what its mesh resolves.
     Points fold_depth(const Eigen::VectorXd& activation, Points vertices) const;
 
     const WrinkleLines& lines() const { return lines_; }
@@ -45,7 +44,7 @@ class SkinLayer {
     Wrinkles wrinkles_;
     SkinSurface surface_;
     PlatysmaCords cords_;
-    std::vector<std::pair<int, int>> alike_;  // vertex, the one whose shift it shares
+    std::vector<std::pair<int, int>> alike_;  // a vertex, and the vertex whose shift it shares
     mutable Points shift_;                    // of alike_, scratch
 };
 

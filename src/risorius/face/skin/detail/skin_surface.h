@@ -1,4 +1,4 @@
-// The skin at the mesh's own resolution: a membrane that bends, on the bed of fat and ligaments that the tissue moves.
+// The skin at the resolution of the mesh: a membrane with bending stiffness on an elastic bed of fat and ligaments, which the tissue moves.
 //
 //   p   where the tissue carries a vertex      X   rest      K   stiffness of the bed per area, Pa/m      A   area
 //
@@ -22,17 +22,17 @@ struct SkinSheetOnBed {
     Triangles triangles;               ///< over the rows of `rest`
     Points rest;                       ///< V x 3, m
     std::vector<double> bed_pa_per_m;  ///< V, > 0
-    std::vector<char> held;            ///< V, stays where the tissue carries it
+    std::vector<char> held;            ///< V, follows the tissue exactly
     double membrane_n_per_m = 10;
     double bending_n_m = 2e-5;
 };
 
 class SkinSurface {
   public:
-    /// The border of the triangles is held too. Triangles without area are left out.
+    /// Vertices on the border of the triangles are held too. Triangles without area are left out.
     explicit SkinSurface(const SkinSheetOnBed& sheet);
 
-    /// V x 3: from where the tissue carries them to where the skin comes to lie. One thread at a time.
+    /// V x 3: from the positions to which the tissue carries the vertices to those of the skin, m. Not for several threads at once.
     void relax(Points& vertices) const;
 
     int vertices() const { return static_cast<int>(vertex_.size()); }

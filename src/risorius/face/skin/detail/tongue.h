@@ -1,5 +1,5 @@
-// The tongue as a body that bends along its middle: its root stays, the rest goes with the mandible, it stretches forwards,
-// lifts or lowers its tip, and passes between the teeth and the lips, flatter where they leave little room.
+// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
+// raises or lowers its tip, and passes between teeth and lips, where it is flattened if there is little room.
 #pragma once
 
 #include <vector>
@@ -10,28 +10,28 @@
 namespace risorius::face {
 
 struct TongueDrive {
-    double out = 0;  ///< ratio of the protrusion range, [0, 1]
-    double up = 0;   ///< of the tip, [-1, 1]
+    double out = 0;  ///< protrusion / its range, [0, 1]
+    double up = 0;   ///< of the tip: 1 raised, -1 lowered, [-1, 1]
     Rigid mandible = Rigid::Identity();
 };
 
 class Tongue {
   public:
-    /// `range_m`: how far `out` at 1 brings the tip forwards.
+    /// `range_m`: how far the tip moves forwards at `out` = 1.
     Tongue(const rig::Head& head, double range_m);
 
-    /// Moves the tongue's rows of `vertices`, whose skin has moved already.
+    /// Moves the tongue's rows of `vertices`, in which the skin has already moved.
     void place(const TongueDrive& drive, Points& vertices) const;
 
     bool empty() const { return members_.empty(); }
-    /// The share of `drive.out` for which there is room between the teeth.
+    /// The fraction of `drive.out` for which there is room between the teeth.
     double room(const TongueDrive& drive) const;
 
   private:
     struct Member {
         int vertex;
         double along;            ///< 0 at the root, 1 at the tip
-        double side, up, ahead;  ///< from the middle line there, in its frame at rest, m
+        double side, up, ahead;  ///< offsets from the middle line in its local frame at rest, m
     };
     struct Line {
         std::vector<Vec3> point;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 
 #include "risorius/geom/polyline.h"
+#include "risorius/rig/wrinkle_table.h"
 #include "risorius/solve/metric_builder.h"
 #include "risorius/solve/sparse_cholesky.h"
 
@@ -15,7 +15,7 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kLeastWindow = 1e-3;
+constexpr double kMinWindow = 1e-3;
 constexpr double kFadeSpacing_mm = 11.0;  // of the random depth along lines
 constexpr double kFibreSpread_mm = 6.0;   // of the mean over fibres near a point
 constexpr double kPathSpacing_mm = 4.0;
@@ -25,33 +25,20 @@ struct FibrePiece {
     Vec3 at, along;
 };
 
-// One set of lines.
+// One set of lines on a head. `table` is what the rig's table says of it.
 struct Pattern {
-    int slot = 0;
+    const rig::WrinklePattern* table = nullptr;
+    Side side = Side::kLeft;  // of a pattern of each side
     double wavelength_m = 0;
-    double share =
-        1;  // of the depth that would keep all length, in young skin; the rest thickens it
-    std::function<double(const Vec3&)> window = {};
+    double fraction = 1;                  // of the depth, for the age of the skin
     std::vector<FibrePiece> fibres = {};  // pulling across the lines
-    bool along_lines = false;             // the fibres run along the lines instead
-    Vec3 anchor = Vec3::Zero();           // where the phase is `anchor_phase`
-    double anchor_phase = 0;
-    double stays = 0;               // in old skin at rest, 0..1
-    double waver = 0.16;            // of the phase, wavelengths
-    double waver_spacing = 3;       // of its random values, wavelengths
-    std::vector<Vec3> crease = {};  // instead of fibres: the line itself
-};
-
-// Landmark terms of one side of a head.
-struct Places {
-    const rig::Head& head;
-    Side side;
+    Vec3 anchor = Vec3::Zero();           // where the phase is table->anchor_phase
+    std::vector<Vec3> crease = {};        // instead of fibres: the line itself
 
     double sign() const { return side == Side::kLeft ? 1.0 : -1.0; }
-    Vec3 operator()(const std::string& id) const {
-        return head.landmark(id + (side == Side::kLeft ? "_l" : "_r"));
+    const Vec3& at(const rig::Head& head, const std::string& id) const {
+        return head.landmarks.at(side == Side::kLeft ? id : rig::mirrored_landmark(id));
     }
-    Vec3 middle(const char* id) const { return head.landmark(id); }
 };
 
 // Height of p over a line from left to right through the points, seen from the front.
@@ -65,9 +52,9 @@ double height_over(const Vec3& p, const std::vector<Vec3>& line) {
     return p.y() - line.back().y();
 }
 
-std::vector<Vec3> across(const rig::Head& head, const std::vector<const char*>& left_to_middle) {
+std::vector<Vec3> across(const rig::Head& head, const std::vector<std::string>& left_to_middle) {
     std::vector<Vec3> out;
-    for (const char* id : left_to_middle) out.push_back(head.landmark(id));
+    for (const std::string& id : left_to_middle) out.push_back(head.landmark(id));
     const std::size_t half = left_to_middle.size() - 1;
     for (std::size_t i = half; i-- > 0;)
         out.push_back(head.landmark(rig::mirrored_landmark(left_to_middle[i])));
@@ -90,188 +77,131 @@ void add_fibres(const rig::Head& head, const rig::Atlas& atlas, const std::strin
     }
 }
 
-// The lines of expression in landmark terms; distances of lines in mm of the average head.
+// Value of one end of a smooth step, m.
+double bound_of(const rig::Head& head, const Pattern& pattern, const rig::WrinkleBound& bound) {
+    const double sign = bound.axis == 0 ? pattern.sign() : 1.0;
+    double value = 0;
+    if (!bound.landmark.empty()) {
+        value = sign * pattern.at(head, bound.landmark)[bound.axis];
+        if (!bound.less.empty())
+            value = std::abs(value - sign * pattern.at(head, bound.less)[bound.axis]);
+        value = bound.fraction * value;
+    } else if (bound.crease_end >= 0) {
+        const Vec3& end = bound.crease_end == 0 ? pattern.crease.front() : pattern.crease.back();
+        value = bound.fraction * (sign * end[bound.axis]);
+    }
+    for (const double plus_mm : bound.plus_mm) value += head.mm(plus_mm);
+    return value;
+}
+
+// A factor of a window with what does not depend on the point of the skin.
+struct PlacedFactor {
+    const rig::WrinkleFactor* table;
+    double from, to;         // m, or rad
+    std::vector<Vec3> line;  // or empty
+    Vec3 point;              // or 0
+    double behind_m;
+};
+
+PlacedFactor place_factor(const rig::Head& head, const Pattern& pattern,
+                          const rig::WrinkleFactor& factor) {
+    const bool angle = factor.of == rig::WrinkleFactor::Of::kTurnAbout;
+    PlacedFactor out{&factor, 0, 0, {}, Vec3::Zero(), head.mm(factor.behind_mm)};
+    out.from = angle ? factor.from.plus_mm.at(0) : bound_of(head, pattern, factor.from);
+    out.to = angle ? factor.to.plus_mm.at(0) : bound_of(head, pattern, factor.to);
+    if (!factor.line.empty()) out.line = across(head, factor.line);
+    if (!factor.point.empty()) out.point = pattern.at(head, factor.point);
+    return out;
+}
+
+// The quantity of a point of the skin that a factor is a step of, m or rad.
+double quantity_at(const Vec3& p, const PlacedFactor& factor, const Pattern& pattern) {
+    using Of = rig::WrinkleFactor::Of;
+    const Vec3& point = factor.point;
+    switch (factor.table->of) {
+        case Of::kHeight:
+            return p.y();
+        case Of::kOutward:
+            return pattern.sign() * p.x();
+        case Of::kFromMiddle:
+            return std::abs(p.x());
+        case Of::kOverLine:
+            return height_over(p, factor.line);
+        case Of::kUnderLine:
+            return -height_over(p, factor.line);
+        case Of::kFromCrease:
+            return geom::distance_to_polyline(p, pattern.crease);
+        case Of::kFromPoint:
+            return (p - point).norm();
+        case Of::kBeyondPoint:
+            return pattern.sign() * (p.x() - point.x());
+        case Of::kAroundPoint:
+            return std::hypot(p.x() - point.x(), factor.table->stretch * (p.y() - point.y()));
+        case Of::kTurnAbout:
+            return std::abs(std::atan2(p.y() - point.y(),
+                                       pattern.sign() * (p.x() - point.x()) + factor.behind_m));
+    }
+    return 0;
+}
+
+// Where the lines of a pattern belong, 0..1, of every vertex of the skin.
+std::vector<double> window_of(const rig::Head& head, const Triangles& skin,
+                              const Pattern& pattern) {
+    std::vector<PlacedFactor> factors;
+    for (const rig::WrinkleFactor& factor : pattern.table->window)
+        factors.push_back(place_factor(head, pattern, factor));
+    const auto window_at = [&](const Vec3& p) {
+        if (pattern.table->front_only && p.z() < 0) return 0.0;
+        if (pattern.sign() * p.x() < head.mm(pattern.table->min_outward_mm)) return 0.0;
+        double product = 1;
+        for (const PlacedFactor& factor : factors) {
+            const double step =
+                geom::smoothstep(factor.from, factor.to, quantity_at(p, factor, pattern));
+            product *= factor.table->falls ? 1 - step : step;
+            if (product == 0) return 0.0;
+        }
+        return product;
+    };
+    std::vector<double> out(static_cast<std::size_t>(head.vertices.rows()), 0.0);
+    for (long i = 0; i < skin.size(); ++i) {
+        const int v = skin.data()[i];
+        out[v] = window_at(head.vertices.row(v).transpose());
+    }
+    return out;
+}
+
+Pattern place_pattern(const rig::Head& head, const rig::Atlas& atlas, double age,
+                      const rig::WrinklePattern& table, Side side) {
+    constexpr double kCreaseSpacing_mm = 2.0;
+    Pattern out{.table = &table, .side = side, .wavelength_m = head.mm(table.wavelength_mm)};
+    out.fraction = table.aged ? table.fraction * age : table.fraction;
+    if (!table.anchor.empty()) out.anchor = out.at(head, table.anchor);
+    for (const rig::WrinkleFibres& fibres : table.fibres)
+        for (const Side of : {Side::kLeft, Side::kRight}) {
+            if (table.each_side && of != side) continue;
+            const double sign = of == Side::kLeft ? fibres.left : fibres.right;
+            if (sign != 0) add_fibres(head, atlas, fibres.muscle, of, sign, out.fibres);
+        }
+    std::vector<Vec3> through;
+    for (const rig::CreasePoint& point : table.crease)
+        through.push_back(out.at(head, point.landmark) +
+                          Vec3(out.sign() * head.mm(point.offset_mm.x()),
+                               head.mm(point.offset_mm.y()), head.mm(point.offset_mm.z())));
+    if (!through.empty()) out.crease = geom::sample_curve(through, head.mm(kCreaseSpacing_mm));
+    return out;
+}
+
+// The patterns of a head of this age: those that are there once, then those of the left side, then those of the right side.
 std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas, double age) {
     std::vector<Pattern> out;
-    const auto mm = [&](double atlas_mm) { return head.mm(atlas_mm); };
-
-    // Forehead: across frontalis, above the brows
-    {
-        const std::vector<Vec3> brows = across(head, {"bl_l", "bp_l", "bc_l", "bm_l", "g"});
-        const double top = head.landmark("tr").y(), side = head.landmark("ft_l").x();
-        Pattern pattern{.slot = 0, .wavelength_m = mm(8.5), .share = 0.62, .stays = 0.9};
-        pattern.window = [=](const Vec3& p) {
-            return geom::smoothstep(mm(1), mm(7), height_over(p, brows)) *
-                   (1 - geom::smoothstep(top - mm(14), top - mm(2), p.y())) *
-                   (1 - geom::smoothstep(0.78 * side, 1.02 * side, std::abs(p.x())));
-        };
-        for (const char* muscle : {"frontalis_medial", "frontalis_lateral"})
-            for (const Side of : {Side::kLeft, Side::kRight})
-                add_fibres(head, atlas, muscle, of, 1, pattern.fibres);
-        out.push_back(pattern);
-    }
-    // Frown: across corrugator, upright on both sides of the middle
-    {
-        const double low = head.landmark("n").y() + mm(4), high = head.landmark("g").y() + mm(16);
-        const double wide = head.landmark("bm_l").x() + mm(6);
-        Pattern pattern{.slot = 1, .wavelength_m = mm(11), .share = 0.8, .stays = 0.9};
-        pattern.window = [=](const Vec3& p) {
-            return p.z() < 0 ? 0.0
-                             : geom::smoothstep(low + mm(2), low + mm(12), p.y()) *
-                                   (1 - geom::smoothstep(high - mm(10), high, p.y())) *
-                                   (1 - geom::smoothstep(wide - mm(8), wide, std::abs(p.x())));
-        };
-        add_fibres(head, atlas, "corrugator_supercilii", Side::kLeft, 1, pattern.fibres);
-        add_fibres(head, atlas, "corrugator_supercilii", Side::kRight, -1, pattern.fibres);
-        pattern.anchor = head.landmark("g");
-        pattern.anchor_phase = 0.5;
-        out.push_back(pattern);
-    }
-    // Root of the nose: across procerus
-    {
-        const double at = head.landmark("n").y();
-        const double wide = 0.62 * head.landmark("en_l").x();
-        Pattern pattern{.slot = 2, .wavelength_m = mm(5), .share = 0.4, .stays = 0.7};
-        pattern.window = [=](const Vec3& p) {
-            return p.z() < 0
-                       ? 0.0
-                       : geom::smoothstep(at - mm(9), at - mm(4), p.y()) *
-                             (1 - geom::smoothstep(at + mm(5), at + mm(12), p.y())) *
-                             (1 - geom::smoothstep(wide - mm(4), wide + mm(2), std::abs(p.x())));
-        };
-        for (const Side of : {Side::kLeft, Side::kRight})
-            add_fibres(head, atlas, "procerus", of, 1, pattern.fibres);
-        pattern.anchor = head.landmark("n");
-        out.push_back(pattern);
-    }
-    // Around the mouth: across orbicularis, off the red of the lips
-    for (const bool upper : {true, false}) {
-        const std::vector<Vec3> red = upper ? across(head, {"ch_l", "ulc_l", "cph_l", "ls"})
-                                            : across(head, {"ch_l", "llc_l", "li"});
-        const double corner = head.landmark("ch_l").x();
-        const double end = upper ? head.landmark("sn").y() - head.landmark("ls").y()
-                                 : head.landmark("li").y() - head.landmark("sl").y();
-        Pattern pattern{.slot = 0, .wavelength_m = mm(4), .share = 0.3, .stays = 0.8};
-        pattern.window = [=](const Vec3& p) {
-            if (p.z() < 0) return 0.0;
-            const double from_red = (upper ? 1 : -1) * height_over(p, red);
-            return geom::smoothstep(mm(0.8), mm(3), from_red) *
-                   (1 - geom::smoothstep(0.5 * std::abs(end), 1.1 * std::abs(end), from_red)) *
-                   (1 - geom::smoothstep(0.75 * corner, 1.05 * corner, std::abs(p.x())));
-        };
-        const std::string muscle = upper ? "orbicularis_oris_upper_" : "orbicularis_oris_lower_";
-        for (const char* part : {"peripheral", "marginal"})
-            add_fibres(head, atlas, muscle + part, Side::kLeft, 1, pattern.fibres);
-        pattern.anchor = head.landmark(upper ? "mp" : "sl");
-        pattern.anchor_phase = 0.5;
-        out.push_back(pattern);
-    }
-    // Chin: dimples, along and across mentalis
-    for (const bool along : {false, true}) {
-        const Vec3 middle = head.landmark("pg");
-        Pattern pattern{.slot = along ? 2 : 1,
-                        .wavelength_m = mm(along ? 4.4 : 5),
-                        .share = 0.8,
-                        .waver = 0.42,
-                        .waver_spacing = 1.3};
-        pattern.window = [=](const Vec3& p) {
-            const double far = std::hypot(p.x() - middle.x(), 1.25 * (p.y() - middle.y()));
-            return p.z() < 0 ? 0.0 : 1 - geom::smoothstep(mm(6), mm(17), far);
-        };
-        for (const Side of : {Side::kLeft, Side::kRight})
-            add_fibres(head, atlas, "mentalis", of, 1, pattern.fibres);
-        pattern.along_lines = along;
-        out.push_back(pattern);
-    }
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-        const Places at{head, side};
-        const double sign = at.sign();
-        // Beside a crease that runs down the cheek, which begins over `begin_mm`
-        const auto beside = [=](const std::vector<Vec3>& line, double from_mm, double to_mm,
-                                double begin_mm) {
-            const double high = line.front().y(), low = line.back().y();
-            return [=](const Vec3& p) {
-                if (p.z() < 0 || sign * p.x() < mm(8)) return 0.0;
-                return (1 - geom::smoothstep(mm(from_mm), mm(to_mm),
-                                             geom::distance_to_polyline(p, line))) *
-                       geom::smoothstep(low, low + mm(9), p.y()) *
-                       (1 - geom::smoothstep(high - mm(begin_mm), high + mm(1), p.y()));
-            };
-        };
-        // Crow's feet: across the outer orbicularis oculi, fanned from the outer canthus
-        {
-            const Vec3 canthus = at("ex");
-            Pattern pattern{.slot = 0, .wavelength_m = mm(4.2), .share = 0.5, .stays = 1};
-            pattern.window = [=](const Vec3& p) {
-                const double out_by = sign * (p.x() - canthus.x()), up = p.y() - canthus.y();
-                const double far = (p - canthus).norm();
-                if (out_by <= 0) return 0.0;
-                return geom::smoothstep(mm(2.5), mm(7), out_by) *
-                       (1 - geom::smoothstep(mm(13), mm(27), far)) *
-                       (1 - geom::smoothstep(0.75, 1.15, std::abs(std::atan2(up, out_by + mm(3)))));
-            };
-            add_fibres(head, atlas, "orbicularis_oculi_orbital", side, 1, pattern.fibres);
-            out.push_back(pattern);
-        }
-        // Side of the nose: across the levator of lip and wing
-        {
-            const double low = at.middle("rhi").y() - mm(3), high = at.middle("n").y() - mm(1);
-            const double out_to = sign * at("al").x();
-            Pattern pattern{.slot = 1, .wavelength_m = mm(3.8), .share = 0.35};
-            pattern.window = [=](const Vec3& p) {
-                return p.z() < 0
-                           ? 0.0
-                           : geom::smoothstep(low - mm(4), low + mm(3), p.y()) *
-                                 (1 - geom::smoothstep(high - mm(7), high, p.y())) *
-                                 geom::smoothstep(mm(2), mm(5), sign * p.x()) *
-                                 (1 - geom::smoothstep(0.85 * out_to, 1.15 * out_to, sign * p.x()));
-            };
-            add_fibres(head, atlas, "levator_labii_superioris_alaeque_nasi", side, 1,
-                       pattern.fibres);
-            out.push_back(pattern);
-        }
-        // The nasolabial fold
-        {
-            Pattern pattern{.slot = 1, .wavelength_m = mm(18), .share = 0.5, .stays = 1};
-            pattern.crease =
-                geom::sample_curve({at("ac") + Vec3(sign * mm(2.5), mm(5), 0), at("nl1"), at("nl2"),
-                                    at("nl3"), at("nl3") + Vec3(sign * mm(3), mm(-9), mm(-2))},
-                                   mm(2));
-            pattern.window = beside(pattern.crease, 4.5, 8.8, 5);
-            out.push_back(pattern);
-        }
-        if (age <= 0) continue;
-        // Of old skin alone: from the corner of the mouth to the jaw, and below the lower lid
-        {
-            Pattern pattern{.slot = 2, .wavelength_m = mm(13), .share = 0.45 * age, .stays = 1};
-            const Vec3 corner = at("ch");
-            pattern.crease = geom::sample_curve({corner + Vec3(sign * mm(2), mm(-3), mm(-1)),
-                                                 corner + Vec3(sign * mm(5), mm(-12), mm(-2)),
-                                                 corner + Vec3(sign * mm(6), mm(-22), mm(-4))},
-                                                mm(2));
-            pattern.window = beside(pattern.crease, 3.5, 6.4, 4);
-            out.push_back(pattern);
-        }
-        {
-            Pattern pattern{.slot = 2, .wavelength_m = mm(10), .share = 0.28 * age, .stays = 1};
-            const Vec3 inner = at("en"), lid = at("pi"), outer = at("ex");
-            pattern.crease = geom::sample_curve({inner + Vec3(sign * mm(1), mm(-7), mm(2)),
-                                                 lid + Vec3(sign * mm(-4), mm(-9.5), mm(0)),
-                                                 lid + Vec3(sign * mm(6), mm(-10), mm(-2)),
-                                                 outer + Vec3(sign * mm(1), mm(-9), mm(0))},
-                                                mm(2));
-            const std::vector<Vec3> line = pattern.crease;
-            const double from = sign * line.front().x(), to = sign * line.back().x();
-            pattern.window = [=](const Vec3& p) {
-                if (p.z() < 0) return 0.0;
-                return (1 -
-                        geom::smoothstep(mm(2.5), mm(4.9), geom::distance_to_polyline(p, line))) *
-                       geom::smoothstep(from - mm(1), from + mm(5), sign * p.x()) *
-                       (1 - geom::smoothstep(to - mm(6), to + mm(1), sign * p.x()));
-            };
-            out.push_back(pattern);
-        }
-    }
+    const auto add = [&](bool each_side, Side side) {
+        for (const rig::WrinklePattern& table : atlas.wrinkles)
+            if (table.each_side == each_side && (!table.aged || age > 0))
+                out.push_back(place_pattern(head, atlas, age, table, side));
+    };
+    add(false, Side::kLeft);
+    add(true, Side::kLeft);
+    add(true, Side::kRight);
     return out;
 }
 
@@ -366,7 +296,7 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
                 pull += (std::exp(-far) + 1e-6 / (1 + far)) * fibre.along;
             }
             pull -= normal * normal.dot(pull);
-            if (pattern.along_lines) pull = normal.cross(pull);
+            if (pattern.table->along_fibres) pull = normal.cross(pull);
             if (pull.squaredNorm() > 0) pull.normalize();
             const Vec3 gradient[3] = {normal.cross(c - b) / (2 * area),
                                       normal.cross(a - c) / (2 * area),
@@ -388,25 +318,26 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
             if ((at(vertex[i]) - pattern.anchor).squaredNorm() <
                 (at(vertex[nearest]) - pattern.anchor).squaredNorm())
                 nearest = i;
-        const double shift = pattern.anchor_phase - phase(nearest, 0);
+        const double shift = pattern.table->anchor_phase - phase(nearest, 0);
         for (int i = 0; i < count; ++i) {
-            const Vec3 place = at(vertex[i]) / (pattern.waver_spacing * pattern.wavelength_m);
-            phase(i, 0) += shift + pattern.waver * noise(place);
+            const Vec3 place =
+                at(vertex[i]) / (pattern.table->jitter_spacing * pattern.wavelength_m);
+            phase(i, 0) += shift + pattern.table->jitter * noise(place);
         }
     }
     for (int i = 0; i < count; ++i) {
         const int v = vertex[i];
-        if (lines.window(v, pattern.slot) > window[v]) continue;
-        lines.phase(v, pattern.slot) = phase(i, 0);
-        lines.window(v, pattern.slot) = window[v];
-        lines.wavelength(v, pattern.slot) = pattern.wavelength_m;
-        lines.at_rest(v, pattern.slot) = pattern.stays * age;
-        owner[v][pattern.slot] = index;
+        if (lines.window(v, pattern.table->slot) > window[v]) continue;
+        lines.phase(v, pattern.table->slot) = phase(i, 0);
+        lines.window(v, pattern.table->slot) = window[v];
+        lines.wavelength(v, pattern.table->slot) = pattern.wavelength_m;
+        lines.at_rest(v, pattern.table->slot) = pattern.table->permanence * age;
+        owner[v][pattern.table->slot] = index;
     }
     if (pattern.crease.empty()) return;
-    Crease crease{.slot = pattern.slot, .vertex = {}, .place_m = {}};
+    Crease crease{.slot = pattern.table->slot, .vertex = {}, .place_m = {}};
     for (const int v : vertex)
-        if (window[v] > 0 && owner[v][pattern.slot] == index) {
+        if (window[v] > 0 && owner[v][pattern.table->slot] == index) {
             crease.vertex.push_back(v);
             crease.place_m.push_back(place_on(head.vertices.row(v).transpose(), pattern.crease));
         }
@@ -425,19 +356,18 @@ WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription&
                        Points::Zero(count, kWrinkleSlots)};
     Owners owner(static_cast<std::size_t>(count), {-1, -1, -1});
     int index = 0;
-    for (const Pattern& pattern : patterns_of(head, rig.atlas, rig.look.age)) {
-        std::vector<double> window(static_cast<std::size_t>(count), 0.0);
-        for (long i = 0; i < skin.size(); ++i) {
-            const int v = skin.data()[i];
+    for (const Pattern& pattern : patterns_of(head, rig.atlas, rig.appearance.age)) {
+        std::vector<double> window = window_of(head, skin, pattern);
+        for (long v = 0; v < count; ++v) {
+            double& here = window[static_cast<std::size_t>(v)];
+            if (here < kMinWindow) here = 0.0;
+            if (here == 0) continue;
             const Vec3 at = head.vertices.row(v).transpose();
-            const double here = pattern.window(at);
-            window[v] = here < kLeastWindow ? 0.0 : here;
-            if (window[v] > 0 && pattern.crease.empty())
-                window[v] *= pattern.share * (0.8 + 0.4 * noise(at / head.mm(kFadeSpacing_mm)));
-            else
-                window[v] *= pattern.share;
+            here *= pattern.crease.empty()
+                        ? pattern.fraction * (0.8 + 0.4 * noise(at / head.mm(kFadeSpacing_mm)))
+                        : pattern.fraction;
         }
-        lay(head, skin, pattern, window, index++, rig.look.age, lines, owner);
+        lay(head, skin, pattern, window, index++, rig.appearance.age, lines, owner);
     }
     // Where two patterns of a slot meet, a triangle would run through the phases of both
     for (long f = 0; f < skin.rows(); ++f)

@@ -1,16 +1,16 @@
-// How deep the skin folds along its wrinkle lines, from its own strain.
+// Depth of the skin's folds along its wrinkle lines, from the skin's strain.
 //
 //   n   across the lines, in the rest surface        s = |F n|   stretch of the skin across them        c = 1 - s
 //   l   distance of the lines at rest, (1 - c) l now               f   phase, see wrinkle_lines.h
 //   A   depth          h = A d_k P(f),  P = sqrt(sin^2(pi f) + 0.2^2)   profile: narrow valleys, round ridges
-//   d_k = 1 + 0.4 sin(2.4 k)   no two lines are alike; k = round(f), the valley, so that d_k changes on ridges
+//   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f), the valley, so that d_k changes on ridges
 //
-// Skin hardly shortens: beyond an onset, what it is compressed by goes into the length of its profile,
+// Skin hardly shortens. Beyond an onset, its compression goes into the length of the folded profile:
 //   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
-// c is the mean over some 3 mm (a screened Poisson equation over the surface), so that it does not depend on the mesh; a
-// crease folds as a whole, by the mean over 9 mm along it and over the strip beside it, and sooner, as its line is there at rest.
-// Where the mesh is fine enough folds displace its vertices; the rest of their depth is for the renderer to show. Lines that stay in
-// old skin are as deep as if it were compressed by more than it is (kStays at most), are shown only, and go as it is stretched.
+// c is averaged over about 3 mm (by a screened Poisson equation on the surface), so that it does not depend on the mesh. A crease folds
+// as a whole: its c is averaged over 9 mm along it and over the strip beside it, and its onset is lower, since the line exists at rest.
+// Where the mesh is fine enough, folds displace its vertices; the renderer shows the rest of their depth. Permanent lines of old skin are
+// as deep as under additional compression; they are shown only by the renderer and disappear when the skin is stretched.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,19 +27,19 @@ namespace risorius::face {
 double fold_profile(double phase);  ///< P
 double fold_height(double phase);   ///< h / A over the skin without folds
 double fold_excess(
-    double depth_ratio);  ///< length of the profile / its span - 1, for A / span of a wave
+    double depth_ratio);  ///< length of the profile / its span - 1, for a wave of this depth / span
 double fold_depth_ratio(double excess);  ///< the inverse
-/// Compression that thickens skin without a fold; over as much to either side folds set in; at rest none may.
+/// Compression that thickens skin without a fold. Folds set in smoothly over as much to either side; at rest there is none.
 struct FoldOnset {
     double at, softness;
 };
 inline constexpr FoldOnset kSmoothSkin{0.05, 0.04}, kCreasedSkin{0.025, 0.02};
-/// e of c: share of the rest length that folds take up
+/// e as a function of c: fraction of the rest length that folds take up
 double folded_share(double compression, const FoldOnset& onset = kSmoothSkin);
 
 struct WrinkleOptions {
-    double strength = 1.0;      ///< of what could fold, how much does; 0: none
-    double mean_over_m = 3e-3;  ///< of the strain
+    double strength = 1.0;      ///< fraction of what could fold that does fold; 0: none
+    double mean_over_m = 3e-3;  ///< length over which the strain is averaged, m
     double mean_along_crease_m = 9e-3;
 };
 
@@ -48,11 +48,11 @@ class Wrinkles {
     Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Points& rest,
              const WrinkleOptions& options);
 
-    /// Displaces `vertices` (V x 3) by the folds that the mesh resolves and adds the depth of the others to `depth`
-    /// (V x 3, a column per slot, m). One thread at a time.
+    /// Displaces `vertices` (V x 3, m) by the folds that the mesh resolves and adds the depth of the others to `depth` (V x 3, one column
+    /// per slot, m). Not for several threads at once.
     void fold(Points& vertices, Points& depth) const;
 
-    /// Per vertex and slot, c; rows in the order of vertex_indices(). For evaluation and tests.
+    /// c per vertex and slot; rows in the order of vertex_indices(). For evaluation and tests.
     const Points& compression(const Points& vertices) const;
     const std::vector<int>& vertex_indices() const { return vertex_; }
 

@@ -1,5 +1,5 @@
-// Muscles that have no volume of their own in the simulation - fibres in the tissue, and muscles that ride on bones - as
-// straps of flesh: a middle surface with thickness on both sides, as thick as keeps the volume where it shortens.
+// Drawn surfaces of muscles without volume in the simulation (bundles of fibres, and muscles attached to bones only): ribbons with a
+// middle surface and thickness on both sides. Where a muscle shortens, it becomes thicker so that its volume is constant.
 #pragma once
 
 #include <variant>
@@ -16,11 +16,11 @@ namespace risorius::face {
 
 class MuscleRibbons {
   public:
-    /// Adds a surface for every bundle of fibres, and for every muscle without any that is no solid, to `surfaces`.
+    /// Adds to `surfaces` one surface for every bundle of fibres, and one for every other muscle that is not a solid.
     MuscleRibbons(const rig::Head& head, const rig::RigDescription& rig,
                   const MusclePlacement& placement, MuscleSurfaces& surfaces);
 
-    /// Writes its own rows of `vertices`. `nodes` are the nodes of the tissue now.
+    /// Writes its own rows of `vertices`. `nodes`: the current nodes of the tissue.
     void place(const Points& nodes, const BoneMotion& bones, Points& vertices) const;
 
   private:
@@ -28,7 +28,7 @@ class MuscleRibbons {
         std::variant<FibreSheet, BoneSheet> sheet;
         SheetSize size;
         Eigen::Index first_vertex = 0;
-        double outward = 1;                   ///< or -1: which way rows cross columns
+        double outward = 1;                   ///< 1 or -1: orientation of rows relative to columns
         std::vector<double> over_m, under_m;  ///< thickness on the side of the skin and of the bone
         std::vector<double> rest_area_m2;
     };

@@ -14,7 +14,7 @@
 
 namespace risorius::face {
 
-/// Where the bones are that muscles ride on; the skull stays.
+/// Motion of the bones that muscles are attached to; the skull is fixed.
 struct BoneMotion {
     Rigid mandible = Rigid::Identity();
     Vec3 hyoid_m = Vec3::Zero();  ///< displacement
@@ -25,7 +25,7 @@ struct SheetSize {
     double length_m = 0, width_m = 0;  ///< at rest, the width that of the belly
 
     double along(int row) const { return static_cast<double>(row) / (rows - 1); }  ///< 0..1
-    /// -1..1, closer together towards the edges, which are round.
+    /// -1..1, closer together towards the rounded edges.
     double across(int column) const;
     int points() const { return rows * columns; }
 };
@@ -36,7 +36,7 @@ class FibreSheet {
     FibreSheet(const MusclePlacement& placement, const FibreBundle& bundle);
 
     const SheetSize& size() const { return size_; }
-    /// `fibre_points`: where the points of all fibres are.
+    /// `fibre_points`: current positions of the points of all fibres, m.
     void place(const Points& fibre_points, Points& grid) const;
 
   private:
@@ -50,13 +50,13 @@ class FibreSheet {
     std::vector<Mix> columns_;   ///< rows x columns, of strands
 };
 
-/// The skin that looks outwards, at rest: without nostrils, ear canals and what else a mesh may have turned in.
+/// The part of the skin that faces outwards at rest: without nostrils, ear canals and other surfaces that are turned inwards.
 geom::SurfaceTree outer_skin(const rig::Head& head);
 
-/// A muscle that spans bones: its ends ride with them, and what is between is shared out.
+/// A muscle between bones: its ends move with the bones, and the motion is interpolated between them.
 class BoneSheet {
   public:
-    /// `skin` is the outer skin at rest: wide muscles near it curve as it does.
+    /// `skin`: outer skin at rest. Wide muscles near it are curved like it.
     BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig::MusclePath& path,
               const geom::SurfaceTree& skin);
 
@@ -67,7 +67,7 @@ class BoneSheet {
     SheetSize size_;
     std::vector<Vec3> centre_;   ///< rows
     std::vector<Vec3> offset_;   ///< rows x columns
-    std::vector<double> share_;  ///< rows, of the mandible's motion
+    std::vector<double> share_;  ///< rows, fraction of the mandible's motion
     std::vector<double> hyoid_share_;
 };
 

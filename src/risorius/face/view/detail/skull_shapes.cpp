@@ -1,10 +1,10 @@
 #include "risorius/face/view/detail/skull_shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 
+#include "risorius/core/data_folder.h"
+#include "risorius/core/json_cursor.h"
 #include "risorius/geom/closest_point.h"
 
 namespace risorius::face {
@@ -17,26 +17,25 @@ double smooth_cut(double a, double b, double round) { return -smooth_union(-a, -
 
 namespace {
 
-/// A stretch of bone that is as thick as its ends say.
-struct Knot {
-    double x, y, z, radius;
-    Vec3 at() const { return {x, y, z}; }
-};
+using Knot = SkullShapes::Knot;
 
-double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
-    const Vec3 q = p - centre;
+double ellipsoid(const Vec3& p, const SkullShapes::Ellipsoid& shape) {
+    const Vec3& radii = shape.radii;
+    const Vec3 q = p - shape.centre;
     const double k0 = q.cwiseQuotient(radii).norm(),
                  k1 = q.cwiseQuotient(radii.cwiseProduct(radii)).norm();
     return k1 > 0 ? k0 * (k0 - 1) / k1 : -radii.minCoeff();
 }
 
 double rod(const Vec3& p, const Knot& a, const Knot& b) {
-    const Vec3 along = b.at() - a.at(), off = p - a.at();
+    const Vec3 along = b.at - a.at, off = p - a.at;
     const double h = std::clamp(off.dot(along) / along.squaredNorm(), 0.0, 1.0);
     return (off - h * along).norm() - (a.radius + h * (b.radius - a.radius));
 }
 
-double rods(const Vec3& p, std::span<const Knot> knots) {
+double rod(const Vec3& p, const SkullShapes::Rod& shape) { return rod(p, shape.from, shape.to); }
+
+double rods(const Vec3& p, const std::vector<Knot>& knots) {
     double nearest = 1e9;
     for (std::size_t i = 0; i + 1 < knots.size(); ++i)
         nearest = std::min(nearest, rod(p, knots[i], knots[i + 1]));
@@ -53,53 +52,24 @@ double plate(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const V
     return std::min(plate(p, a, b, c, radius), plate(p, a, c, d, radius));
 }
 
+double plate(const Vec3& p, const SkullShapes::Plate& shape) {
+    const std::vector<Vec3>& c = shape.corners;
+    return c.size() == 3 ? plate(p, c[0], c[1], c[2], shape.radius)
+                         : plate(p, c[0], c[1], c[2], c[3], shape.radius);
+}
+
 /// A wall along a path seen from above, between two heights.
-double wall(const Vec3& p, std::span<const Knot> path, double low, double high) {
+double wall(const Vec3& p, const std::vector<Knot>& path, double low, double high) {
     double nearest = 1e9;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
         Knot a = path[i], b = path[i + 1];
-        a.y = b.y = std::clamp(p.y(), low, high);
+        a.at.y() = b.at.y() = std::clamp(p.y(), low, high);
         nearest = std::min(nearest, rod(p, a, b));
     }
     return nearest;
 }
 
 Vec3 one_side(const Vec3& p) { return {std::abs(p.x()), p.y(), p.z()}; }
-
-// Left side, mm, radius last. Rims of the orbit and the arch of the cheek run through the bone points of skull.json.
-constexpr std::array<Knot, 6> kUpperRim{{{50, 17, 62.5, 4.5},
-                                         {48, 28, 70, 5.5},
-                                         {40, 37, 82, 6},
-                                         {26, 39, 87, 7},
-                                         {13, 36, 88, 7},
-                                         {5, 30, 88, 7}}};
-constexpr std::array<Knot, 5> kLowerRim{
-    {{50, 17, 62.5, 4.5}, {50, 4, 64, 6}, {41, -3, 71, 6}, {29, -3, 74.5, 5.5}, {16, 4, 79, 4.5}}};
-constexpr std::array<Knot, 4> kNasalProcess{
-    {{17, -14, 79, 6}, {13, 2, 82, 4.5}, {9, 14, 85, 4.5}, {6, 28, 88, 5}}};
-constexpr std::array<Knot, 6> kZygomaticArch{{{48, -4, 64, 8},
-                                              {56, -1, 52, 5.5},
-                                              {60.5, 0, 40, 4.2},
-                                              {61, 1, 28, 4},
-                                              {59, 3, 14, 4.5},
-                                              {56, 6, 2, 5}}};
-constexpr std::array<Knot, 6> kUpperArch{{{0, 0, 81.5, 6.2},
-                                          {9, 0, 79.5, 6.2},
-                                          {17, 0, 73.5, 6.2},
-                                          {21, 0, 62, 6.5},
-                                          {24, 0, 50, 7},
-                                          {25, 0, 38, 6.5}}};
-constexpr std::array<Knot, 6> kLowerArch{{{0, 0, 77, 4.2},
-                                          {8, 0, 75, 4.2},
-                                          {14.5, 0, 68.5, 4.4},
-                                          {19, 0, 58, 4.6},
-                                          {23.5, 0, 46, 5},
-                                          {27.5, 0, 36, 5.5}}};
-constexpr std::array<Knot, 5> kLowerBorder{{{0, -84, 70.5, 6.5},
-                                            {13, -84, 67, 6.5},
-                                            {27, -77, 55, 6},
-                                            {38, -69, 37, 5.5},
-                                            {44, -59, 16, 5}}};
 
 /// The opening of the orbit is a rounded square, which runs in a cone to behind the bridge of the nose.
 double orbit(const Vec3& p) {
@@ -116,83 +86,170 @@ double orbit(const Vec3& p) {
 
 /// A pear: the width of the opening between the wings, narrow under the nasal bones.
 double nose_opening(const Vec3& p) {
-    const Knot low{4.6, -18.5, 0, 7.6}, high{0, -3, 0, 4.5};
+    const Knot low{{4.6, -18.5, 0}, 7.6}, high{{0, -3, 0}, 4.5};
     Vec3 q = p;
     q.z() = 0;
     return std::max(rod(q, low, high), 48 - p.z());
 }
 
+constexpr Range kPlace_mm{-300, 300}, kRadius_mm{0.1, 300};
+
+Vec3 place_of(const JsonCursor& json) {
+    const Vec3 out = json.vec3();
+    if (out.cwiseAbs().maxCoeff() > kPlace_mm.max) json.fail("a place within 300 mm of the origin");
+    return out;
+}
+
+Knot knot_of(const JsonCursor& json) {
+    const std::vector<JsonCursor> items = json.items();
+    if (items.size() != 4) json.fail("[x, y, z, radius]");
+    return {
+        Vec3(items[0].number(kPlace_mm), items[1].number(kPlace_mm), items[2].number(kPlace_mm)),
+        items[3].number(kRadius_mm)};
+}
+
+void read(const JsonCursor& json, std::vector<Knot>& out) {
+    for (const JsonCursor& item : json.items()) out.push_back(knot_of(item));
+    if (out.size() < 2) json.fail("two points or more");
+}
+void read(const JsonCursor& json, SkullShapes::Rod& out) {
+    const std::vector<JsonCursor> ends = json.items();
+    if (ends.size() != 2) json.fail("two points");
+    out = {knot_of(ends[0]), knot_of(ends[1])};
+}
+void read(const JsonCursor& json, SkullShapes::Ellipsoid& out) {
+    json.allow_keys({"centre", "radii"});
+    out = {place_of(json.at("centre")), place_of(json.at("radii"))};
+    if (out.radii.minCoeff() <= 0) json.at("radii").fail("three lengths above 0");
+}
+void read(const JsonCursor& json, SkullShapes::Plate& out) {
+    json.allow_keys({"corners", "radius"});
+    for (const JsonCursor& corner : json.at("corners").items())
+        out.corners.push_back(place_of(corner));
+    if (out.corners.size() != 3 && out.corners.size() != 4)
+        json.at("corners").fail("three or four corners");
+    out.radius = json.at("radius").number(kRadius_mm);
+}
+void read(const JsonCursor& json, std::vector<Vec3>& out) {
+    for (const JsonCursor& item : json.items()) out.push_back(place_of(item));
+}
+
+template <typename Visit>
+void visit_shapes(SkullShapes& shapes, Visit visit) {
+    visit("upper_rim", shapes.upper_rim);
+    visit("lower_rim", shapes.lower_rim);
+    visit("nasal_process", shapes.nasal_process);
+    visit("zygomatic_arch", shapes.zygomatic_arch);
+    visit("upper_arch", shapes.upper_arch);
+    visit("lower_arch", shapes.lower_arch);
+    visit("lower_border", shapes.lower_border);
+    visit("braincase", shapes.braincase);
+    visit("skull_base", shapes.skull_base);
+    visit("mastoid", shapes.mastoid);
+    visit("mastoid_root", shapes.mastoid_root);
+    visit("temple", shapes.temple);
+    visit("maxilla", shapes.maxilla);
+    visit("alveolar_process", shapes.alveolar_process);
+    visit("cheekbone", shapes.cheekbone);
+    visit("hard_palate", shapes.hard_palate);
+    visit("chin", shapes.chin);
+    visit("cheek_buttress", shapes.cheek_buttress);
+    visit("ear_canal", shapes.ear_canal);
+    visit("nasal_spine", shapes.nasal_spine);
+    visit("lower_concha", shapes.lower_concha);
+    visit("middle_concha", shapes.middle_concha);
+    visit("coronoid_process", shapes.coronoid_process);
+    visit("condyle_neck", shapes.condyle_neck);
+    visit("condyle", shapes.condyle);
+    visit("pterygoid_plate", shapes.pterygoid_plate);
+    visit("nasal_septum", shapes.nasal_septum);
+    visit("ramus_lower", shapes.ramus_lower);
+    visit("ramus_upper", shapes.ramus_upper);
+    visit("body_top", shapes.body_top);
+}
+
 }  // namespace
 
-BoneFields skull_fields(const Vec3& p_mm) {
+SkullShapes read_skull_shapes(const JsonCursor& json) {
+    json.at("format").one_of({"risorius-skull-shapes"});
+    SkullShapes out;
+    std::vector<std::string_view> keys{"format", "version", "source"};
+    visit_shapes(out, [&](const char* key, auto&) { keys.push_back(key); });
+    json.allow_keys(keys);
+    json.at("version").integer(1, 1);
+    visit_shapes(out, [&](const char* key, auto& shape) { read(json.at(key), shape); });
+    if (out.body_top.size() != out.lower_border.size())
+        json.at("body_top").fail("as many places as \"lower_border\" has");
+    return out;
+}
+
+const SkullShapes& standard_skull_shapes() {
+    static const SkullShapes kShapes = read_skull_shapes(
+        JsonCursor::read_file(data_folder() / "rigs" / "standard" / "skull_shapes.json"));
+    return kShapes;
+}
+
+BoneFields skull_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
     // The braincase, hollowed at the temples
-    double braincase = ellipsoid(p, {0, 50, 0}, {78, 80, 97});
+    double braincase = ellipsoid(p, shapes.braincase);
 
     braincase = smooth_cut(braincase, -(p.y() + 26), 24);
-    const double base = ellipsoid(p, {0, -6, 22}, {26, 22, 34});
-    const double mastoid = smooth_union(ellipsoid(p, {54, -12, -13}, {9, 19, 12}),
-                                        ellipsoid(p, {50, 2, 0}, {14, 11, 20}), 6);
+    const double base = ellipsoid(p, shapes.skull_base);
+    const double mastoid =
+        smooth_union(ellipsoid(p, shapes.mastoid), ellipsoid(p, shapes.mastoid_root), 6);
     BoneFields fields{};
     fields.vault = smooth_union(smooth_union(braincase, base, 6), mastoid, 8);
-    fields.temple = ellipsoid(p, {74, 8, 44}, {29, 46, 31});
+    fields.temple = ellipsoid(p, shapes.temple);
 
     // The middle face
-    double out = std::min(rods(p, kUpperRim), rods(p, kLowerRim));
-    double maxilla = ellipsoid(p, {14, -14, 56}, {22, 24, 26});
-    maxilla = smooth_union(maxilla, rods(p, kNasalProcess), 6);
-    maxilla = smooth_union(maxilla, ellipsoid(p, {0, -33, 62}, {23, 10, 24}), 6);
-    const double cheek = smooth_union(ellipsoid(p, {44, -8, 65}, {11, 12, 11}),
-                                      rod(p, {40, -12, 64, 8}, {27, -26, 60, 6}), 6);
+    double out = std::min(rods(p, shapes.upper_rim), rods(p, shapes.lower_rim));
+    double maxilla = ellipsoid(p, shapes.maxilla);
+    maxilla = smooth_union(maxilla, rods(p, shapes.nasal_process), 6);
+    maxilla = smooth_union(maxilla, ellipsoid(p, shapes.alveolar_process), 6);
+    const double cheek =
+        smooth_union(ellipsoid(p, shapes.cheekbone), rod(p, shapes.cheek_buttress), 6);
     maxilla = smooth_union(maxilla, cheek, 6);
     out = smooth_union(out, maxilla, 6);
-    out = smooth_union(out, rods(p, kZygomaticArch), 4);
+    out = smooth_union(out, rods(p, shapes.zygomatic_arch), 4);
 
     fields.outer = out;
-    const double ear = rod(p, {38, 3, 4, 3.2}, {80, 3, 0, 4});
+    const double ear = rod(p, shapes.ear_canal);
     fields.carved = std::min({orbit(p), nose_opening(p), ear});
     // Sockets of the teeth with the roof of the mouth, plates behind them, the partition of the nose and its spine
-    double inner = wall(p, kUpperArch, -42, -29);
-    inner = smooth_union(inner, ellipsoid(p, {0, -30, 58}, {24, 5, 24}), 4);
-    inner = smooth_union(inner, plate(p, {18, -42, 32}, {14, -8, 34}, {20, -8, 22}, 2.5), 5);
-    const double partition = plate(p, {0, -26, 78}, {0, 14, 76}, {0, 14, 50}, {0, -28, 50}, 1.1);
-    const double spine = rod(p, {0, -27, 78, 3.5}, {0, -25.5, 87, 1.6});
-    const double shell = std::min(rod(p, {8, -18, 62, 2.8}, {9, -18, 76, 2.2}),
-                                  rod(p, {6.5, -7, 60, 2.4}, {7, -6, 74, 1.8}));
+    double inner = wall(p, shapes.upper_arch, -42, -29);
+    inner = smooth_union(inner, ellipsoid(p, shapes.hard_palate), 4);
+    inner = smooth_union(inner, plate(p, shapes.pterygoid_plate), 5);
+    const double partition = plate(p, shapes.nasal_septum);
+    const double spine = rod(p, shapes.nasal_spine);
+    const double shell = std::min(rod(p, shapes.lower_concha), rod(p, shapes.middle_concha));
     fields.inner = std::min({inner, partition, smooth_union(spine, inner, 3), shell});
     return fields;
 }
 
-BoneFields mandible_fields(const Vec3& p_mm) {
+BoneFields mandible_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
-    double out = rods(p, kLowerBorder);
+    double out = rods(p, shapes.lower_border);
     // The body between the border and the sockets, wall by wall
-    for (std::size_t i = 0; i + 1 < kLowerBorder.size(); ++i) {
-        const auto top = [](std::size_t k) {
-            constexpr std::array<double, 5> kHeight{-66, -66, -62, -56, -50};
-            constexpr std::array<std::array<double, 2>, 5> kPlace{
-                {{0, 76}, {12, 71}, {22, 56}, {29, 36}, {38, 26}}};
-            return Vec3(kPlace[k][0], kHeight[k], kPlace[k][1]);
-        };
-        out = smooth_union(
-            out, plate(p, kLowerBorder[i].at(), kLowerBorder[i + 1].at(), top(i + 1), top(i), 4.6),
-            3);
+    for (std::size_t i = 0; i + 1 < shapes.lower_border.size(); ++i) {
+        out = smooth_union(out,
+                           plate(p, shapes.lower_border[i].at, shapes.lower_border[i + 1].at,
+                                 shapes.body_top[i + 1], shapes.body_top[i], 4.6),
+                           3);
     }
-    out = smooth_union(out, ellipsoid(p, {0, -80, 71}, {20, 12, 11}), 5);
+    out = smooth_union(out, ellipsoid(p, shapes.chin), 5);
     // The ramus, its two processes, the condyle
-    const Vec3 front_low(36, -52, 32), angle(44.5, -57, 14), neck(47, -20, 12),
-        notch(46.5, -19, 23), front_high(45.5, -20, 33);
-    double ramus = plate(p, front_low, angle, neck, 3.6);
-    ramus = std::min(ramus, plate(p, front_low, neck, notch, front_high, 3.4));
-    ramus = smooth_union(ramus, rod(p, {45.5, -20, 31, 4}, {47, -3, 34, 2}), 4);
-    ramus = smooth_union(ramus, rod(p, {47, -20, 12.5, 4}, {49, -7, 12.5, 4}), 4);
-    ramus = smooth_union(ramus, rod(p, {43.5, -4.5, 13.5, 4.2}, {54.5, -4.5, 12, 4.2}), 4);
+    double ramus = plate(p, shapes.ramus_lower);
+    ramus = std::min(ramus, plate(p, shapes.ramus_upper));
+    ramus = smooth_union(ramus, rod(p, shapes.coronoid_process), 4);
+    ramus = smooth_union(ramus, rod(p, shapes.condyle_neck), 4);
+    ramus = smooth_union(ramus, rod(p, shapes.condyle), 4);
     out = smooth_union(out, ramus, 8);
     return {.vault = 1e9,
             .temple = 1e9,
             .outer = out,
             .carved = 1e9,
-            .inner = wall(p, kLowerArch, -67, -61.5)};
+            .inner = wall(p, shapes.lower_arch, -67, -61.5)};
 }
 
 bool near_nasal_bone(const Vec3& p_mm) {

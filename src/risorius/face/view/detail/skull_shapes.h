@@ -1,29 +1,69 @@
-// The bones of the head as fields of distance in the standard head: what they are where the skin says nothing of them.
+// The bones of the head as signed distance fields in the standard head. They say what a bone is where the skin says nothing of it.
 //
-// Frame: the head frame of the standard head, mm (rigs/standard/landmarks.json). Symmetric.
+// Frame: the head frame of the standard head, mm (rigs/standard/landmarks.json). Left and right are symmetric.
+// Numbers: rigs/standard/skull_shapes.json.
 #pragma once
 
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
 #include "risorius/core/types.h"
 
 namespace risorius::face {
 
-/// Of one bone; negative inside. Its outer side is where the tissue over it is as thick as measured, so `outer` reaches beyond.
-struct BoneFields {
-    double vault;   ///< the braincase; like the next to be cut off by the tissue's thickness
-    double temple;  ///< hollow of the temples in it, positive outside of that
-    double outer;   ///< all else that lies under the skin
-    double carved;  ///< what is hollow: orbits, nose, ear canals; positive outside of the hollows
-    double inner;   ///< what the skin over it does not bound: tooth sockets, partition of the nose
+/// Simple bodies of the left side that the bones are joined from, mm.
+struct SkullShapes {
+    struct Knot {
+        Vec3 at;
+        double radius;
+    };
+    /// A rod whose radius varies linearly between its ends.
+    struct Rod {
+        Knot from, to;
+    };
+    struct Ellipsoid {
+        Vec3 centre, radii;
+    };
+    /// One triangle, or two: a, b, c and a, c, d.
+    struct Plate {
+        std::vector<Vec3> corners;
+        double radius = 0;
+    };
+    std::vector<Knot> upper_rim, lower_rim, nasal_process, zygomatic_arch, upper_arch, lower_arch,
+        lower_border;
+    Ellipsoid braincase, skull_base, mastoid, mastoid_root, temple, maxilla, alveolar_process,
+        cheekbone, hard_palate, chin;
+    Rod cheek_buttress, ear_canal, nasal_spine, lower_concha, middle_concha, coronoid_process,
+        condyle_neck, condyle;
+    Plate pterygoid_plate, nasal_septum, ramus_lower, ramus_upper;
+    std::vector<Vec3>
+        body_top;  ///< top of the body of the mandible over each knot of `lower_border`
 };
 
-BoneFields skull_fields(const Vec3& p_mm);
-BoneFields mandible_fields(const Vec3& p_mm);
+/// Throws Error on an unknown or missing key or a value out of range.
+SkullShapes read_skull_shapes(const JsonCursor& json);
+/// Those of the data folder, read once.
+const SkullShapes& standard_skull_shapes();
 
-/// Of the thin roof of the nose, by depth under the tissue: none elsewhere.
+/// Signed distances to one bone, mm, negative inside. The outer side of a bone is where the tissue over it is as thick as measured, so
+/// `outer` and `vault` reach beyond it and are cut off by the thickness.
+struct BoneFields {
+    double vault;   ///< the braincase
+    double temple;  ///< the hollow of the temple in the braincase; positive outside of the hollow
+    double outer;   ///< everything else that lies under the skin
+    double carved;  ///< orbits, nose, ear canals; positive outside of these hollows
+    double inner;   ///< what no skin bounds: tooth sockets, the septum of the nose
+};
+
+BoneFields skull_fields(const SkullShapes& shapes, const Vec3& p_mm);
+BoneFields mandible_fields(const SkullShapes& shapes, const Vec3& p_mm);
+
+/// Whether a point can be near the nasal bones.
 bool near_nasal_bone(const Vec3& p_mm);
+/// Signed distance to the nasal bones, the thin roof of the nose, for a point at this depth under the tissue, mm.
 double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm);
 
-/// The smooth union, and intersection, of two: like min and max, rounded within `round`.
+/// Smooth union and intersection of two fields: min and max, rounded where they differ by less than `round`.
 double smooth_union(double a, double b, double round);
 double smooth_cut(double a, double b, double round);
 

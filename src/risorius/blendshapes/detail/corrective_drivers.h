@@ -1,5 +1,5 @@
-// What correctives hang on (blendshapes/detail/blend_shape_rig.h), made of poses in which shapes were simulated on their way, in pairs, and in pairs on
-// one side of the face.
+// The drivers of correctives (blend_shape_rig.h), made from simulated poses: shapes on their way, pairs of shapes, and pairs with one shape
+// on one side only.
 #pragma once
 
 #include <array>
@@ -14,31 +14,31 @@ namespace risorius::blendshapes {
 
 constexpr double kSharedStrip_mm = 15;  ///< of the middle of the face, as of halves
 
-/// How often two given shapes are there at once: in a fifth of the frames that have one of them (random weights, four of 52 at a
-/// time: less; faces that speak and feel: less for most pairs); and the mean square of their product then, at weights from 0 to 1.
+/// How often two shapes have weights above 0 in the same frame: in a fifth of the frames that have one of them (less for random weights of
+/// four of 52 shapes, and for most pairs in speech and emotion); and the mean square of the product of their weights then.
 constexpr double kPairIsMet = 0.2, kSquareOfProduct = 1.0 / 9.0;
 
-/// What is tried together: a shape, or both its halves.
+/// A shape, or both halves of a shape, that is tried as one.
 struct Unit {
     std::string name;
-    std::vector<int> parts;  ///< shapes; left and right when there are two
+    std::vector<int> parts;  ///< indices of shapes; left and right when there are two
     track::Drive drive;
     Points field;  ///< V x 3, m
 
-    /// The shape of a side, 0 left and 1 right: itself if it has none.
+    /// The shape of a side, 0 left and 1 right; itself when it has no sides.
     int of_side(std::size_t side) const { return parts[parts.size() == 1 ? 0 : side]; }
 };
 
-/// Without what lies on other shapes, which is solved with them, and without what does not move the mesh.
+/// Leaves out shapes on top of others, which are solved with them, and shapes that do not move the mesh.
 std::vector<Unit> units_of(const MadeShapes& shapes, const track::ChannelTable& channels,
                            long vertices);
 
 track::Drive no_drive(const track::ChannelTable& channels);
-/// one + weight other, held inside the channels' limits.
+/// one + weight * other, clamped to the limits of the channels.
 track::Drive sum_of(const track::Drive& one, const track::Drive& other, double weight,
                     const track::ChannelTable& channels);
 
-/// Of pairs that are looked at on their way: the weights of both, and of which of the factors (1 - a), (1 - b) each puts a term right.
+/// Weights at which pairs are simulated on their way, and which of the factors (1 - a), (1 - b) each driver has.
 struct PairOnItsWay {
     double a, b;
     bool fades_with_a, fades_with_b;
@@ -46,56 +46,56 @@ struct PairOnItsWay {
 constexpr std::array<PairOnItsWay, 3> kPairsOnTheirWay{
     {{0.5, 1.0, true, false}, {1.0, 0.5, false, true}, {0.5, 0.5, true, true}}};
 
-/// Of pairs that are looked at on one side: 0 left or 1 right, and which of the two is there on that side alone.
+/// Pairs that are simulated on one side: 0 left or 1 right, and which of the two shapes is on that side only.
 struct OneSidedPair {
     std::size_t side;
     bool a_alone, b_alone;
 };
-/// Those of a pair, of which at least one shape has sides; both alone come after each alone.
+/// The one-sided versions of a pair in which at least one shape has sides; both one-sided come last.
 std::vector<OneSidedPair> one_sided_pairs(const Unit& a, const Unit& b);
 
-/// Poses of a pair that is looked at closely: null what was not.
+/// Further poses of a pair; null: not simulated.
 struct PairPoses {
     const SolvedPose* on_its_way = nullptr;  ///< as many as kPairsOnTheirWay
     const SolvedPose* one_sided = nullptr;   ///< as many as one_sided_pairs
 };
 
-/// Makes terms of what shapes and pairs lack, a left and a right one where they have sides. References live as long as it does.
-class TermMaker {
+/// Makes drivers of the errors of shapes and pairs, one for each side where they have sides. Keeps references.
+class DriverMaker {
   public:
-    TermMaker(const rig::Head& head, const MadeShapes& shapes, const std::vector<Unit>& units,
-              const Eigen::VectorXd& area);
+    DriverMaker(const rig::Head& head, const MadeShapes& shapes, const std::vector<Unit>& units,
+                const Eigen::VectorXd& area);
 
-    /// What a shape lacks half way, and its poses a quarter and three quarters of the way.
+    /// Adds the error of a shape at weight 0.5, and its poses at 0.25 and 0.75.
     void add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
                  const SolvedPose& three_quarters);
 
-    /// From here on pairs, which lack what is left by the shapes' own ways.
+    /// Call between shapes and pairs: pairs correct what the drivers of the shapes leave.
     void shapes_are_done() { of_shapes_ = terms_.size(); }
 
-    /// What a pair lacks where both are whole.
+    /// Adds the error of a pair at weight 1 of both.
     void add_pair(const Unit& a, const Unit& b, const Points& lacks, const PairPoses& poses);
 
-    std::vector<blendshapes::TermField> take() { return std::move(terms_); }
+    std::vector<blendshapes::DriverField> take() { return std::move(terms_); }
 
   private:
     void add_one_sided(const Unit& a, const Unit& b, const Points& lacks, const SolvedPose* poses);
     std::vector<std::size_t> sharing(const Unit& unit) const;
-    template <class TermOfSide>
-    void add(const Points& field, bool sided, const TermOfSide& term,
+    template <class DriverOfSide>
+    void add(const Points& field, bool sided, const DriverOfSide& driver,
              const std::array<std::string, 2>& endings);
-    void add(const Points& field, blendshapes::Term term, const std::string& ending);
+    void add(const Points& field, blendshapes::Driver driver, const std::string& ending);
 
     const rig::Head& head_;
     const MadeShapes& shapes_;
     const std::vector<Unit>& units_;
     const Eigen::VectorXd& area_;
     std::vector<Eigen::VectorXd> moved_;  // of each unit, by each vertex
-    std::vector<blendshapes::TermField> terms_;
+    std::vector<blendshapes::DriverField> terms_;
     std::size_t of_shapes_ = 0;
 };
 
-/// The rule a term follows, as files state it.
-std::string weight_rule(const blendshapes::Term& term);
+/// The rule of a driver as text, as files state it.
+std::string weight_rule(const blendshapes::Driver& driver);
 
 }  // namespace risorius::blendshapes

@@ -1,5 +1,5 @@
 // Terms of correctives: what they add up to in the poses that they were made of.
-#include "risorius/blendshapes/detail/corrective_terms.h"
+#include "risorius/blendshapes/detail/corrective_drivers.h"
 
 #include <gtest/gtest.h>
 
@@ -78,14 +78,14 @@ struct Face {
     }
 };
 
-double farthest(const Face& face, const std::vector<blendshapes::TermField>& terms,
+double farthest(const Face& face, const std::vector<blendshapes::DriverField>& drivers,
                 const Eigen::VectorXd& weights) {
     Points at = face.sum(weights);
-    for (const blendshapes::TermField& one : terms) at += one.term.value(weights) * one.field;
+    for (const blendshapes::DriverField& one : drivers) at += one.driver.value(weights) * one.field;
     return (at - face.simulated(weights)).cwiseAbs().maxCoeff();
 }
 
-TEST(TermMaker, PutsEveryPoseOfAPairRightThatItWasGiven) {
+TEST(DriverMaker, PutsEveryPoseOfAPairRightThatItWasGiven) {
     const Face face;
     for (const std::size_t first : {std::size_t{0}, std::size_t{2}}) {
         const Unit &a = face.units[first], &b = face.units[1];
@@ -106,33 +106,33 @@ TEST(TermMaker, PutsEveryPoseOfAPairRightThatItWasGiven) {
         }
         looked_at.push_back(face.weights(a, 1, b, 1));
 
-        TermMaker maker(face.head, face.shapes, face.units, face.area);
+        DriverMaker maker(face.head, face.shapes, face.units, face.area);
         maker.shapes_are_done();
         maker.add_pair(a, b, face.simulated(looked_at.back()) - face.sum(looked_at.back()),
                        {way.data(), alone.data()});
-        const std::vector<blendshapes::TermField> terms = maker.take();
+        const std::vector<blendshapes::DriverField> drivers = maker.take();
         for (const Eigen::VectorXd& weights : looked_at) {
             EXPECT_GT((face.simulated(weights) - face.sum(weights)).cwiseAbs().maxCoeff(), 0.1);
-            EXPECT_LT(farthest(face, terms, weights), 1e-12) << weights.transpose();
+            EXPECT_LT(farthest(face, drivers, weights), 1e-12) << weights.transpose();
         }
         // Nothing where only one of them is there
-        EXPECT_EQ(farthest(face, terms, face.weights(a, 0.7, b, 0)), 0.0);
-        EXPECT_EQ(farthest(face, terms, face.weights(a, 0, b, 1)), 0.0);
+        EXPECT_EQ(farthest(face, drivers, face.weights(a, 0.7, b, 0)), 0.0);
+        EXPECT_EQ(farthest(face, drivers, face.weights(a, 0, b, 1)), 0.0);
     }
 }
 
-TEST(TermMaker, LeavesOutPosesThatDidNotComeToRest) {
+TEST(DriverMaker, LeavesOutPosesThatDidNotComeToRest) {
     const Face face;
     const Unit &a = face.units[0], &b = face.units[1];
     SolvedPose lost = face.pose(face.weights(a, 1, b, 0.5));
     lost.figures.converged = false;
     const std::vector<SolvedPose> way(kPairsOnTheirWay.size(), lost), alone(6, lost);
     const Eigen::VectorXd whole = face.weights(a, 1, b, 1);
-    TermMaker maker(face.head, face.shapes, face.units, face.area);
+    DriverMaker maker(face.head, face.shapes, face.units, face.area);
     maker.add_pair(a, b, face.simulated(whole) - face.sum(whole), {way.data(), alone.data()});
-    const std::vector<blendshapes::TermField> terms = maker.take();
-    EXPECT_EQ(terms.size(), 2u);  // left and right
-    EXPECT_LT(farthest(face, terms, whole), 1e-12);
+    const std::vector<blendshapes::DriverField> drivers = maker.take();
+    EXPECT_EQ(drivers.size(), 2u);  // left and right
+    EXPECT_LT(farthest(face, drivers, whole), 1e-12);
 }
 
 }  // namespace

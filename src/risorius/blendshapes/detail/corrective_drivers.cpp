@@ -1,4 +1,4 @@
-#include "risorius/blendshapes/detail/corrective_terms.h"
+#include "risorius/blendshapes/detail/corrective_drivers.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
 
-// Mean squares of terms, where weights are anything from 0 to 1: of a part of a shape's way (the mean of 36 w^4 (1 - w)^4), and what
+// Mean squares of drivers, where weights are anything from 0 to 1: of a part of a shape's way (the mean of 36 w^4 (1 - w)^4), and what
 // w^2 (1 - w)^2 is of w^2.
 constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfFading = 0.1;
 
@@ -18,7 +18,7 @@ std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) 
     Eigen::Matrix3d values;
     for (int at = 0; at < 3; ++at)
         for (int part = 1; part <= 3; ++part)
-            values(at, part - 1) = blendshapes::Term{"", {0}, part}.value(
+            values(at, part - 1) = blendshapes::Driver{"", {0}, part}.value(
                 Eigen::VectorXd::Constant(1, 0.25 * (at + 1)));
     const Eigen::Matrix3d inverse = values.inverse();
     std::array<Points, 3> out;
@@ -82,14 +82,14 @@ std::vector<OneSidedPair> one_sided_pairs(const Unit& a, const Unit& b) {
     return out;
 }
 
-TermMaker::TermMaker(const rig::Head& head, const MadeShapes& shapes,
-                     const std::vector<Unit>& units, const Eigen::VectorXd& area)
+DriverMaker::DriverMaker(const rig::Head& head, const MadeShapes& shapes,
+                         const std::vector<Unit>& units, const Eigen::VectorXd& area)
     : head_(head), shapes_(shapes), units_(units), area_(area) {
     for (const Unit& unit : units) moved_.push_back(unit.field.rowwise().norm());
 }
 
-void TermMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
-                        const SolvedPose& three_quarters) {
+void DriverMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
+                          const SolvedPose& three_quarters) {
     // A pose that did not come to rest: as if it went there in an even bend
     const auto lacking_at = [&](const SolvedPose& pose, double weight) {
         return pose.figures.converged ? Points(pose.moved - weight * unit.field)
@@ -106,7 +106,7 @@ void TermMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose&
         add(
             parts[static_cast<std::size_t>(part - 1)], sided,
             [&](std::size_t side) {
-                blendshapes::Term out{"", {unit.of_side(side)}, part};
+                blendshapes::Driver out{"", {unit.of_side(side)}, part};
                 for (const std::size_t other : others)
                     out.fades_with.push_back(units_[other].of_side(side));
                 return out;
@@ -115,8 +115,8 @@ void TermMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose&
                              : std::array<std::string, 2>{});
 }
 
-void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
-                         const PairPoses& poses) {
+void DriverMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
+                           const PairPoses& poses) {
     const std::size_t one_sided = terms_.size();
     if (poses.one_sided) add_one_sided(a, b, lacks, poses.one_sided);
     // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b), where shapes on their way and pairs on one side have their say too
@@ -132,7 +132,7 @@ void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
         for (const int part : b.parts) weights[part] = at.b;
         const auto take = [&](std::size_t from, std::size_t to) {
             for (std::size_t t = from; t < to; ++t)
-                if (const double value = terms_[t].term.value(weights); value != 0)
+                if (const double value = terms_[t].driver.value(weights); value != 0)
                     missing -= value * terms_[t].field;
         };
         take(0, of_shapes_);
@@ -148,7 +148,7 @@ void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
         const std::string ending = k == 0 ? "" : "~" + std::to_string(k);
         add(field[k], sided,
             [&](std::size_t side) {
-                blendshapes::Term out{"", {a.of_side(side), b.of_side(side)}};
+                blendshapes::Driver out{"", {a.of_side(side), b.of_side(side)}};
                 if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_a)
                     out.fades_with.push_back(a.of_side(side));
                 if (k > 0 && kPairsOnTheirWay[k - 1].fades_with_b)
@@ -161,8 +161,8 @@ void TermMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
 
 // What a pair lacks of which one shape, or both, are there on one side only, when it is taken for that side's half of both. Each goes
 // as the other side comes.
-void TermMaker::add_one_sided(const Unit& a, const Unit& b, const Points& lacks,
-                              const SolvedPose* poses) {
+void DriverMaker::add_one_sided(const Unit& a, const Unit& b, const Points& lacks,
+                                const SolvedPose* poses) {
     const auto halves =
         blendshapes::left_and_right(head_.vertices, lacks, head_.mm(kSharedStrip_mm));
     std::array<Points, 2> known;  // of each side, what the ones that are alone by themselves lack
@@ -172,23 +172,23 @@ void TermMaker::add_one_sided(const Unit& a, const Unit& b, const Points& lacks,
         if (!poses[k].figures.converged) continue;
         const OneSidedPair& at = pairs[k];
         Points missing = poses[k].moved - (at.side == 0 ? halves.first : halves.second);
-        blendshapes::Term term{"", {a.of_side(at.side), b.of_side(at.side)}};
+        blendshapes::Driver driver{"", {a.of_side(at.side), b.of_side(at.side)}};
         for (const auto& [unit, alone] : {std::pair(&a, at.a_alone), std::pair(&b, at.b_alone)}) {
             for (const int part : unit->parts)
                 if (!alone || part == unit->of_side(at.side))
                     shapes_.list[static_cast<std::size_t>(part)].shape.add_to(missing, -1);
-            if (alone) term.fades_with.push_back(unit->of_side(1 - at.side));
+            if (alone) driver.fades_with.push_back(unit->of_side(1 - at.side));
         }
         if (at.a_alone && at.b_alone)
             missing -= known[at.side];
         else
             known[at.side] += missing;
-        add(missing, std::move(term),
+        add(missing, std::move(driver),
             at.a_alone && at.b_alone ? "~alone" : (at.a_alone ? "~first" : "~second"));
     }
 }
 
-std::vector<std::size_t> TermMaker::sharing(const Unit& unit) const {
+std::vector<std::size_t> DriverMaker::sharing(const Unit& unit) const {
     const Eigen::VectorXd& own = moved_[static_cast<std::size_t>(&unit - units_.data())];
     std::vector<std::size_t> others;
     for (std::size_t other = 0; other < units_.size(); ++other)
@@ -198,37 +198,37 @@ std::vector<std::size_t> TermMaker::sharing(const Unit& unit) const {
     return others;
 }
 
-template <class TermOfSide>
-void TermMaker::add(const Points& field, bool sided, const TermOfSide& term,
-                    const std::array<std::string, 2>& endings) {
+template <class DriverOfSide>
+void DriverMaker::add(const Points& field, bool sided, const DriverOfSide& driver,
+                      const std::array<std::string, 2>& endings) {
     if (!sided) {
-        add(field, term(0), endings[0]);
+        add(field, driver(0), endings[0]);
         return;
     }
     const auto [left, right] =
         blendshapes::left_and_right(head_.vertices, field, head_.mm(kSharedStrip_mm));
-    add(left, term(0), endings[0]);
-    add(right, term(1), endings[1]);
+    add(left, driver(0), endings[0]);
+    add(right, driver(1), endings[1]);
 }
 
-void TermMaker::add(const Points& field, blendshapes::Term term, const std::string& ending) {
+void DriverMaker::add(const Points& field, blendshapes::Driver driver, const std::string& ending) {
     if (field.isZero(0.0)) return;
-    std::sort(term.drivers.begin(), term.drivers.end());
-    for (const int i : term.drivers)
-        term.name +=
-            (term.name.empty() ? "" : "*") + shapes_.list[static_cast<std::size_t>(i)].goal.name;
-    const bool single = term.drivers.size() == 1;
-    term.name += (single ? "~" + std::to_string(term.part) : "") + ending;
+    std::sort(driver.shapes.begin(), driver.shapes.end());
+    for (const int i : driver.shapes)
+        driver.name +=
+            (driver.name.empty() ? "" : "*") + shapes_.list[static_cast<std::size_t>(i)].goal.name;
+    const bool single = driver.shapes.size() == 1;
+    driver.name += (single ? "~" + std::to_string(driver.part) : "") + ending;
     double use = single ? kSquareOfPart : kPairIsMet * kSquareOfProduct;
-    for (std::size_t k = 0; !single && k < term.fades_with.size(); ++k) use *= kSquareOfFading;
-    terms_.push_back({std::move(term), field, use});
+    for (std::size_t k = 0; !single && k < driver.fades_with.size(); ++k) use *= kSquareOfFading;
+    terms_.push_back({std::move(driver), field, use});
 }
 
-std::string weight_rule(const blendshapes::Term& term) {
-    if (term.drivers.size() > 1) return "product";
+std::string weight_rule(const blendshapes::Driver& driver) {
+    if (driver.shapes.size() > 1) return "product";
     static const std::array<const char*, 3> kRules{"4 w (1 - w)^3", "6 w^2 (1 - w)^2",
                                                    "4 w^3 (1 - w)"};
-    return kRules.at(static_cast<std::size_t>(term.part - 1));
+    return kRules.at(static_cast<std::size_t>(driver.part - 1));
 }
 
 }  // namespace risorius::blendshapes
