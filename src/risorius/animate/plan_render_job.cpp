@@ -1,9 +1,9 @@
+// Plans a render: reads every input once, and checks it and the request.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "risorius/animate/detail/pass_writer.h"
-// Plans a render: reads every input once, and checks it and the request.
 #include "risorius/animate/render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
