@@ -57,54 +57,56 @@ void add_old_name(CLI::App& command, const std::string& old_name, const std::str
 }  // namespace
 
 void add_solve(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("solve", "Shapes, or landmarks over time, to muscle activations");
+    CLI::App* command = app.add_subcommand(
+        "solve", "Find muscle activations from shapes, or from landmarks over time");
     auto arguments = std::make_shared<SolveArguments>();
     inverse::SolveOptions& options = arguments->options;
-    command->add_option("RIG", options.rig, "The rig whose muscles are sought")->required();
+    command->add_option("RIG", options.rig, "The rig whose activations are sought")->required();
     command
         ->add_option("-o,--out", options.out,
-                     "Folder: script.json, which render plays, and results.json")
+                     "The folder to write: script.json, which render plays, and results.json")
         ->required();
     command->add_option("--shapes", options.shapes,
                         "Blend shapes on the rig's mesh: a table as under \"Measured shapes\" in "
                         "README.md (.json), or shapes.glb of risorius shapes");
     command
         ->add_option("--mesh", options.meshes,
-                     "In place of it: the rig's mesh with its vertices moved, OBJ; several with "
-                     "commas")
+                     "Instead of --shapes: the rig's mesh with displaced vertices, OBJ; separate "
+                     "several with commas")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_option("--landmarks", options.landmarks,
-                        "In place of it: a table with the columns time_s and ID.x_mm, ID.y_mm, "
-                        "ID.z_mm of some landmarks, the first row at rest, as render --landmarks "
-                        "writes it");
+    command->add_option(
+        "--landmarks", options.landmarks,
+        "Instead of --shapes: a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm of "
+        "some landmarks, with the face at rest in the first row, as render --landmarks writes it");
     command->add_option("--only", options.only, "Names of shapes, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
         ->add_option("--quality", options.quality,
-                     "\"preview\", \"video\" or \"fine\": how fine a mesh is simulated")
+                     "Quality of the simulation: \"preview\", \"video\" or \"fine\"")
         ->capture_default_str();
     command
-        ->add_option(
-            "--l1-weight", options.l1_weight,
-            "Cost of an activation of 1; half of the squared size of what is given costs 1")
+        ->add_option("--l1-weight", options.l1_weight,
+                     "The cost of an activation of 1, relative to half the squared norm "
+                     "of the target")
         ->capture_default_str();
     command
-        ->add_option("--l2-weight", options.l2_weight, "Cost of half the square of an activation")
+        ->add_option("--l2-weight", options.l2_weight,
+                     "The cost of half its square, in the same unit")
         ->capture_default_str();
     command
         ->add_option("--temporal-weight", options.temporal_weight,
-                     "Cost of half the square of its change from frame to frame")
+                     "The cost of half the square of its change between frames, in the "
+                     "same unit")
         ->capture_default_str();
     add_old_name(*command, "--price", "--l1-weight", options.l1_weight);
     add_old_name(*command, "--ridge", "--l2-weight", options.l2_weight);
     add_old_name(*command, "--smooth", "--temporal-weight", options.temporal_weight);
-    command->add_option("--fps", options.fps, "Frames sought, of so many a second at most")
+    command->add_option("--fps", options.fps, "Maximum number of frames per second that are solved")
         ->capture_default_str();
     command->add_option("--threads", options.threads,
-                        "Shapes sought at a time; 0: as many as the machine has cores");
+                        "Shapes solved at the same time; 0: one for each core");
     add_common(*command, arguments->common);
     command->footer(
         "Examples:\n"

@@ -131,7 +131,8 @@ RunRecord film(const AnimateOptions& options, const Shot& shot, const UsePicture
     face::Face& face = studio.face(quality);
     face.drive_jaw_by(script.header.jaw);
     face.set_gravity(script.header.gravity_m_s2);
-    face.move(script.header.motion);
+    face.move(script.header.motion == track::Motion::kDynamic ? face::Motion::kDynamic
+                                                              : face::Motion::kQuasiStatic);
     const track::Timeline timeline(script, channels);
     std::optional<blendshapes::ShapePlayer> shapes;
     scene::ScriptDrives script_drives(script, files.rig);
