@@ -101,8 +101,8 @@ void expect_same(const RigDescription& a, const RigDescription& b) {
     EXPECT_EQ(a.tissue.deep_shear_pa, b.tissue.deep_shear_pa);
     EXPECT_EQ(a.tissue.fibre_passive_strain, b.tissue.fibre_passive_strain);
     EXPECT_EQ(a.skin.bending_n_m, b.skin.bending_n_m);
-    EXPECT_EQ(a.look.skin_tone, b.look.skin_tone);
-    EXPECT_EQ(a.look.seed, b.look.seed);
+    EXPECT_EQ(a.appearance.skin_tone, b.appearance.skin_tone);
+    EXPECT_EQ(a.appearance.seed, b.appearance.seed);
 }
 
 RigDescription unusual_rig() {
@@ -178,8 +178,9 @@ TEST_F(RigFile, TheOldNameOfAppearanceIsReadWithANote) {
 
     json["appearance"] = json["look"];
     write(json);
-    EXPECT_NE(message_of([] { read_rig("rig.json"); }).find("rig.json:/look: expected either"),
-              std::string::npos);
+    EXPECT_NE(
+        risorius::message_of([] { read_rig("rig.json"); }).find("rig.json:/look: expected either"),
+        std::string::npos);
 }
 
 TEST_F(RigFile, EveryDocumentedPlaceForATableTakesAPath) {

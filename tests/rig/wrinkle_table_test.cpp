@@ -29,12 +29,12 @@ Json small_pattern() {
               Json::array({Json{{"landmark", "n"}, {"axis", "y"}, {"plus_mm", {1, 2.5}}}, 7})}}})}};
 }
 
-std::vector<WrinklePattern> read(const Json& pattern) {
+std::vector<WrinklePattern> read_lines(const Json& pattern) {
     return read_wrinkles(JsonCursor::from_json(table_with(pattern), "lines"), {"n", "g"});
 }
 
 TEST(WrinkleTable, IsReadAsWritten) {
-    const std::vector<WrinklePattern> patterns = read(small_pattern());
+    const std::vector<WrinklePattern> patterns = read_lines(small_pattern());
     ASSERT_EQ(patterns.size(), 1u);
     const WrinklePattern& one = patterns[0];
     EXPECT_EQ(one.slot, 1);
@@ -53,14 +53,16 @@ TEST(WrinkleTable, IsReadAsWritten) {
 TEST(WrinkleTable, RefusesUnknownKeysAndLandmarks) {
     Json pattern = small_pattern();
     pattern["colour"] = 1;
-    EXPECT_NE(message_of([&] { read(pattern); }).find("lines:/patterns/0"), std::string::npos);
+    EXPECT_NE(risorius::message_of([&] { read_lines(pattern); }).find("lines:/patterns/0"),
+              std::string::npos);
     pattern = small_pattern();
     pattern["anchor"] = "sto";
-    EXPECT_EQ(message_of([&] { read(pattern); }),
+    EXPECT_EQ(risorius::message_of([&] { read_lines(pattern); }),
               "lines:/patterns/0/anchor: expected a landmark of the atlas, found \"sto\"");
     pattern = small_pattern();
     pattern["slot"] = 3;
-    EXPECT_NE(message_of([&] { read(pattern); }).find("lines:/patterns/0/slot"), std::string::npos);
+    EXPECT_NE(risorius::message_of([&] { read_lines(pattern); }).find("lines:/patterns/0/slot"),
+              std::string::npos);
 }
 
 TEST(WrinkleTable, ARigWithoutOneHasTheLinesOfTheStandardAnatomy) {

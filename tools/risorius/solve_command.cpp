@@ -87,16 +87,18 @@ void add_solve(CLI::App& app) {
                      "Quality of the simulation: \"preview\", \"video\" or \"fine\"")
         ->capture_default_str();
     command
-        ->add_option(
-            "--l1-weight", options.l1_weight,
-            "Cost of an activation of 1; half of the squared size of what is given costs 1")
+        ->add_option("--l1-weight", options.l1_weight,
+                     "The cost of an activation of 1, relative to half the squared norm "
+                     "of the target")
         ->capture_default_str();
     command
-        ->add_option("--l2-weight", options.l2_weight, "Cost of half the square of an activation")
+        ->add_option("--l2-weight", options.l2_weight,
+                     "The cost of half its square, in the same unit")
         ->capture_default_str();
     command
         ->add_option("--temporal-weight", options.temporal_weight,
-                     "Cost of half the square of its change from frame to frame")
+                     "The cost of half the square of its change between frames, in the "
+                     "same unit")
         ->capture_default_str();
     add_old_name(*command, "--price", "--l1-weight", options.l1_weight);
     add_old_name(*command, "--ridge", "--l2-weight", options.l2_weight);
