@@ -1,4 +1,4 @@
-// What every force term must keep: its gradient, force and second derivative belong to its energy.
+// What every energy term must keep: its gradient, force and second derivative belong to its energy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "risorius/core/dense_algebra.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::testing_of {
 
@@ -23,20 +23,20 @@ inline Points random_points(long rows, double amount, unsigned seed) {
     return out;
 }
 
-inline Points force_of(const solve::ForceTerm& term, const Points& x, const Points& v) {
+inline Points force_of(const solve::EnergyTerm& term, const Points& x, const Points& v) {
     Points force = Points::Zero(x.rows(), 3);
     term.add_force(0, x, v, force);
     return force;
 }
 
-inline Points potential_gradient(const solve::ForceTerm& term, const solve::ImplicitStep& step,
+inline Points potential_gradient(const solve::EnergyTerm& term, const solve::ImplicitStep& step,
                                  const Points& x) {
     Points gradient = Points::Zero(x.rows(), 3);
     term.add_potential(step, x, gradient);
     return gradient;
 }
 
-inline Eigen::MatrixXd hessian(const solve::ForceTerm& term, const solve::ImplicitStep& step,
+inline Eigen::MatrixXd hessian(const solve::EnergyTerm& term, const solve::ImplicitStep& step,
                                const Points& x, solve::Curvature curvature) {
     solve::HessianBuilder builder(static_cast<int>(x.rows()), {});
     term.add_hessian(step, x, curvature, builder);
@@ -45,7 +45,7 @@ inline Eigen::MatrixXd hessian(const solve::ForceTerm& term, const solve::Implic
 }
 
 /// The gradient of add_potential against central differences; `tolerance` is a share of the largest entry.
-inline void expect_gradient_of_potential(const solve::ForceTerm& term,
+inline void expect_gradient_of_potential(const solve::EnergyTerm& term,
                                          const solve::ImplicitStep& step, const Points& x,
                                          double difference_m, double tolerance) {
     const Points gradient = potential_gradient(term, step, x);
@@ -65,7 +65,7 @@ inline void expect_gradient_of_potential(const solve::ForceTerm& term,
 }
 
 /// With no velocity the force is minus the slope of the stored energy.
-inline void expect_force_is_minus_slope_of_energy(const solve::ForceTerm& term, double t_s,
+inline void expect_force_is_minus_slope_of_energy(const solve::EnergyTerm& term, double t_s,
                                                   const Points& x, double difference_m,
                                                   double tolerance) {
     Points force = Points::Zero(x.rows(), 3);
@@ -86,7 +86,7 @@ inline void expect_force_is_minus_slope_of_energy(const solve::ForceTerm& term, 
 }
 
 /// The exact second derivative against central differences of the gradient.
-inline void expect_hessian_of_potential(const solve::ForceTerm& term,
+inline void expect_hessian_of_potential(const solve::EnergyTerm& term,
                                         const solve::ImplicitStep& step, const Points& x,
                                         double difference_m, double tolerance) {
     const Eigen::MatrixXd H = hessian(term, step, x, solve::Curvature::kExact);
@@ -109,7 +109,7 @@ inline void expect_hessian_of_potential(const solve::ForceTerm& term,
 }
 
 /// The projected second derivative has no negative part, and is the exact one where that has none.
-inline void expect_projection(const solve::ForceTerm& term, const solve::ImplicitStep& step,
+inline void expect_projection(const solve::EnergyTerm& term, const solve::ImplicitStep& step,
                               const Points& x) {
     ASSERT_EQ(step.start.rows(), x.rows()) << "a step of other points";
     const Eigen::MatrixXd positive = hessian(term, step, x, solve::Curvature::kPositive);

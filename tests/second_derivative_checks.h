@@ -7,7 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include "risorius/core/dense_algebra.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::testing_of {
 

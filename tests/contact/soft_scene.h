@@ -21,7 +21,7 @@ struct SoftScene {
     tissue::GridShape grid{3, 3, 3};
     Eigen::VectorXd mass;
     solve::MotionState state;
-    std::vector<std::shared_ptr<solve::ForceTerm>> terms;
+    std::vector<std::shared_ptr<solve::EnergyTerm>> terms;
     int blocks = 0;
 
     /// With its lowest corner at `low`.

@@ -11,7 +11,7 @@
 namespace risorius::solve::toy {
 
 /// Every node hangs on the origin by a linear spring k and a linear damper d, and bears the load f(t).
-class Anchor : public ForceTerm {
+class Anchor : public EnergyTerm {
   public:
     Anchor(double stiffness, double damping) : k_(stiffness), d_(damping) {}
     std::function<Vec3(double t_s)> load = [](double) { return Vec3::Zero(); };
@@ -58,7 +58,7 @@ class Anchor : public ForceTerm {
 
 /// Links between successive nodes, energy k/4 (|d|^2 - l^2)^2 / l^2: near rest a spring of stiffness 2 k, without
 /// stiffness across, and indefinite when shortened. Weight g along -y on every node.
-class Chain : public ForceTerm {
+class Chain : public EnergyTerm {
   public:
     Chain(double stiffness, double rest_m, double weight_n)
         : k_(stiffness), l_(rest_m), weight_(weight_n) {}
@@ -121,7 +121,7 @@ class Chain : public ForceTerm {
 };
 
 /// Force - k sinh(|x| / l) towards the origin, whose Hessian has no lower bound of use and no negative part.
-class Stiffening : public ForceTerm {
+class Stiffening : public EnergyTerm {
   public:
     Stiffening(double force_n, double length_m) : f_(force_n), l_(length_m) {}
     void add_force(double t_s, const Points& x, const Points&, Points& force) const override {
@@ -151,7 +151,7 @@ class Stiffening : public ForceTerm {
     double f_, l_;
 };
 
-inline MotionSystem system_of(int nodes, double mass_kg, std::shared_ptr<ForceTerm> term,
+inline MotionSystem system_of(int nodes, double mass_kg, std::shared_ptr<EnergyTerm> term,
                               std::vector<char> fixed = {}) {
     MotionSystem system(Eigen::VectorXd::Constant(nodes, mass_kg), std::move(fixed));
     system.add(std::move(term));

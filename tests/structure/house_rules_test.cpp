@@ -89,7 +89,8 @@ TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
     for (const auto& file : files) {
         const std::string text = text_of(file);
         if (file.extension() == ".h") {
-            EXPECT_TRUE(text.starts_with("// ")) << shown(file) << " does not start with a comment";
+            EXPECT_TRUE(text.starts_with("// ") || text.starts_with("/// \\file\n/// "))
+                << shown(file) << " does not start with a comment";
             EXPECT_NE(text.find("#pragma once"), std::string::npos) << shown(file);
             continue;
         }

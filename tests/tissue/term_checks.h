@@ -11,7 +11,7 @@
 
 #include "force_term_checks.h"
 #include "risorius/core/dense_algebra.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "tissue/layered_block.h"
 
 namespace risorius::tissue::laws {
@@ -23,11 +23,11 @@ inline solve::ImplicitStep no_motion(const Points& x) {
     return {0.0, std::numeric_limits<double>::infinity(), x};
 }
 
-inline Points force_of(const solve::ForceTerm& term, const Points& x) {
+inline Points force_of(const solve::EnergyTerm& term, const Points& x) {
     return force_of(term, x, Points::Zero(x.rows(), 3));
 }
 
-inline Eigen::MatrixXd dense_hessian(const solve::ForceTerm& term, const solve::ImplicitStep& step,
+inline Eigen::MatrixXd dense_hessian(const solve::EnergyTerm& term, const solve::ImplicitStep& step,
                                      const Points& x, solve::Curvature curvature) {
     solve::HessianBuilder builder(static_cast<int>(x.rows()), {});
     term.add_hessian(step, x, curvature, builder);
@@ -41,7 +41,7 @@ inline Eigen::MatrixXd dense(const solve::MetricBuilder& builder) {
 }
 
 /// Force = - dE/dx, by central differences of a step that suits bodies of about 1 m.
-inline void expect_force_is_exact(const solve::ForceTerm& term, const Points& x,
+inline void expect_force_is_exact(const solve::EnergyTerm& term, const Points& x,
                                   double tolerance = 1e-8) {
     const Points force = force_of(term, x);
     const double largest = force.cwiseAbs().maxCoeff();
@@ -60,7 +60,7 @@ inline void expect_force_is_exact(const solve::ForceTerm& term, const Points& x,
 }
 
 /// Gradient of the potential against its values, and second derivative against gradients, both with damping.
-inline void expect_potential_is_exact(const solve::ForceTerm& term, const Points& start,
+inline void expect_potential_is_exact(const solve::EnergyTerm& term, const Points& start,
                                       const Points& x, double step_s) {
     const solve::ImplicitStep step{step_s, step_s, start};
     const Points gradient = potential_gradient(term, step, x);
@@ -84,7 +84,7 @@ inline void expect_potential_is_exact(const solve::ForceTerm& term, const Points
     }
 }
 
-inline void expect_positive_curvature(const solve::ForceTerm& term, const Points& start,
+inline void expect_positive_curvature(const solve::EnergyTerm& term, const Points& start,
                                       const Points& x, double step_s) {
     const solve::ImplicitStep step{step_s, step_s, start};
     const Eigen::MatrixXd hessian = dense_hessian(term, step, x, solve::Curvature::kPositive);
@@ -94,7 +94,7 @@ inline void expect_positive_curvature(const solve::ForceTerm& term, const Points
 }
 
 /// The scalar metric is above the second derivative at rest in every direction, and not by far.
-inline void expect_metric_bounds_rest(const solve::ForceTerm& term, const Points& rest,
+inline void expect_metric_bounds_rest(const solve::EnergyTerm& term, const Points& rest,
                                       double step_s, double at_most) {
     const solve::ImplicitStep step{step_s, step_s, rest};
     const Eigen::MatrixXd hessian = dense_hessian(term, step, rest, solve::Curvature::kExact);
@@ -113,7 +113,7 @@ inline void expect_metric_bounds_rest(const solve::ForceTerm& term, const Points
     EXPECT_LT(eigenvalues(metric).maxCoeff(), at_most * stiffest);
 }
 
-inline void expect_rest_is_free(const solve::ForceTerm& term, const Points& rest) {
+inline void expect_rest_is_free(const solve::EnergyTerm& term, const Points& rest) {
     // Against the force of a shape 1 % away
     const double size = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
     const double scale = force_of(term, shaken(rest, 0.01 * size, 11)).cwiseAbs().maxCoeff();
@@ -125,7 +125,7 @@ inline void expect_rest_is_free(const solve::ForceTerm& term, const Points& rest
 }
 
 /// Damping takes energy out, and nothing out of a turning body.
-inline void expect_damping_dissipates(const solve::ForceTerm& term, const Points& x) {
+inline void expect_damping_dissipates(const solve::EnergyTerm& term, const Points& x) {
     const Points v = shaken(Points::Zero(x.rows(), 3), 1.0, 12);
     const Points damping = force_of(term, x, v) - force_of(term, x);
     EXPECT_LT(damping.cwiseProduct(v).sum(), 0.0);
@@ -138,7 +138,7 @@ inline void expect_damping_dissipates(const solve::ForceTerm& term, const Points
 }
 
 /// - K x + the explicit force is the force, with the rate lagged or not.
-inline void expect_secant_is_the_force(const solve::ForceTerm& term, const Points& x) {
+inline void expect_secant_is_the_force(const solve::EnergyTerm& term, const Points& x) {
     const Points v = shaken(Points::Zero(x.rows(), 3), 1.0, 13);
     const Points force = force_of(term, x, v);
     for (const bool lag_rate : {false, true}) {
@@ -151,7 +151,7 @@ inline void expect_secant_is_the_force(const solve::ForceTerm& term, const Point
 }
 
 /// Displacement of the linearised body under a dead load.
-inline Points small_deflection(const solve::ForceTerm& term, const Points& rest,
+inline Points small_deflection(const solve::EnergyTerm& term, const Points& rest,
                                const std::vector<char>& fixed, const Points& load) {
     solve::HessianBuilder builder(static_cast<int>(rest.rows()), fixed);
     term.add_hessian(no_motion(rest), rest, solve::Curvature::kExact, builder);
@@ -168,8 +168,8 @@ inline Points small_deflection(const solve::ForceTerm& term, const Points& rest,
 
 /// Equilibrium under a dead load by Newton's method with halving; `x` is the start and the result. True when no node
 /// moved more than 1e-9 m at last.
-inline bool settle(const solve::ForceTerm& term, const std::vector<char>& fixed, const Points& load,
-                   Points& x, int iterations = 200) {
+inline bool settle(const solve::EnergyTerm& term, const std::vector<char>& fixed,
+                   const Points& load, Points& x, int iterations = 200) {
     const auto total = [&](const Points& y, Points& gradient) {
         gradient = -load;
         const double stored = term.add_potential(no_motion(y), y, gradient);

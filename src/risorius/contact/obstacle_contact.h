@@ -14,11 +14,11 @@
 #include "risorius/contact/contact_law.h"
 #include "risorius/contact/obstacle.h"
 #include "risorius/contact/surface_samples.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::contact {
 
-class ObstacleContact : public solve::ForceTerm {
+class ObstacleContact : public solve::EnergyTerm {
   public:
     ObstacleContact(std::vector<ContactSample> samples, std::shared_ptr<const Obstacle> obstacle,
                     const ContactMaterial& material);

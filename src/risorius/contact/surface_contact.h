@@ -15,7 +15,7 @@
 #include "risorius/contact/contact_law.h"
 #include "risorius/contact/detail/closed_surface.h"
 #include "risorius/contact/surface_samples.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::contact {
 
@@ -27,7 +27,7 @@ struct SurfaceContactOptions {
 
 class CarriedFrame;
 
-class SurfaceContact : public solve::ForceTerm {
+class SurfaceContact : public solve::EnergyTerm {
   public:
     /// Between two closed surfaces over the nodes of one system. Throws Error unless both are closed, at rest.
     SurfaceContact(const Points& rest, const Triangles& first, const Triangles& second,

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -145,6 +146,13 @@ struct Face::Impl {
             channels.column_min());
     }
 
+    // A drive as constructed has no excitation: nothing is active.
+    track::Drive complete(track::Drive drive) const {
+        if (drive.excitation.size() == 0)
+            drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+        return drive;
+    }
+
     // What activation comes to if the drive lasts.
     Eigen::VectorXd steady_activation(const track::Drive& drive) const {
         Eigen::VectorXd activation = driven_jaw.excitation(drive.excitation, drive);
@@ -212,11 +220,11 @@ struct Face::Impl {
     StepStats piece(const DriveAt& drive_at) {
         const double from = static_cast<double>(done) * piece_s,
                      to = static_cast<double>(done + 1) * piece_s;
-        const track::Drive drive = drive_at(to);
+        const track::Drive drive = complete(drive_at(to));
         Eigen::VectorXd excitation;
         dynamics->advance(
             [&](double t) -> const Eigen::VectorXd& {
-                const track::Drive then = drive_at(t);
+                const track::Drive then = complete(drive_at(t));
                 excitation = driven_jaw.excitation(then.excitation, then);
                 return excitation;
             },
@@ -233,8 +241,8 @@ struct Face::Impl {
         const Points carried = x;
         // The move of the piece before is likely to go on: its curvature is the first the search knows.
         // One that went back on the one before is not: it would be sent to and fro.
-        const std::span<const Points> likely(&last_move,
-                                             last_move.rows() > 0 && !went_back ? 1 : 0);
+        const std::span<const Points> warm_start(&last_move,
+                                                 last_move.rows() > 0 && !went_back ? 1 : 0);
         const StepStats figures =
             driven_jaw.implicit_step(tissue, h, piece_s, moves.start, moves.aim, activation,
                                      {moves.moved, gravity_at(drive)},
@@ -245,7 +253,7 @@ struct Face::Impl {
                                       .step_cap_m = kStepCap_m,
                                       .tolerance_rms_m = quality.tolerance_rms_m,
                                       .trust_last = quality.tolerance_rms_m == 0},
-                                     x, now.jaw, likely);
+                                     x, now.jaw, warm_start);
         Points move = x - carried;
         went_back = last_move.rows() > 0 && last_move.cwiseProduct(move).sum() < 0;
         last_move.swap(move);
@@ -356,12 +364,13 @@ void Face::set_gravity(const std::optional<Vec3>& gravity_m_s2) { impl_->gravity
 void Face::set_bite_block(double height_m) { impl_->driven_jaw.set_bite_block(height_m); }
 
 track::Drive Face::driven(track::Drive drive) const {
+    drive = impl_->complete(std::move(drive));
     drive.excitation = impl_->driven_jaw.excitation(drive.excitation, drive);
     return drive;
 }
 
 void Face::start(const DriveAt& drive) {
-    const track::Drive first = drive(0.0);
+    const track::Drive first = impl_->complete(drive(0.0));
     const Eigen::VectorXd activation = impl_->steady_activation(first);
     impl_->done = 0;
     impl_->history.clear();
@@ -405,7 +414,7 @@ StepStats Face::step(const DriveAt& drive) {
 
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
     if (impl_->how == Motion::kQuasiStatic) {
-        const track::Drive now = drive(t_s);
+        const track::Drive now = impl_->complete(drive(t_s));
         impl_->history.push_back(
             impl_->settle(impl_->steady_activation(now), now, {.iterations = kRestIterations}));
         return impl_->pose(1.0);
@@ -430,7 +439,12 @@ Eigen::VectorXd Face::activation_at(double t_s) const {
 
 StepStats Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                        const StaticOptions& options) {
-    return impl_->settle(impl_->driven_jaw.excitation(activation, kinematic), kinematic, options);
+    const Eigen::VectorXd given =
+        activation.size() > 0
+            ? activation
+            : Eigen::VectorXd(Eigen::VectorXd::Zero(impl_->channels.column_count()));
+    return impl_->settle(impl_->driven_jaw.excitation(given, kinematic), impl_->complete(kinematic),
+                         options);
 }
 
 const Points& Face::nodes() const { return impl_->now.x; }
@@ -450,11 +464,12 @@ Points Face::pull_back(const Points& vertex_gradient) const {
 FacePose Face::pose() const { return impl_->pose(1.0); }
 
 FacePose Face::posed(Points vertices, const track::Drive& drive) const {
-    return impl_->poser->posed(std::move(vertices), drive, impl_->driven_jaw.wanted(drive));
+    return impl_->poser->posed(std::move(vertices), impl_->complete(drive),
+                               impl_->driven_jaw.wanted(drive));
 }
 
 void Face::fold(FacePose& pose, const track::Drive& drive) const {
-    impl_->poser->fold(pose, drive.excitation);
+    impl_->poser->fold(pose, impl_->complete(drive).excitation);
 }
 
 double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
@@ -474,6 +489,21 @@ const rig::Head& Face::head() const { return impl_->head; }
 const Triangles& Face::simulated_skin() const { return impl_->shell.fine; }
 const Shell& Face::shell() const { return impl_->shell; }
 const std::vector<StepStats>& Face::history() const { return impl_->history; }
+
+void Face::add_force(std::shared_ptr<solve::EnergyTerm> force) {
+    impl_->statics->moved();
+    impl_->statics->forget();
+    impl_->tissue.add_term(std::move(force));
+    impl_->tissue.prepare(impl_->motion.effective_step_s());
+}
+
+const Tets& Face::tets() const { return impl_->mesh.tets; }
+
+double Face::energy_j() const {
+    Points unused;
+    impl_->tissue.begin_rest(impl_->now.x);
+    return impl_->tissue.static_energy(impl_->now.x, impl_->now.activation, unused);
+}
 
 void Face::scale_muscle(const std::string& muscle, double factor) {
     impl_->statics->moved();
@@ -496,6 +526,44 @@ void Face::scale_lips(const rig::LipsDescription& lips) {
 
 std::vector<SolidFigures> Face::solid_figures() const {
     return impl_->tissue.solids().figures(impl_->now.x, impl_->now.activation);
+}
+
+std::optional<MuscleState> Face::muscle_state(const std::string& muscle, Side side) const {
+    const int column = impl_->channels.column(muscle, side);
+    const muscle::FibreSet& fibres = impl_->tissue.fibres();
+    const auto states = fibres.states(impl_->now.x, impl_->now.activation);
+    MuscleState out{.length_m = 0, .stretch = 0, .force_n = 0};
+    int count = 0;
+    for (std::size_t f = 0; f < states.size(); ++f) {
+        if (column < 0 || fibres.fibres()[f].column != column) continue;
+        out.length_m += states[f].length_m;
+        out.stretch += states[f].stretch;
+        out.force_n += states[f].force_n;
+        ++count;
+    }
+    if (count == 0) return std::nullopt;
+    out.length_m /= count;
+    out.stretch /= count;
+    return out;
+}
+
+Vec3 Face::landmark(const std::string& id) const {
+    const rig::Head& head = impl_->head;
+    const Vec3 rest = head.landmark(id);
+    const auto given = impl_->rig.landmarks.find(id);
+    int vertex = given != impl_->rig.landmarks.end() ? given->second.vertex : -1;
+    Vec3 offset = Vec3::Zero();
+    if (vertex < 0) {
+        double min_squared = std::numeric_limits<double>::infinity();
+        for (const int v : head.skin.reshaped()) {
+            const double squared = (head.vertices.row(v).transpose() - rest).squaredNorm();
+            if (squared >= min_squared) continue;
+            min_squared = squared;
+            vertex = v;
+        }
+        offset = rest - head.vertices.row(vertex).transpose();
+    }
+    return pose().vertices.row(vertex).transpose() + offset;
 }
 
 double Face::mean_stretch(const std::string& muscle) const {

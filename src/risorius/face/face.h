@@ -1,6 +1,9 @@
-// The simulated face: soft tissue, skin, muscles, jaw, lids and eyes of one rig, stepped in time by implicit Euler.
-//
-// The state is a function of the drives alone: same drives, same bytes. Its equations are in face_tissue.h.
+/// \file
+/// The simulated face of one rig: soft tissue, skin, muscles, jaw, lids and eyes. It is stepped in time by BDF2, the second-order
+/// backward difference formula.
+///
+/// The state depends on the drives alone: the same drives give the same bytes. The equations are in
+/// solver/detail/face_tissue.h. A drive without excitation (`track::Drive{}`) means that no muscle is active.
 #pragma once
 
 #include <array>
@@ -21,6 +24,7 @@
 #include "risorius/geom/polygon_mesh.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/rig_description.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/motion.h"
 
@@ -53,6 +57,12 @@ struct Quality {
 Quality quality_named(const std::string& name);
 
 using track::Motion;
+
+struct MuscleState {
+    double length_m = 0;  ///< mean of its fibres
+    double stretch = 1;   ///< mean of its fibres, length over optimal length
+    double force_n = 0;   ///< sum of its fibres
+};
 
 /// The drive at any time, s.
 using DriveAt = std::function<track::Drive(double t_s)>;
@@ -142,11 +152,28 @@ class Face {
     const Shell& shell() const;
     const std::vector<StepStats>& history() const;  ///< of every piece since start()
 
+    /// Adds a force to all others, see "How to add a force" in solve/energy_term.h. Its nodes are the rows of nodes(); its metric
+    /// covers the nodes of the tissue only, the first node_count() rows. Call it before start().
+    void add_force(std::shared_ptr<solve::EnergyTerm> force);
+
+    /// The tetrahedra of the tissue, T x 4 indices of nodes().
+    const Tets& tets() const;
+    /// Potential energy of all energy terms at nodes(), J: without inertia and damping, with the contact pairs found last. The
+    /// active work of muscles counts, so that it may be negative.
+    double energy_j() const;
+
     /// Scales the force of every fibre of a muscle, for calibration.
     void scale_muscle(const std::string& muscle, double factor);
     void scale_lips(const rig::LipsDescription& lips);
     /// Mean length of a muscle's fibres over their rest length, now.
     double mean_stretch(const std::string& muscle) const;
+
+    /// Length and force of one side of a muscle made of fibres, now. Nothing for volume muscles and unknown names. The force is
+    /// isometric: it leaves out the effect of the fibres' speed.
+    std::optional<MuscleState> muscle_state(const std::string& muscle, Side side) const;
+    /// Position of a landmark of head().landmarks in pose(), m. A landmark that is no vertex rides on the nearest vertex of the
+    /// skin. Throws std::out_of_range for an unknown landmark. Costs as much as pose().
+    Vec3 landmark(const std::string& id) const;
 
     /// The volume muscles after the last step.
     std::vector<SolidFigures> solid_figures() const;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::muscle {
 

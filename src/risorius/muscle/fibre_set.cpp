@@ -262,6 +262,29 @@ Eigen::VectorXd FibreSet::mean_stretch(const Points& x) const {
     return stretch;
 }
 
+std::vector<FibreSet::State> FibreSet::states(const Points& x,
+                                              const Eigen::VectorXd& activation) const {
+    place_points(x);
+    std::vector<State> states;
+    for (const Fibre& fibre : fibres_) {
+        State state;
+        double optimal = 0;
+        for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
+            const double segment = length(p);
+            const double l0 = optimal_length_m_[static_cast<std::size_t>(p)];
+            state.length_m += segment;
+            optimal += l0;
+            state.force_n += l0 * fibre.f0_n *
+                             (activation[fibre.column] * curves_.active(segment / l0).force +
+                              curves_.passive(segment / l0).force);
+        }
+        state.stretch = state.length_m / optimal;
+        state.force_n /= optimal;
+        states.push_back(state);
+    }
+    return states;
+}
+
 Points FibreSet::positions(const Points& x) const {
     place_points(x);
     Points positions(static_cast<Eigen::Index>(points_.size()), 3);

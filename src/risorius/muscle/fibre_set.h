@@ -93,6 +93,15 @@ class FibreSet {
     /// lam of each fibre: its length over the sum of its optimal lengths.
     Eigen::VectorXd mean_stretch(const Points& x) const;
 
+    struct State {
+        double length_m = 0;  ///< of all segments
+        double stretch = 1;   ///< length over the sum of the optimal lengths
+        double force_n =
+            0;  ///< isometric tension F0 [a fl + fp], mean over the segments by their optimal length
+    };
+    /// One state per fibre. `activation` is indexed by Fibre::column.
+    std::vector<State> states(const Points& x, const Eigen::VectorXd& activation) const;
+
     /// Where the points are, P x 3, m: for drawing and measuring.
     Points positions(const Points& x) const;
 

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "risorius/muscle/fibre_set.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::muscle {
 

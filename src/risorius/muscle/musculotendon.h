@@ -35,7 +35,7 @@
 #include "risorius/muscle/detail/anchors.h"
 #include "risorius/muscle/detail/plane_guide.h"
 #include "risorius/muscle/muscle_curves.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/solid_material.h"
 
 namespace risorius::muscle {
@@ -61,7 +61,7 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json);
 /// Activation at a time.
 using ActivationAt = std::function<double(double t_s)>;
 
-class Musculotendon final : public solve::ForceTerm {
+class Musculotendon final : public solve::EnergyTerm {
   public:
     /// Nodes are those of the grid; `rest` tells how segments share l0, by their lengths. Throws Error for parameters
     /// outside their ranges (named below `place`), an elastic tendon without length and a rigid one on a plane among them, and std::invalid_argument

@@ -175,7 +175,7 @@ MuscleBody build_muscle(const MuscleDescription& description, MuscleTask task) {
     Points rest;
     std::optional<tissue::CellBody> cells;
     Eigen::VectorXd mass_kg;
-    std::shared_ptr<solve::ForceTerm> difference_solid;
+    std::shared_ptr<solve::EnergyTerm> difference_solid;
     if (d.shape) {
         const muscle::Belly belly = muscle::muscle_belly(*d.shape, d.grid);
         d.grid = belly.grid;

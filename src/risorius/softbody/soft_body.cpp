@@ -24,7 +24,7 @@ namespace {
 struct Matter {
     Points rest;
     Eigen::VectorXd mass_kg, drag_ns_per_m;
-    std::shared_ptr<solve::ForceTerm> inner;  ///< elasticity, damping, incompressibility
+    std::shared_ptr<solve::EnergyTerm> inner;  ///< elasticity, damping, incompressibility
     Triangles surface;
     std::vector<std::array<int, 2>> wires;
 };

@@ -24,7 +24,7 @@ MotionSystem::MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed)
     }
 }
 
-void MotionSystem::add(std::shared_ptr<ForceTerm> term) { terms_.push_back(std::move(term)); }
+void MotionSystem::add(std::shared_ptr<EnergyTerm> term) { terms_.push_back(std::move(term)); }
 
 void MotionSystem::place_fixed(double t_s, Points& x, Points& v) const {
     for (const int i : fixed_nodes_) v.row(i).setZero();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "risorius/core/types.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::solve {
 
@@ -26,13 +26,13 @@ class MotionSystem {
     /// Throws std::invalid_argument unless every free node has a positive, finite mass.
     MotionSystem(Eigen::VectorXd mass_kg, std::vector<char> fixed);
 
-    void add(std::shared_ptr<ForceTerm> term);
+    void add(std::shared_ptr<EnergyTerm> term);
     void set_boundary_conditions(PrescribedMotion motion) { prescribed_ = std::move(motion); }
 
     int size() const { return static_cast<int>(mass_kg_.size()); }
     const Eigen::VectorXd& mass_kg() const { return mass_kg_; }
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per node
-    const std::vector<std::shared_ptr<ForceTerm>>& terms() const { return terms_; }
+    const std::vector<std::shared_ptr<EnergyTerm>>& terms() const { return terms_; }
 
     /// Puts fixed nodes where they belong at time t (as prescribed; otherwise v = 0).
     void place_fixed(double t_s, Points& x, Points& v) const;
@@ -56,7 +56,7 @@ class MotionSystem {
     Points inverse_mass_;  ///< of each coordinate, 1/kg; 0 on fixed nodes
     std::vector<char> fixed_;
     std::vector<int> fixed_nodes_;
-    std::vector<std::shared_ptr<ForceTerm>> terms_;
+    std::vector<std::shared_ptr<EnergyTerm>> terms_;
     PrescribedMotion prescribed_;
 };
 

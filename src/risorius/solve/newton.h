@@ -1,4 +1,4 @@
-// Newton's method on the incremental potential of a system of nodes (force_term.h): one implicit Euler step, or an
+// Newton's method on the incremental potential of a system of nodes (energy_term.h): one implicit Euler step, or an
 // equilibrium when the step is infinite.
 //
 //   Phi(x) = sum m |x - y|^2 / (2 h^2) + terms(x),   y = x_n + h v_n       g = dPhi/dx       d   Newton's move

@@ -4,7 +4,7 @@
 
 namespace risorius::solve {
 
-PartTerm::PartTerm(std::shared_ptr<ForceTerm> term, int first, int count)
+PartTerm::PartTerm(std::shared_ptr<EnergyTerm> term, int first, int count)
     : term_(std::move(term)), first_(first), count_(count), hessian_(count, {}) {}
 
 void PartTerm::begin_step(double t_s, double step_s, const Points& x, const Points& v) {

@@ -1,16 +1,17 @@
-// The force term of one body in a system of several: it sees its own rows alone, numbered from 0.
+/// \file
+/// The energy term of one body in a system of several bodies: it sees only its own rows, numbered from 0.
 #pragma once
 
 #include <memory>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::solve {
 
-class PartTerm : public ForceTerm {
+class PartTerm : public EnergyTerm {
   public:
     /// Rows [first, first + count) of the system are the term's.
-    PartTerm(std::shared_ptr<ForceTerm> term, int first, int count);
+    PartTerm(std::shared_ptr<EnergyTerm> term, int first, int count);
 
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
@@ -26,7 +27,7 @@ class PartTerm : public ForceTerm {
   private:
     void copy_to(MetricBuilder& part, MetricBuilder& whole) const;
 
-    std::shared_ptr<ForceTerm> term_;
+    std::shared_ptr<EnergyTerm> term_;
     int first_, count_;
     mutable Points x_, v_, start_, out_;  // the part's rows
     mutable HessianBuilder hessian_;

@@ -77,7 +77,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const SparseCh
 
 StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseMetric& metric,
                                  Points& x, const QuasiNewtonOptions& options,
-                                 std::span<const Points> likely) {
+                                 std::span<const Points> warm_start) {
     const long n = x.rows();
     const auto memory = static_cast<std::size_t>(std::max(options.memory, 0));
     in_double_.resize(options.pairs == Precision::kDouble ? memory : 0);
@@ -92,18 +92,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
     report.evaluations = 1;
     report.energy_j = e;
 
-    for (const Points& move : likely) {
-        if (move.isZero(0.0)) continue;
-        trial_ = x + move;
-        const double trial_energy = energy(trial_, trial_gradient_);
-        ++report.evaluations;
-        remember(1.0, move);
-        if (trial_energy <= e) {  // written so that a NaN is refused
-            x.swap(trial_);
-            gradient_.swap(trial_gradient_);
-            report.energy_j = e = trial_energy;
-        }
-    }
+    try_moves(energy, warm_start, e, x, report);
 
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
         direction(metric);
@@ -176,6 +165,22 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
         }
     }
     return report;
+}
+
+void QuasiNewton::try_moves(const EnergyAndGradient& energy, std::span<const Points> moves,
+                            double& e, Points& x, StepReport& report) {
+    for (const Points& move : moves) {
+        if (move.isZero(0.0)) continue;
+        trial_ = x + move;
+        const double trial_energy = energy(trial_, trial_gradient_);
+        ++report.evaluations;
+        remember(1.0, move);
+        if (trial_energy <= e) {  // written so that a NaN is refused
+            x.swap(trial_);
+            gradient_.swap(trial_gradient_);
+            report.energy_j = e = trial_energy;
+        }
+    }
 }
 
 StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,

@@ -1,9 +1,11 @@
-// L-BFGS over node positions with one prefactored matrix as the initial metric (Liu, Bouaziz &
-// Kavan 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials", ACM TOG
-// 36(3)).
-//
-//   x   node positions, n x 3, m      E(x)   incremental potential, J      A   prefactored metric,
-//   N/m
+/// \file
+/// L-BFGS over node positions with one prefactored matrix as the initial metric.
+///
+/// - x: node positions, n x 3, m
+/// - E(x): incremental potential, J
+/// - A: prefactored metric, N/m
+///
+/// Source: Liu, Bouaziz & Kavan 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials", ACM TOG 36(3).
 #pragma once
 
 #include <functional>
@@ -54,12 +56,15 @@ class QuasiNewton {
   public:
     StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                         const QuasiNewtonOptions& options);
-    /// `likely` are moves to try first, one after the other, such as the one the step before ended with: each costs an
+    /// Tries the moves in `warm_start` first, one after the other, for example the move of the step before. Each costs an
     /// evaluation but no solve, and its curvature is remembered even where it does not lead downhill.
     StepReport minimise(const EnergyAndGradient& energy, const InverseMetric& metric, Points& x,
-                        const QuasiNewtonOptions& options, std::span<const Points> likely = {});
+                        const QuasiNewtonOptions& options, std::span<const Points> warm_start = {});
 
   private:
+    /// Takes each of the moves that does not raise the energy `e`, and remembers the curvature of all.
+    void try_moves(const EnergyAndGradient& energy, std::span<const Points> moves, double& e,
+                   Points& x, StepReport& report);
     template <class Real>
     struct Pair {
         Eigen::Matrix<Real, Eigen::Dynamic, 3, Eigen::RowMajor> step;             ///< s

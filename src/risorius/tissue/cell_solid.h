@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/cell_body.h"
 
 namespace risorius::tissue {
@@ -24,7 +24,7 @@ class CellKernel;
 struct CellMaterialLaw;
 }  // namespace detail
 
-class CellSolid : public solve::ForceTerm {
+class CellSolid : public solve::EnergyTerm {
   public:
     /// Throws std::invalid_argument when a cell has no positive volume at rest or the arrays do not fit.
     explicit CellSolid(CellBody body);

@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/solve/lanes.h"
 #include "risorius/tissue/solid_material.h"
 
 namespace risorius::tissue {
 
-class DifferenceSolid : public solve::ForceTerm {
+class DifferenceSolid : public solve::EnergyTerm {
   public:
     /// Nodes of the system are those of the grid. Throws Error as check(solid, place) does. Mass and drag are not its
     /// affair: see node_mass and node_drag.

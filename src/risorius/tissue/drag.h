@@ -3,11 +3,11 @@
 // Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.2.
 #pragma once
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::tissue {
 
-class Drag : public solve::ForceTerm {
+class Drag : public solve::EnergyTerm {
   public:
     /// c of each node, N s/m   [0, inf)
     explicit Drag(Eigen::VectorXd drag_ns_per_m);

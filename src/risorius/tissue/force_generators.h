@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "risorius/core/types.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/solve/node_blend.h"
 
 namespace risorius::tissue {
@@ -52,7 +52,7 @@ void check(const ForceGenerator& generator, const std::string& place);
 /// Explicit methods see the force at each time they ask for. An implicit step sees its mean over the step, so that the body
 /// receives the whole impulse however long the steps are and a short pulse is not stepped over; an equilibrium sees the
 /// force at its time.
-class ForceGenerators : public solve::ForceTerm {
+class ForceGenerators : public solve::EnergyTerm {
   public:
     explicit ForceGenerators(std::vector<ForceGenerator> generators);
 

@@ -1,13 +1,13 @@
 // Weight of the nodes of any body: f = m g.
 #pragma once
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::tissue {
 
 constexpr double kStandardGravity = 9.81;  ///< m/s^2, as the experiments of the thesis use it
 
-class Gravity : public solve::ForceTerm {
+class Gravity : public solve::EnergyTerm {
   public:
     /// One mass per node, kg, those of fixed nodes included.
     explicit Gravity(Eigen::VectorXd mass_kg,

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/metric_elements.h"
 
 namespace risorius::tissue {
@@ -50,7 +50,7 @@ Eigen::VectorXd node_mass(const GridCurve& curve);  ///< kg
 Eigen::VectorXd node_drag(const GridCurve& curve);  ///< N s/m
 
 /// Weight and drag are terms of their own.
-class GridCurveTerm : public solve::ForceTerm {
+class GridCurveTerm : public solve::EnergyTerm {
   public:
     /// `curve` has passed check().
     explicit GridCurveTerm(const GridCurve& curve);

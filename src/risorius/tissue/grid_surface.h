@@ -16,14 +16,14 @@
 
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/metric_elements.h"
 #include "risorius/tissue/surface_material.h"
 
 namespace risorius::tissue {
 
 /// Weight and drag are terms of their own.
-class GridSurfaceTerm : public solve::ForceTerm {
+class GridSurfaceTerm : public solve::EnergyTerm {
   public:
     /// `surface` has passed check().
     explicit GridSurfaceTerm(const GridSurface& surface);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "risorius/core/types.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/solve/node_blend.h"
 
 namespace risorius::tissue {
@@ -28,7 +28,7 @@ struct PointSpring {
 /// Throws Error with the field named below `place`.
 void check(const PointSpring& spring, const std::string& place);
 
-class PointSprings : public solve::ForceTerm {
+class PointSprings : public solve::EnergyTerm {
   public:
     explicit PointSprings(std::vector<PointSpring> springs);
 
@@ -56,7 +56,7 @@ class PointSprings : public solve::ForceTerm {
 /// attach, move and release may be called from any thread at any time; they wait for the next begin_step, so that within a
 /// step nothing changes and the same calls between the same steps give the same motion. All else belongs to the thread
 /// that steps the system.
-class InteractiveSpring : public solve::ForceTerm {
+class InteractiveSpring : public solve::EnergyTerm {
   public:
     /// Throws std::invalid_argument unless both are finite and not negative.
     explicit InteractiveSpring(double stiffness_n_per_m, double damping_ns_per_m = 0);

@@ -1,13 +1,18 @@
-// The skin: a membrane of triangles with bending at the edges between them.
-//
-//   F   3 x 2 deformation gradient     A   rest area, m^2     k   membrane stiffness, N/m     kB
-//   bending stiffness, N m membrane   A k/4 |F^T F - I|^2 bending    w/2 (s - S)^2,  s = |sum c_i
-//   x_i|,  S = s at rest,  w = 3 kB / (A_1 + A_2),  c the cotangent stencil of the
-//              four nodes of an edge (Bergou et al. 2006, "A quadratic bending model for
-//              inextensible surfaces")
-//
-// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2), so that its gradient exists
-// everywhere; at a flat rest shape S = 0 and the term is the plain quadratic w/2 |l|^2.
+/// \file
+/// The skin: a membrane of triangles with bending at the edges between them.
+///
+///     membrane   E = A k/4 |F^T F - I|^2
+///     bending    E = w/2 (s - S)^2,   s = |sum c_i x_i|,   S = s at rest,   w = 3 kB / (A_1 + A_2)
+///
+/// - F: 3 x 2 deformation gradient
+/// - A: rest area, m^2
+/// - k: membrane stiffness, N/m
+/// - kB: bending stiffness, N m
+/// - c: cotangent stencil of the four nodes of an edge (Bergou et al. 2006, "A quadratic bending model for inextensible
+///   surfaces")
+///
+/// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2) with l = sum c_i x_i, so that its gradient exists
+/// everywhere. At a flat rest shape S = 0 and the term is the plain quadratic w/2 |l|^2.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/principal_stretches.h"
 #include "risorius/tissue/skin_sheet.h"
 

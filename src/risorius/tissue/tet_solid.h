@@ -1,11 +1,14 @@
-// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible
-// solid.
-//
-//   F   deformation gradient     J = det F     V   rest volume, m^3     mu, K   shear and bulk
-//   modulus, Pa E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
-//
-// J is signed, so an inverted element is not a second zero of the energy. Below J_c tissue is as good as crushed and hardens, so that
-// what presses on it runs out of force before an element turns over.
+/// \file
+/// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible solid.
+///
+///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
+///
+/// - F: deformation gradient; J = det F
+/// - V: rest volume, m^3
+/// - mu, K: shear and bulk modulus, Pa
+///
+/// J is signed, so that an inverted element is not a second zero of the energy. Below J_c tissue counts as crushed and hardens:
+/// what presses on it runs out of force before an element inverts.
 #pragma once
 
 #include <array>

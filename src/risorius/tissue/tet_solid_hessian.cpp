@@ -2,7 +2,7 @@
 //   psi_i = mu s_i (s_i^2 - 1) + K (J - 1 + c min(0, J - J_c)) s_j s_k
 #include <algorithm>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/principal_stretches.h"
 #include "risorius/tissue/tet_solid.h"
 

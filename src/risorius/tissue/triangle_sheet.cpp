@@ -78,13 +78,10 @@ TriangleSheetTerm::TriangleSheetTerm(const TriangleSurface& surface) {
     add_bends(surface);
 }
 
-void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
+// The hinges of the inner edges, and which of them the edges of each triangle are.
+auto TriangleSheetTerm::find_hinges(const TriangleSurface& surface)
+    -> std::vector<std::array<EdgeOf, 3>> {
     const Triangles& triangles = surface.triangles;
-    triangle_count_ = static_cast<int>(triangles.rows());
-    struct EdgeOf {
-        int hinge = -1;
-        double sign = 1;
-    };
     std::vector<std::array<EdgeOf, 3>> edges_of(static_cast<std::size_t>(triangles.rows()));
     for (const auto& sides : detail::inner_edges(triangles)) {
         const EdgeSide& first = sides[0];
@@ -115,7 +112,13 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
             {index, turned ? -1.0 : 1.0};
         hinges_.push_back(hinge);
     }
+    return edges_of;
+}
 
+void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
+    const Triangles& triangles = surface.triangles;
+    triangle_count_ = static_cast<int>(triangles.rows());
+    const std::vector<std::array<EdgeOf, 3>> edges_of = find_hinges(surface);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
         const Mat2& zeta = material_of(surface, t).bending_n_per_m;
         if (!(zeta.maxCoeff() > 0)) continue;

@@ -13,15 +13,16 @@
 // twist.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/metric_elements.h"
 #include "risorius/tissue/triangle_surface.h"
 
 namespace risorius::tissue {
 
-class TriangleSheetTerm : public solve::ForceTerm {
+class TriangleSheetTerm : public solve::EnergyTerm {
   public:
     /// `surface` has passed check(). Edges of one triangle, or more than two, do not bend.
     explicit TriangleSheetTerm(const TriangleSurface& surface);
@@ -61,6 +62,11 @@ class TriangleSheetTerm : public solve::ForceTerm {
         Mat3 Q = Mat3::Zero();
         Mat3 curvature = Mat3::Zero();  ///< (b_11, b_22, b_12) by each fold
     };
+    struct EdgeOf {
+        int hinge = -1;  ///< -1: an edge of one triangle
+        double sign = 1;
+    };
+    std::vector<std::array<EdgeOf, 3>> find_hinges(const TriangleSurface& surface);
     void add_bends(const TriangleSurface& surface);
     /// theta - theta0 of every hinge, and the moments sum Q (theta - theta0); returns the energy.
     double fold(const Points& x, Eigen::VectorXd& moment) const;

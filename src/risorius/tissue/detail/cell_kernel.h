@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/cell_body.h"
 #include "risorius/tissue/detail/cell_lanes.h"
 

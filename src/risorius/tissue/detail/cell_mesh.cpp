@@ -41,30 +41,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         if (static_cast<std::int64_t>(root.along(axis)) << (deepest_ + 1) >= (1 << 21))
             throw std::invalid_argument("CellMesh: too fine");
 
-    const auto lowest = [&](const CellPlace& place) {
-        return key_of(corner_of(place, deepest_, {0, 0, 0}));
-    };
-    std::sort(places.begin(), places.end(),
-              [&](const CellPlace& a, const CellPlace& b) { return lowest(a) < lowest(b); });
-    double filled = 0;
-    for (const CellPlace& place : places) {
-        Cell cell;
-        cell.place = place;
-        for (int axis = 0; axis < 3; ++axis) {
-            const int along = root.cells(axis) << place.level;
-            const auto i = static_cast<std::size_t>(axis);
-            if (place.at[i] < 0 || place.at[i] >= along)
-                throw std::invalid_argument("CellMesh: a cell lies outside its grid");
-            cell.size[axis] = 1.0 / along;
-            cell.low[axis] = static_cast<double>(place.at[i]) / along;
-        }
-        filled += cell.size.prod();
-        by_place_.emplace_back(place, static_cast<int>(cells_.size()));
-        cells_.push_back(cell);
-    }
-    std::sort(by_place_.begin(), by_place_.end());
-    if (std::abs(filled - 1) > 1e-9)
-        throw std::invalid_argument("CellMesh: the cells do not fill the cube");
+    add_cells(std::move(places));
 
     const auto corner_key = [&](const CellPlace& place, const std::array<int, 3>& halves) {
         std::array<std::int64_t, 3> at = corner_of(place, deepest_, halves);
@@ -141,6 +118,34 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
                 units /
                 static_cast<double>(static_cast<std::int64_t>(root.cells(axis)) << (deepest_ + 1));
         }
+}
+
+// The cells in the order of their lowest corners.
+void CellMesh::add_cells(std::vector<CellPlace> places) {
+    const auto lowest = [&](const CellPlace& place) {
+        return key_of(corner_of(place, deepest_, {0, 0, 0}));
+    };
+    std::sort(places.begin(), places.end(),
+              [&](const CellPlace& a, const CellPlace& b) { return lowest(a) < lowest(b); });
+    double filled = 0;
+    for (const CellPlace& place : places) {
+        Cell cell;
+        cell.place = place;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int along = root_.cells(axis) << place.level;
+            const auto i = static_cast<std::size_t>(axis);
+            if (place.at[i] < 0 || place.at[i] >= along)
+                throw std::invalid_argument("CellMesh: a cell lies outside its grid");
+            cell.size[axis] = 1.0 / along;
+            cell.low[axis] = static_cast<double>(place.at[i]) / along;
+        }
+        filled += cell.size.prod();
+        by_place_.emplace_back(place, static_cast<int>(cells_.size()));
+        cells_.push_back(cell);
+    }
+    std::sort(by_place_.begin(), by_place_.end());
+    if (std::abs(filled - 1) > 1e-9)
+        throw std::invalid_argument("CellMesh: the cells do not fill the cube");
 }
 
 CellMesh::Support CellMesh::support(const Cell& cell) const {

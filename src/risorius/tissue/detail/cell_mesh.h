@@ -75,6 +75,7 @@ class CellMesh {
     Vec3 interpolate(const Points& vertices, const Vec3& a) const;
 
   private:
+    void add_cells(std::vector<CellPlace> places);
     GridShape root_;
     std::vector<Cell>
         cells_;  ///< ascending by lowest corner, so that neighbours are near in memory

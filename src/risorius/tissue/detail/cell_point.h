@@ -3,7 +3,7 @@
 //   s_ij  stress on material coordinates: dE/dr_i = sum_j s_ij r_j at a point, weighed with it
 #pragma once
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/cell_body.h"
 
 namespace risorius::tissue::detail {

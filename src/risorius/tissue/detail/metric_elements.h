@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/tissue/surface_material.h"
 
 namespace risorius::tissue {

@@ -104,6 +104,31 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
     }
 }
 
+namespace {
+
+// Where in a cell p is, 0..1 within it on each axis: Newton on the trilinear map, begun in the middle.
+Vec3 place_in_cell(const Vec3& p, const Eigen::Matrix<double, 3, 8>& corner) {
+    Vec3 s = Vec3::Constant(0.5);
+    for (int iteration = 0; iteration < 8; ++iteration) {
+        const std::array<double, 8> w = tissue::trilinear_weights(s);
+        Vec3 at = Vec3::Zero();
+        Mat3 slope = Mat3::Zero();
+        for (int c = 0; c < 8; ++c) {
+            at += w[static_cast<std::size_t>(c)] * corner.col(c);
+            const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
+                                 c & 1 ? s[2] : 1 - s[2]};
+            slope.col(0) += (c & 4 ? 1 : -1) * f[1] * f[2] * corner.col(c);
+            slope.col(1) += (c & 2 ? 1 : -1) * f[0] * f[2] * corner.col(c);
+            slope.col(2) += (c & 1 ? 1 : -1) * f[0] * f[1] * corner.col(c);
+        }
+        s += (slope.fullPivLu().solve(p - at)).cwiseMax(-0.5).cwiseMin(0.5);
+        s = s.cwiseMax(-2.0).cwiseMin(3.0);
+    }
+    return s;
+}
+
+}  // namespace
+
 void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                         std::vector<Attachment>& attachments) {
     const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
@@ -144,23 +169,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                     corner.col(c) =
                         part.rest.row(cell.vertex[static_cast<std::size_t>(c)]).transpose();
                 if ((corner.rowwise().mean() - p).norm() > 0.03) continue;
-                // Where in the cell p is: Newton on the trilinear map, begun in the middle
-                Vec3 s = Vec3::Constant(0.5);
-                for (int iteration = 0; iteration < 8; ++iteration) {
-                    const std::array<double, 8> w = tissue::trilinear_weights(s);
-                    Vec3 at = Vec3::Zero();
-                    Mat3 slope = Mat3::Zero();
-                    for (int c = 0; c < 8; ++c) {
-                        at += w[static_cast<std::size_t>(c)] * corner.col(c);
-                        const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
-                                             c & 1 ? s[2] : 1 - s[2]};
-                        slope.col(0) += (c & 4 ? 1 : -1) * f[1] * f[2] * corner.col(c);
-                        slope.col(1) += (c & 2 ? 1 : -1) * f[0] * f[2] * corner.col(c);
-                        slope.col(2) += (c & 1 ? 1 : -1) * f[0] * f[1] * corner.col(c);
-                    }
-                    s += (slope.fullPivLu().solve(p - at)).cwiseMax(-0.5).cwiseMin(0.5);
-                    s = s.cwiseMax(-2.0).cwiseMin(3.0);
-                }
+                const Vec3 s = place_in_cell(p, corner);
                 const Vec3 excess = (s - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
                 const double out = std::max(0.0, excess.maxCoeff());
                 if (out >= least_excess) continue;
@@ -196,7 +205,12 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
             binding.apart_at_rest -=
                 binding.solid_weight[k] * rest_.row(binding.solid[k]).transpose();
     }
+    add_supports();
+}
 
+void MuscleSolids::add_supports() {
+    const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
+    const auto area = [&](int node) { return std::pow(volume[node], 2.0 / 3.0); };
     std::vector<tissue::ZeroLengthSprings::Tether> supports;
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];

@@ -154,6 +154,7 @@ class MuscleSolids {
     void add_surface(Part& part, MuscleSurfaces& surfaces) const;
     void bind(const TissueLocator& locator, const TissueMesh& mesh,
               std::vector<Attachment>& attachments);
+    void add_supports();
     void take(const Part& part, const Points& x, Points& local) const;
     void build_groups();
     void refresh(Group& group, double h, const Points& x, const Eigen::VectorXd& activation);

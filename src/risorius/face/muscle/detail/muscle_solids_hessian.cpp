@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "risorius/face/muscle/detail/muscle_solids.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::face {
 

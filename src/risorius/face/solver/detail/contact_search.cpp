@@ -10,7 +10,6 @@ namespace risorius::face {
 namespace {
 
 constexpr int kCandidates = 40;
-constexpr int kLipNeighbours = 3;
 constexpr double kFarEnough_m = 3e-3;
 constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
 constexpr double kStick_pa = 150;  // saliva between lips, of each lip: a bridge some 0.5 mm wide
@@ -95,160 +94,194 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
     }
 }
 
+struct ContactSearch::Search {
+    const Points& x;
+    const Rigid& mandible;
+    const Rigid to_mandible;
+    const std::array<Mat3, 2>& gaze;
+    const std::vector<char>& of;  // rows of x whose pairs are wanted; empty: all
+    std::vector<tissue::Contacts::Contact> found;
+
+    bool wants(int node) const { return of.empty() || of[static_cast<std::size_t>(node)] != 0; }
+};
+
 std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, const Rigid& mandible,
                                                            const std::array<Mat3, 2>& gaze,
                                                            const std::vector<char>& of) const {
-    std::vector<tissue::Contacts::Contact> out;
-    const auto wanted = [&](int node) {
-        return of.empty() || of[static_cast<std::size_t>(node)] != 0;
-    };
-    const Rigid to_mandible = mandible.inverse();
-
-    // Bone and teeth: the plane blended from the bone points around, fading out beyond the bone's edge, where its plane
-    // means nothing (a chin that has dropped is not below the upper teeth)
-    const auto against_bone = [&](const DeepNode& node, const std::vector<int>& candidates,
-                                  const std::vector<BonePoint>& bone, const Rigid* carried,
-                                  int slot) {
-        if (candidates.empty()) return;
-        Vec3 p = x.row(node.node).transpose();
-        if (carried) p = to_mandible * p;
-        const Vec3 rest = rest_.row(node.node).transpose();
-        std::array<double, kCandidates> squared;
-        double nearest_squared = 1e300;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            squared[i] = (bone[static_cast<std::size_t>(candidates[i])].point - p).squaredNorm();
-            nearest_squared = std::min(nearest_squared, squared[i]);
-        }
-        // Nothing here may hang on which point is the nearest: planes that jump keep a held pose from ever coming to rest
-        const double radius = std::sqrt(nearest_squared) + 1.5 * node.reach;
-        const double radius_squared = radius * radius;
-        Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
-        double weights = 0;
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (squared[i] >= radius_squared) continue;
-            const double share = 1.0 - squared[i] / radius_squared;
-            const double w = share * share * share;
-            const BonePoint& near = bone[static_cast<std::size_t>(candidates[i])];
-            point += w * near.point;
-            normal += w * near.normal;
-            weights += w;
-        }
-        point /= weights;
-        normal.normalize();
-        const double gap = (p - point).dot(normal);
-        const double rest_gap = std::min(0.0, (rest - point).dot(normal));
-        if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
-        // Within the bone the blended point lies below the node, beyond its edge it stays behind
-        const double aside = (p - point - (p - point).dot(normal) * normal).norm();
-        const double inside = 1.0 - geom::smoothstep(1.2 * node.reach, 1.7 * node.reach, aside);
-        if (inside <= 0) return;
-        tissue::Contacts::Contact contact;
-        contact.node = node.node;
-        contact.point = carried ? Vec3(*carried * point) : point;
-        contact.normal = carried ? Vec3(carried->linear() * normal) : normal;
-        contact.rest_gap_m = rest_gap;
-        contact.body = carried ? kMandibleBody : kSkullBody;
-        contact.stiffness_n_per_m = inside * node.stiffness;
-        contact.share = inside;
-        contact.slot = slot;
-        out.push_back(contact);
-    };
+    Search search{x, mandible, mandible.inverse(), gaze, of, {}};
     for (std::size_t n = 0; n < deep_.size(); ++n) {
-        if (!wanted(deep_[n].node)) continue;
+        if (!search.wants(deep_[n].node)) continue;
         const int slot = 2 * static_cast<int>(n);
-        against_bone(deep_[n], deep_[n].skull, skull_, nullptr, slot);
-        against_bone(deep_[n], deep_[n].mandible, mandible_, &mandible, slot + 1);
+        find_bone(deep_[n], kSkullBody, slot, search);
+        find_bone(deep_[n], kMandibleBody, slot + 1, search);
     }
-
-    // Lips: each node against the planes of the nearest of the other lip
-    const auto normals = [&](const std::vector<LipNode>& lip) {
-        std::vector<Vec3> turned;
-        for (const LipNode& node : lip) {
-            const Vec3 column = (x.row(node.node) - x.row(node.deep)).transpose();
-            turned.push_back(Eigen::Quaterniond::FromTwoVectors(node.column, column) * node.normal);
-        }
-        return turned;
-    };
-    const auto against_lip = [&](const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
-                                 const std::vector<Vec3>& facing, int first_slot) {
-        if (other.size() <= kLipNeighbours) return;
-        for (std::size_t n = 0; n < lip.size(); ++n) {
-            const LipNode& node = lip[n];
-            if (!wanted(node.node)) continue;
-            const Vec3 p = x.row(node.node).transpose();
-            // The nearest few, weighted so that the weight of one that is about to be replaced is zero
-            std::array<std::pair<double, int>, kLipNeighbours + 1> nearest_few;
-            nearest_few.fill({1e300, -1});
-            for (std::size_t i = 0; i < other.size(); ++i) {
-                const double squared = (Vec3(x.row(other[i].node).transpose()) - p).squaredNorm();
-                if (squared >= nearest_few.back().first) continue;
-                nearest_few.back() = {squared, static_cast<int>(i)};
-                for (std::size_t k = nearest_few.size() - 1;
-                     k > 0 && nearest_few[k] < nearest_few[k - 1]; --k)
-                    std::swap(nearest_few[k], nearest_few[k - 1]);
-            }
-            double inside = 1.0 - geom::smoothstep(0.7 * lip_reach_m_, lip_reach_m_,
-                                                   std::sqrt(nearest_few[0].first));
-            if (inside <= 0) continue;
-            tissue::Contacts::Contact contact;
-            contact.node = node.node;
-            contact.normal.setZero();
-            Vec3 off = Vec3::Zero(), rest_off = Vec3::Zero(), rest_normal = Vec3::Zero();
-            double weights = 0, stiffness = 0;
-            for (std::size_t k = 0; k < kLipNeighbours; ++k) {
-                const LipNode& o = other[nearest_few[k].second];
-                const double share = 1.0 - nearest_few[k].first / nearest_few[kLipNeighbours].first;
-                const double w = std::max(share * share, 1e-12);
-                contact.others[k] = o.node;
-                contact.weights[k] = w;
-                weights += w;
-                off += w * (p - x.row(o.node).transpose());
-                rest_off += w * (rest_.row(node.node) - rest_.row(o.node)).transpose();
-                contact.normal += w * facing[nearest_few[k].second];
-                rest_normal += w * o.normal;
-                stiffness += w * o.stiffness;
-            }
-            for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
-            contact.normal.normalize();
-            rest_normal.normalize();
-            const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
-                return 1.0 - geom::smoothstep(from_m, from_m + lip_aside_m_,
-                                              (d - d.dot(normal) * normal).norm());
-            };
-            off /= weights;
-            rest_off /= weights;
-            inside *= beside(off, contact.normal, lip_aside_m_);
-            if (inside <= 0) continue;
-            contact.count = kLipNeighbours;
-            // Whole for all that are inside at rest, or rest would not be free of force
-            contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) *
-                                 std::min(0.0, rest_off.dot(rest_normal));
-            if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) continue;
-            // Weighted like the plane: one that hung on which nodes are among the nearest would jump as lips slide
-            contact.stiffness_n_per_m =
-                inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
-            contact.share = inside;
-            contact.stick_n = inside * node.stick;
-            contact.stick_m = stick_m_;
-            contact.body = kLipBody;
-            contact.slot = first_slot + static_cast<int>(n);
-            out.push_back(contact);
-        }
-    };
     const int first_upper = 2 * static_cast<int>(deep_.size());
     const int first_lower = first_upper + static_cast<int>(upper_.size());
     const int first_lid = first_lower + static_cast<int>(lower_.size());
-    const std::vector<Vec3> upper_facing = normals(upper_), lower_facing = normals(lower_);
-    against_lip(upper_, lower_, lower_facing, first_upper);
-    against_lip(lower_, upper_, upper_facing, first_lower);
+    const std::vector<Vec3> upper_normals = turned_normals(upper_, x),
+                            lower_normals = turned_normals(lower_, x);
+    find_lip(upper_, lower_, lower_normals, first_upper, search);
+    find_lip(lower_, upper_, upper_normals, first_lower, search);
+    find_lids(first_lid, search);
+    return std::move(search.found);
+}
 
-    // Lids: a plane across the way out of the eye, where its surface lies below the node
+// The plane blended from the bone points around a point p. Nothing here may depend on which point is the nearest: planes that
+// jump keep a held pose from coming to equilibrium.
+ContactSearch::BonePoint ContactSearch::blended_plane(const Vec3& p, double reach,
+                                                      const std::vector<int>& candidates,
+                                                      const std::vector<BonePoint>& bone) {
+    std::array<double, kCandidates> squared;
+    double nearest_squared = 1e300;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        squared[i] = (bone[static_cast<std::size_t>(candidates[i])].point - p).squaredNorm();
+        nearest_squared = std::min(nearest_squared, squared[i]);
+    }
+    const double radius = std::sqrt(nearest_squared) + 1.5 * reach;
+    const double radius_squared = radius * radius;
+    Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+    double weights = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (squared[i] >= radius_squared) continue;
+        const double fraction = 1.0 - squared[i] / radius_squared;
+        const double w = fraction * fraction * fraction;
+        const BonePoint& near = bone[static_cast<std::size_t>(candidates[i])];
+        point += w * near.point;
+        normal += w * near.normal;
+        weights += w;
+    }
+    point /= weights;
+    normal.normalize();
+    return {point, normal};
+}
+
+// Bone and teeth. The plane fades out beyond the bone's edge, where it means nothing: a chin that has dropped is not below the
+// upper teeth.
+void ContactSearch::find_bone(const DeepNode& node, int body, int slot, Search& search) const {
+    const bool carried = body == kMandibleBody;
+    const std::vector<int>& candidates = carried ? node.mandible : node.skull;
+    if (candidates.empty()) return;
+    Vec3 p = search.x.row(node.node).transpose();
+    if (carried) p = search.to_mandible * p;
+    const Vec3 rest = rest_.row(node.node).transpose();
+    const auto [point, normal] =
+        blended_plane(p, node.reach, candidates, carried ? mandible_ : skull_);
+    const double gap = (p - point).dot(normal);
+    const double rest_gap = std::min(0.0, (rest - point).dot(normal));
+    if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
+    // Within the bone the blended point lies below the node, beyond its edge it stays behind
+    const double aside = (p - point - (p - point).dot(normal) * normal).norm();
+    const double inside = 1.0 - geom::smoothstep(1.2 * node.reach, 1.7 * node.reach, aside);
+    if (inside <= 0) return;
+    tissue::Contacts::Contact contact;
+    contact.node = node.node;
+    contact.point = carried ? Vec3(search.mandible * point) : point;
+    contact.normal = carried ? Vec3(search.mandible.linear() * normal) : normal;
+    contact.rest_gap_m = rest_gap;
+    contact.body = body;
+    contact.stiffness_n_per_m = inside * node.stiffness;
+    contact.share = inside;
+    contact.slot = slot;
+    search.found.push_back(contact);
+}
+
+// The normals of a lip, which turn with the columns of its nodes.
+std::vector<Vec3> ContactSearch::turned_normals(const std::vector<LipNode>& lip, const Points& x) {
+    std::vector<Vec3> turned;
+    for (const LipNode& node : lip) {
+        const Vec3 column = (x.row(node.node) - x.row(node.deep)).transpose();
+        turned.push_back(Eigen::Quaterniond::FromTwoVectors(node.column, column) * node.normal);
+    }
+    return turned;
+}
+
+// The nearest few nodes of a lip and one more, nearest first: squared distance, index.
+ContactSearch::NearestFew ContactSearch::nearest_few(const Vec3& p, const std::vector<LipNode>& lip,
+                                                     const Points& x) {
+    NearestFew out;
+    out.fill({1e300, -1});
+    for (std::size_t i = 0; i < lip.size(); ++i) {
+        const double squared = (Vec3(x.row(lip[i].node).transpose()) - p).squaredNorm();
+        if (squared >= out.back().first) continue;
+        out.back() = {squared, static_cast<int>(i)};
+        for (std::size_t k = out.size() - 1; k > 0 && out[k] < out[k - 1]; --k)
+            std::swap(out[k], out[k - 1]);
+    }
+    return out;
+}
+
+// Each node of a lip against the plane of the nearest nodes of the other lip, `facing` its normals.
+void ContactSearch::find_lip(const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
+                             const std::vector<Vec3>& facing, int first_slot,
+                             Search& search) const {
+    if (other.size() <= kLipNeighbours) return;
+    for (std::size_t n = 0; n < lip.size(); ++n)
+        if (search.wants(lip[n].node))
+            find_lip_node(lip[n], other, facing, first_slot + static_cast<int>(n), search);
+}
+
+void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode>& other,
+                                  const std::vector<Vec3>& facing, int slot, Search& search) const {
+    const Points& x = search.x;
+    const Vec3 p = x.row(node.node).transpose();
+    const NearestFew nearest = nearest_few(p, other, x);
+    double inside =
+        1.0 - geom::smoothstep(0.7 * lip_reach_m_, lip_reach_m_, std::sqrt(nearest[0].first));
+    if (inside <= 0) return;
+    tissue::Contacts::Contact contact;
+    contact.node = node.node;
+    contact.normal.setZero();
+    Vec3 off = Vec3::Zero(), rest_off = Vec3::Zero(), rest_normal = Vec3::Zero();
+    double weights = 0, stiffness = 0;
+    for (std::size_t k = 0; k < kLipNeighbours; ++k) {
+        const LipNode& o = other[nearest[k].second];
+        // The weight of one that is about to be replaced is zero
+        const double fraction = 1.0 - nearest[k].first / nearest[kLipNeighbours].first;
+        const double w = std::max(fraction * fraction, 1e-12);
+        contact.others[k] = o.node;
+        contact.weights[k] = w;
+        weights += w;
+        off += w * (p - x.row(o.node).transpose());
+        rest_off += w * (rest_.row(node.node) - rest_.row(o.node)).transpose();
+        contact.normal += w * facing[nearest[k].second];
+        rest_normal += w * o.normal;
+        stiffness += w * o.stiffness;
+    }
+    for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
+    contact.normal.normalize();
+    rest_normal.normalize();
+    const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
+        return 1.0 -
+               geom::smoothstep(from_m, from_m + lip_aside_m_, (d - d.dot(normal) * normal).norm());
+    };
+    off /= weights;
+    rest_off /= weights;
+    inside *= beside(off, contact.normal, lip_aside_m_);
+    if (inside <= 0) return;
+    contact.count = kLipNeighbours;
+    // Whole for all that are inside at rest, or rest would not be free of force
+    contact.rest_gap_m =
+        beside(rest_off, rest_normal, 2 * lip_aside_m_) * std::min(0.0, rest_off.dot(rest_normal));
+    if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) return;
+    // Weighted like the plane: a stiffness that depended on which nodes are nearest would jump as lips slide
+    contact.stiffness_n_per_m =
+        inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
+    contact.share = inside;
+    contact.stick_n = inside * node.stick;
+    contact.stick_m = stick_m_;
+    contact.body = kLipBody;
+    contact.slot = slot;
+    search.found.push_back(contact);
+}
+
+// Lids: a plane across the way out of the eye, where its surface lies below the node.
+void ContactSearch::find_lids(int first_slot, Search& search) const {
     for (std::size_t n = 0; n < lid_.size(); ++n) {
         const LidNode& node = lid_[n];
-        if (!wanted(node.node)) continue;
+        if (!search.wants(node.node)) continue;
         const rig::EyeGeometry& eye = eyes_[node.side];
-        const Vec3 p = x.row(node.node).transpose();
-        const double gap = eye.distance(p, gaze[node.side] * eye.forward);
+        const Vec3 p = search.x.row(node.node).transpose();
+        const double gap = eye.distance(p, search.gaze[node.side] * eye.forward);
         if (gap > kFarEnough_m) continue;
         tissue::Contacts::Contact contact;
         contact.node = node.node;
@@ -257,10 +290,9 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
         contact.rest_gap_m = node.rest_gap;
         contact.stiffness_n_per_m = node.stiffness;
         contact.body = kGlobeBody;
-        contact.slot = first_lid + static_cast<int>(n);
-        out.push_back(contact);
+        contact.slot = first_slot + static_cast<int>(n);
+        search.found.push_back(contact);
     }
-    return out;
 }
 
 double ContactSearch::deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,

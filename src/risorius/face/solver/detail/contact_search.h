@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "risorius/core/types.h"
@@ -63,6 +64,20 @@ class ContactSearch {
         double stiffness;
         double rest_gap;
     };
+    struct Search;  // one call of find()
+    static constexpr int kLipNeighbours = 3;
+    using NearestFew = std::array<std::pair<double, int>, kLipNeighbours + 1>;
+
+    static BonePoint blended_plane(const Vec3& p, double reach, const std::vector<int>& candidates,
+                                   const std::vector<BonePoint>& bone);
+    static std::vector<Vec3> turned_normals(const std::vector<LipNode>& lip, const Points& x);
+    static NearestFew nearest_few(const Vec3& p, const std::vector<LipNode>& lip, const Points& x);
+    void find_bone(const DeepNode& node, int body, int slot, Search& search) const;
+    void find_lip(const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
+                  const std::vector<Vec3>& facing, int first_slot, Search& search) const;
+    void find_lip_node(const LipNode& node, const std::vector<LipNode>& other,
+                       const std::vector<Vec3>& facing, int slot, Search& search) const;
+    void find_lids(int first_slot, Search& search) const;
 
     Points rest_;
     std::vector<BonePoint> skull_, mandible_;

@@ -71,8 +71,8 @@ StepStats DrivenJaw::implicit_step(FaceTissue& tissue, double h, double jaw_h, c
                                    const JawDynamics::Carriage& carriage,
                                    const solve::QuasiNewtonOptions& options, Points& x,
                                    JawDynamics::State& state,
-                                   std::span<const Points> likely) const {
-    if (!dynamics_) return tissue.implicit_step(h, start, aim, activation, options, x, likely);
+                                   std::span<const Points> warm_start) const {
+    if (!dynamics_) return tissue.implicit_step(h, start, aim, activation, options, x, warm_start);
     JawInStep step{*dynamics_, dynamics_->begin(jaw_h, state, activation, carriage), state.q};
     const StepStats figures = tissue.implicit_step(h, start, aim, activation, options, x, step);
     state = dynamics_->end(step.step, step.q);

@@ -46,7 +46,8 @@ class DrivenJaw {
                             const Points& aim, const Eigen::VectorXd& activation,
                             const JawDynamics::Carriage& carriage,
                             const solve::QuasiNewtonOptions& options, Points& x,
-                            JawDynamics::State& state, std::span<const Points> likely = {}) const;
+                            JawDynamics::State& state,
+                            std::span<const Points> warm_start = {}) const;
     /// Tissue and a jaw that muscles move come to rest together, in long steps of time.
     StepStats settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
                      const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::face {
 

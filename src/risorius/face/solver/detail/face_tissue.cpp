@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
 
-// Share of its contact stiffness that the metric gives every node that may ever touch. Few touch at a time, and those along
-// one direction only: half of it in steps of motion leaves twice the error in the same iterations, a thirtieth overshoots.
-constexpr double kContactShare = 0.1, kSettlingContactShare = 0.5;
-
 // Under the mandible fat is loose, and the little that is there has to keep its volume while an opening jaw takes a third of its
 // base away: ratios to the face's tissue (estimates; with them ICT's measured jawOpen is met best).
 constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
@@ -59,6 +55,7 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     mass_.resize(rest_.rows());
     mass_ << tets_->lumped_mass(rig_.tissue.density_kg_m3, nodes()), solids_->mass();
     find_cheeks(jaw);
+    build_terms();
 }
 
 // Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
@@ -175,16 +172,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     for (const Metric& known : metrics_)
         if (known.h == h) return known.factor;
     solve::MetricBuilder builder(nodes());
-    tets_->add_metric(builder);
-    tets_->add_laplacian(builder, rig_.tissue.damping_s / h);
-    skin_->add_metric(builder);
-    tethers_->add_metric(builder);
-    fibres_->add_metric(builder, h < kSettling_s ? h : 0);
-    solids_->add_metric(builder);
-    lip_drive_->add_metric(builder);
-    const double contact_share = h < kSettling_s ? kContactShare : kSettlingContactShare;
-    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        builder.add_diagonal(search_.nodes()[i], contact_share * search_.node_stiffness()[i]);
+    add_metric(terms_, h, builder);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
         {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}),
@@ -254,20 +242,6 @@ void FaceTissue::note_contacts() {
         contact_on_mandible_.push_back(to_rest * contact.point);
 }
 
-double FaceTissue::potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
-                             solve::Precision precision) const {
-    double energy = skin_->add_energy(x, gradient, precision);
-    energy += tethers_->add_energy(x, gradient);
-    energy += fibres_->add_energy(x, activation, gradient);
-    solids_pull_ = {};
-    if (!solids_relaxed_) energy += solids_->add_energy(x, activation, gradient, &solids_pull_);
-    energy += contacts_.add_energy(x, gradient);
-    energy += air_.add_energy(x, gradient);
-    lip_drive_->drive(activation);
-    energy += lip_drive_->add_energy(x, gradient);
-    return energy;
-}
-
 double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
                                const Points& at, Points& gradient) {
     const double inertia = 1.0 / (h * h);
@@ -279,29 +253,32 @@ double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorX
         gradient.row(i) = inertia * mass_[i] * off.transpose();
     }
     double value = 0.5 * inertia * moving;
-    value += tets_->add_step_energy(at, gradient, precision_);
-    value += potential(at, activation, gradient, precision_);
+    inputs_.activation = &activation;
+    const TermEnergy energy = add_potential(terms_, {0.0, h, step_start_}, at, gradient);
+    value += energy.first;
+    value += energy.others;
     for (long i = 0; i < at.rows(); ++i)
         if (fixed_[i]) gradient.row(i).setZero();
     return value;
 }
 
 void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd& activation) {
-    tets_->begin_step(start, rig_.tissue.damping_s / h, precision_);
-    solids_->begin_step(h, start, activation);
+    step_start_ = start;
+    inputs_.activation = &activation;
+    for (const FaceTerm& entry : terms_) entry.term->begin_step(0.0, h, step_start_, {});
 }
 
 StepStats FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
                                     const Eigen::VectorXd& activation,
                                     const solve::QuasiNewtonOptions& options, Points& x,
-                                    std::span<const Points> likely) {
+                                    std::span<const Points> warm_start) {
     const auto energy = [&](const Points& at, Points& gradient) {
         return step_energy(h, aim, activation, at, gradient);
     };
     begin_step(h, start, activation);
     const solve::SparseCholesky& factor = metric(h);
     const auto solve = [&](const Points& b, Points& y) { solids_->precondition(factor, b, y); };
-    const solve::StepReport report = newton_.minimise(energy, solve, x, options, likely);
+    const solve::StepReport report = newton_.minimise(energy, solve, x, options, warm_start);
     refine(h, start, aim, activation, options, x);
     return end_step(report, x);
 }
@@ -316,10 +293,11 @@ LocalSolve FaceTissue::make_mouth(double h) const {
     }
     std::vector<std::pair<int, double>> touching;
     for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        touching.push_back({search_.nodes()[i], kContactShare * search_.node_stiffness()[i]});
-    return LocalSolve({mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_,
-                       *solids_, *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s},
-                      moves, h, touching);
+        touching.push_back({search_.nodes()[i], kContactFraction * search_.node_stiffness()[i]});
+    return LocalSolve(
+        {mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_, *solids_,
+         *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s, terms_},
+        moves, h, touching);
 }
 
 void FaceTissue::refine(double h, const Points& start, const Points& aim,
@@ -330,7 +308,7 @@ void FaceTissue::refine(double h, const Points& start, const Points& aim,
     solve::QuasiNewtonOptions own = options;
     own.iterations = mouth_iterations_;
     own.least_iterations = 0;
-    mouth_->advance({h, start, aim, activation, precision_}, own, x);
+    mouth_->advance({h, start, aim, activation, inputs_.precision}, own, x);
 }
 
 void FaceTissue::put_depths(const Points& x, StepStats& figures) const {

@@ -1,12 +1,18 @@
-// What deforms in a face as one system of equations: tissue, skin, attachments, fibres, contact and air over the nodes.
-//
-// A step of length h minimises over the node positions x
-//   E = |x - a|^2_M / (2 h^2) + beta/(2 h) sum V mu |F - F_n|^2 + tissue + skin + attachments + fibres + contact + air,
-//   a = x_n + h v_n
-// (implicit Euler) by L-BFGS with one prefactored matrix per h.
+/// \file
+/// The deformable part of a face as one system of equations over its nodes.
+///
+/// A step of length h minimises over the node positions x, n x 3, m
+///
+///     E = |x - a|^2_M / (2 h^2) + beta/(2 h) sum V mu |F - F_n|^2 + sum of the energy terms (face_terms.h)
+///
+/// - a: the positions that the nodes would reach without forces. TissueMotion sets h and a so that the steps are those of BDF2.
+/// - M: lumped mass, kg; beta: damping time, s; F, F_n: deformation gradients now and at the start of the step
+///
+/// The minimiser is L-BFGS with one prefactored matrix per h.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,6 +31,7 @@
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
 #include "risorius/face/solver/detail/contact_search.h"
+#include "risorius/face/solver/detail/face_terms.h"
 #include "risorius/face/solver/detail/local_solve.h"
 #include "risorius/face/solver/detail/separation.h"
 #include "risorius/muscle/fibre_set.h"
@@ -84,6 +91,8 @@ struct JawInStep {
 
 class FaceTissue {
   public:
+    FaceTissue(const FaceTissue&) = delete;  // its terms refer to its members
+    FaceTissue& operator=(const FaceTissue&) = delete;
     /// Keeps references: all arguments must outlive it.
     FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
@@ -92,9 +101,9 @@ class FaceTissue {
     void prepare(double h);
 
     /// What steps of motion are worked out in; equilibria are in double.
-    void step_in(solve::Precision precision) { precision_ = precision; }
+    void step_in(solve::Precision precision) { inputs_.precision = precision; }
 
-    /// After the iterations of a step of motion so many more for the mouth alone, whose soft lips are the last to converge.
+    /// Sets the extra iterations restricted to the mouth after each dynamic step: soft lips converge last.
     void refine_mouth(int iterations) { mouth_iterations_ = iterations; }
 
     void set_boundary_conditions(const BoundaryState& prescribed);
@@ -112,12 +121,12 @@ class FaceTissue {
         return separated(x, search_, mandible, gaze, fixed_);
     }
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. `likely` moves of x are
+    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. The moves of x in `warm_start` are
     /// tried first.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x,
-                            std::span<const Points> likely = {});
+                            std::span<const Points> warm_start = {});
 
     /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
@@ -146,6 +155,8 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
+    /// Adds a force after all others. Nodes are numbered as in rest(); its metric covers the nodes of the tissue only.
+    void add_term(std::shared_ptr<solve::EnergyTerm> term);
     void scale_lips(const rig::LipsDescription& lips) {
         lip_drive_->scale(lips);
         forget_mouth();
@@ -203,9 +214,8 @@ class FaceTissue {
     void move_mandible(const Rigid& moved);
     /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
     Wrench mandible_gradient(const Points& x, const Points& gradient) const;
-    /// Of all but the tetrahedra.
-    double potential(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
-                     solve::Precision precision) const;
+    /// Fills the list of energy terms (face_terms.cpp).
+    void build_terms();
 
     const rig::Head& head_;
     const rig::RigDescription& rig_;
@@ -227,7 +237,6 @@ class FaceTissue {
     std::optional<tissue::ZeroLengthSprings> tethers_;  // attachments, then lids
     muscle::HillShape hill_;
     MusclePlacement muscles_;
-    bool solids_relaxed_ = false;  // riding is measured on what gives way at once
     std::optional<muscle::FibreSet> fibres_;
     mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
@@ -240,9 +249,11 @@ class FaceTissue {
     std::vector<LidTether> lid_tethers_;
     std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
-    solve::Precision precision_ = solve::Precision::kDouble;  // of steps of motion
-    std::vector<Metric> metrics_;                             // one per step length used
+    std::vector<Metric> metrics_;  // one per step length used
     solve::QuasiNewton newton_;
+    FaceTerms terms_;
+    mutable TermInputs inputs_;
+    Points step_start_;  // of the step that begin_step() was told of
     int mouth_iterations_ = 0;
     std::optional<LocalSolve> mouth_;  // of the step length used last
     Points carried_, carried_gradient_;

@@ -100,7 +100,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
     // Solids hardly change volume: before they have found their shape they look far stiffer than a held jaw finds them
-    solids_relaxed_ = h >= kSettling_s;
+    inputs_.solids_relaxed = h >= kSettling_s;
     for (int k = 0; k < kMandibleCoordinates; ++k) {
         // Opening and forwards only: the other way, teeth and eminence are in the way
         const JawPose pose = jaw.joint().pose(kDifference_m * JawVector::Unit(k));
@@ -111,7 +111,7 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
         stiffness.col(k) =
             along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
     }
-    solids_relaxed_ = false;
+    inputs_.solids_relaxed = false;
     set_boundary_conditions({});
     stiffness = positive_part(0.5 * (stiffness + stiffness.transpose()));
     std::erase_if(ride_stiffness_, [&](const auto& known) { return known.first == h; });

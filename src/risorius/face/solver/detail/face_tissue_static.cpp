@@ -1,6 +1,8 @@
 // A face at rest in what it is driven by: energy, gradient and second derivative without inertia and damping.
+#include <limits>
+
 #include "risorius/face/solver/detail/face_tissue.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 
 namespace risorius::face {
 
@@ -9,13 +11,17 @@ namespace {
 // Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
 constexpr double kHardens_m = 0.0025e-3;
 
+solve::ImplicitStep equilibrium_at(const Points& x) {
+    return {0.0, std::numeric_limits<double>::infinity(), x};
+}
+
 }  // namespace
 
 double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activation,
                                  Points& gradient) const {
     gradient.setZero(x.rows(), 3);
-    const double energy = tets_->add_energy(x, gradient) +
-                          potential(x, activation, gradient, solve::Precision::kDouble);
+    inputs_.activation = &activation;
+    const double energy = add_potential(terms_, equilibrium_at(x), x, gradient).sum();
     for (long i = 0; i < x.rows(); ++i)
         if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
     return energy;
@@ -30,15 +36,8 @@ Points FaceTissue::static_gradient(const Points& x, const Eigen::VectorXd& activ
 void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
                                     solve::Curvature curvature,
                                     solve::HessianBuilder& hessian) const {
-    tets_->add_hessian(x, curvature, hessian);
-    skin_->add_hessian(x, curvature, hessian);
-    tethers_->add_hessian(hessian);
-    fibres_->add_hessian(x, activation, curvature, hessian);
-    solids_->add_hessian(x, activation, curvature, hessian);
-    lip_drive_->drive(activation);
-    lip_drive_->add_hessian(x, hessian);
-    contacts_.add_hessian(x,
-                          hessian);  // last: their pairs change, the order of the others does not
+    inputs_.activation = &activation;
+    add_hessian(terms_, equilibrium_at(x), x, curvature, hessian);
 }
 
 void FaceTissue::find_rest_contacts(const Points& x) {

@@ -37,12 +37,45 @@ LocalSolve::LocalSolve(const Whole& whole, const std::vector<char>& moves, doubl
     tethers_.add_metric(builder);
     fibres_->add_metric(builder, h_);
     lip_drive_.add_metric(builder);
+    for (const FaceTerm& entry : whole_.terms)
+        if (!entry.local_form) whole_terms_.push_back(entry.term.get());
+    for (const solve::EnergyTerm* term : whole_terms_) add_whole_metric(*term, builder);
     for (const auto& [node, stiffness] : touching)
         if (this->moves(node)) builder.add_diagonal(row_of(node), stiffness);
     for (int i = 0; i < count; ++i) builder.add_diagonal(i, mass_kg_[i] / (h_ * h_) + 1e-9);
     std::vector<char> held_rows(node_.size(), 1);
     std::fill_n(held_rows.begin(), moving_, 0);
     metric_.emplace(builder.build(held_rows), solve::Precision::kSingle);
+}
+
+void LocalSolve::add_whole_metric(const solve::EnergyTerm& term,
+                                  solve::MetricBuilder& builder) const {
+    solve::MetricBuilder whole(static_cast<int>(own_.size()));
+    term.add_metric(h_, whole);
+    const Eigen::SparseMatrix<double> matrix = whole.build({});
+    for (int column = 0; column < matrix.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
+            const auto row = static_cast<int>(it.row());
+            if (!moves(row) || !moves(column)) continue;
+            const int nodes[2] = {own_[static_cast<std::size_t>(row)],
+                                  own_[static_cast<std::size_t>(column)]};
+            const double block[4] = {0, 0, it.value(), 0};
+            if (row == column)
+                builder.add_diagonal(nodes[0], it.value());
+            else
+                builder.add_block(nodes, block, 2);
+        }
+}
+
+double LocalSolve::add_whole_potential(const Points& at, Points& gradient) const {
+    for (int i = 0; i < moving_; ++i) whole_x_.row(node_[static_cast<std::size_t>(i)]) = at.row(i);
+    whole_gradient_.setZero(whole_x_.rows(), 3);
+    double sum = 0;
+    for (const solve::EnergyTerm* term : whole_terms_)
+        sum += term->add_potential({0.0, h_, whole_start_}, whole_x_, whole_gradient_);
+    for (int i = 0; i < moving_; ++i)
+        gradient.row(i) += whole_gradient_.row(node_[static_cast<std::size_t>(i)]);
+    return sum;
 }
 
 int LocalSolve::row_of(int node) {
@@ -153,6 +186,10 @@ Points LocalSolve::taken(const Points& x) const {
 void LocalSolve::begin(const Step& step, const Points& x) {
     tets_->begin_step(taken(step.start), whole_.damping_s / h_, step.precision);
     aim_ = taken(step.aim);
+    if (!whole_terms_.empty()) {
+        whole_start_ = step.start;
+        whole_x_ = x;
+    }
     activation_ = step.activation;
     precision_ = step.precision;
     fibres_->go_on(whole_.fibres, fibre_of_, point_of_);
@@ -233,6 +270,7 @@ double LocalSolve::energy(const Points& at, Points& gradient) const {
     value += contacts_.add_energy(at, gradient);
     value += loads_.add_energy(at, gradient);
     value += lip_drive_.add_energy(at, gradient);
+    if (!whole_terms_.empty()) value += add_whole_potential(at, gradient);
     gradient.bottomRows(gradient.rows() - moving_).setZero();
     return value;
 }

@@ -13,6 +13,7 @@
 #include "risorius/core/types.h"
 #include "risorius/face/muscle/detail/lip_drive.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
+#include "risorius/face/solver/detail/face_terms.h"
 #include "risorius/muscle/fibre_set.h"
 #include "risorius/solve/quasi_newton.h"
 #include "risorius/solve/sparse_cholesky.h"
@@ -42,6 +43,7 @@ class LocalSolve {
         const tissue::DeadLoads& loads;
         const Eigen::VectorXd& mass_kg;
         double damping_s;
+        const FaceTerms& terms;
     };
     struct Step {
         double h;
@@ -79,6 +81,9 @@ class LocalSolve {
     int row_of(int node);  ///< made when first asked for
     void choose_elements();
     void choose_fibres();
+    /// Terms without a local form are evaluated over all nodes, those that do not move held where they are.
+    void add_whole_metric(const solve::EnergyTerm& term, solve::MetricBuilder& builder) const;
+    double add_whole_potential(const Points& at, Points& gradient) const;
 
     const Whole whole_;
     double h_;
@@ -102,6 +107,9 @@ class LocalSolve {
     solve::Precision precision_ = solve::Precision::kDouble;
     Eigen::VectorXd activation_;
     Points aim_, x_;
+    std::vector<const solve::EnergyTerm*> whole_terms_;
+    Points whole_start_;
+    mutable Points whole_x_, whole_gradient_;
 };
 
 }  // namespace risorius::face

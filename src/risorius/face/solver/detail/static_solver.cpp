@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "risorius/core/dense_algebra.h"
-#include "risorius/solve/force_term.h"
+#include "risorius/solve/energy_term.h"
 #include "risorius/solve/point_sums.h"
 #include "risorius/solve/supernodal_cholesky.h"
 

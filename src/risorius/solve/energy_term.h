@@ -1,0 +1,89 @@
+/// \file
+/// One energy of a system of nodes, and so one kind of force. All forces of the library are energy terms.
+///
+/// An explicit integrator asks a term for its force. An implicit integrator minimises the incremental potential over x:
+///
+///     Phi(x) = sum m |x - x_n - h v_n|^2 / (2 h^2) + sum over terms of [ E(x, t_n + h) + h R(x; x_n, h) ]
+///
+/// - x, x_n: node positions at the end and the start of the step, n x 3, m; v = (x - x_n) / h
+/// - E: stored energy, J
+/// - R: dissipation of the term, W, with dR/dv = - damping force
+/// - h: step, s. It is infinite for an equilibrium: nothing moves and nothing is damped.
+///
+/// **How to add a force.** Derive a class from EnergyTerm in a file of its own. Three operations are required: add_potential
+/// (energy and gradient), add_hessian and add_metric. Override begin_step() when the term depends on where a step starts, and
+/// add_force() and energy() when it damps or depends on time. Then
+/// - of a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
+/// - of the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
+///
+/// Check the derivatives of the new class with tests/force_term_checks.h.
+#pragma once
+
+#include <limits>
+
+#include "risorius/core/types.h"
+#include "risorius/solve/hessian_builder.h"
+#include "risorius/solve/metric_builder.h"
+
+namespace risorius::solve {
+
+struct ImplicitStep {
+    double end_s;         ///< t_n + h
+    double step_s;        ///< h, may be infinite
+    const Points& start;  ///< x_n
+
+    double rate_hz() const { return 1.0 / step_s; }  ///< 0 for an equilibrium
+};
+
+enum class Curvature {
+    kExact,  ///< the second derivative, which may be indefinite
+    kPositive  ///< the second derivative without the negative part of each element: always a descent direction
+};
+
+/// A term may keep scratch arrays: one object serves one thread at a time.
+class EnergyTerm {
+  public:
+    virtual ~EnergyTerm() = default;
+
+    /// The integrator calls this once at the start of each step, explicit or implicit. The term searches its contacts here and
+    /// stores what it freezes for the step. `v` may be empty where the caller knows no velocities.
+    virtual void begin_step(double /*t_s*/, double /*step_s*/, const Points& /*x*/,
+                            const Points& /*v*/) {}
+
+    /// Adds the force at time t on every node, n x 3, N, damping included. The default is the negative gradient of the stored
+    /// energy: correct for a term without damping.
+    virtual void add_force(double t_s, const Points& x, const Points& /*v*/, Points& force) const {
+        Points gradient = Points::Zero(x.rows(), 3);
+        add_potential({t_s, std::numeric_limits<double>::infinity(), x}, x, gradient);
+        force -= gradient;
+    }
+
+    /// Returns the stored energy E at time t, J, without dissipation. A dead load f stores -f . x.
+    virtual double energy(double t_s, const Points& x) const {
+        Points unused = Points::Zero(x.rows(), 3);
+        return add_potential({t_s, std::numeric_limits<double>::infinity(), x}, x, unused);
+    }
+
+    /// Returns E + h R, J, and adds its derivative by x to `gradient`, n x 3, N.
+    virtual double add_potential(const ImplicitStep& step, const Points& x,
+                                 Points& gradient) const = 0;
+
+    /// Adds the second derivative of what add_potential() returns, N/m.
+    virtual void add_hessian(const ImplicitStep& step, const Points& x, Curvature curvature,
+                             HessianBuilder& hessian) const = 0;
+
+    /// Adds a constant scalar matrix, N/m, that bounds the second derivative near rest for steps of `step_s`. Quasi-Newton
+    /// methods factor the sum of these matrices once and use it as their preconditioner.
+    virtual void add_metric(double step_s, MetricBuilder& metric) const = 0;
+
+    /// For Terzopoulos' semi-implicit step (Terzopoulos, Platt, Barr & Fleischer 1987). Adds to `K` the scalar matrix of the
+    /// term at x, so that its elastic force is - K(x) x, and to `damping` the scalar matrix of drag on single nodes. With
+    /// `lag_rate` the strain rate of (x, v) is part of K. A term without such matrices adds its force at x, v to `force`.
+    virtual void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
+                            MetricBuilder& K, MetricBuilder& damping, Points& force) const {
+        (void)lag_rate, (void)K, (void)damping;
+        add_force(t_s, x, v, force);
+    }
+};
+
+}  // namespace risorius::solve

@@ -1,0 +1,137 @@
+// A force that is new to the face: added to its list of energy terms, it acts as its law says.
+#include "face/adult_face.h"
+#include "force_term_checks.h"
+#include "risorius/solve/energy_term.h"
+
+namespace risorius::face {
+namespace {
+
+const Quality kCoarse{.name = "coarse", .shell_vertices = 300};
+
+/// E = k/2 |x - p|^2 on one node.
+class SpringToPoint : public solve::EnergyTerm {
+  public:
+    SpringToPoint(int node, const Vec3& p, double k_n_per_m) : node_(node), p_(p), k_(k_n_per_m) {}
+    double add_potential(const solve::ImplicitStep&, const Points& x,
+                         Points& gradient) const override {
+        const Vec3 away = x.row(node_).transpose() - p_;
+        gradient.row(node_) += k_ * away.transpose();
+        return 0.5 * k_ * away.squaredNorm();
+    }
+    void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
+                     solve::HessianBuilder& hessian) const override {
+        hessian.add_diagonal(node_, k_);
+    }
+    void add_metric(double, solve::MetricBuilder& metric) const override {
+        metric.add_diagonal(node_, k_);
+    }
+
+  private:
+    int node_;
+    Vec3 p_;
+    double k_;
+};
+
+/// The skin node at the middle of the lower lip, which the extra iterations of the mouth move too.
+int lip_node(const Face& face) {
+    const Vec3 lip = face.head().landmark("li");
+    const Points skin = face.rest_skin_nodes();
+    int nearest = 0;
+    (skin.rowwise() - lip.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+    return node_of(nearest, kSkin);
+}
+
+TEST(FaceTerms, ANewForceKeepsTheDefaultsOfEnergyTerm) {
+    const SpringToPoint spring(1, Vec3(0.01, 0, 0), 30);
+    const Points x = testing_of::random_points(3, 0.02, 7);
+    const solve::ImplicitStep step{0, 0.01, x};
+    testing_of::expect_gradient_of_potential(spring, step, x, 1e-5, 1e-6);
+    testing_of::expect_force_is_minus_slope_of_energy(spring, 0, x, 1e-5, 1e-6);
+    testing_of::expect_hessian_of_potential(spring, step, x, 1e-5, 1e-6);
+    testing_of::expect_projection(spring, step, x);
+}
+
+TEST(FaceTerms, ASpringAddedToTheFacePullsAsItsLawSays) {
+    Face plain = adult_face(kCoarse), sprung = adult_face(kCoarse);
+    const int node = lip_node(plain);
+    const Vec3 rest = plain.nodes().row(node).transpose();
+    const Vec3 p = rest + Vec3(0, 0, 5e-3);
+    const double k = 20;
+    sprung.add_force(std::make_shared<SpringToPoint>(node, p, k));
+
+    EXPECT_TRUE(sprung.settle(neutral().excitation, neutral()).converged);
+    plain.settle(neutral().excitation, neutral());
+    const Vec3 x = sprung.nodes().row(node).transpose();
+    EXPECT_GT(x.z() - rest.z(), 0.1e-3);
+    EXPECT_LT((x - p).norm(), (rest - p).norm());
+
+    // Tissue balances the spring: its own gradient there is - k (x - p)
+    const Points own = plain.static_gradient(sprung.nodes(), neutral().excitation, neutral());
+    const Points whole = sprung.static_gradient(sprung.nodes(), neutral().excitation, neutral());
+    EXPECT_LT((Vec3((whole - own).row(node).transpose()) - k * (x - p)).norm(), 1e-9);
+    EXPECT_LT(whole.row(node).norm(), 0.02 * k * (x - p).norm());
+}
+
+TEST(FaceTerms, ASpringActsInStepsOfMotionAndInTheIterationsOfTheMouth) {
+    Quality quality = kCoarse;
+    quality.mouth_passes = 6;
+    quality.iterations = 12;
+    Face face = adult_face(quality);
+    const int node = lip_node(face);
+    const Vec3 rest = face.nodes().row(node).transpose();
+    face.add_force(std::make_shared<SpringToPoint>(node, rest + Vec3(0, 0, 5e-3), 20));
+    face.start(always(neutral()));
+    for (int i = 0; i < 60; ++i) face.step(always(neutral()));
+    const double moved = face.nodes().row(node).z() - rest.z();
+    face.settle(neutral().excitation, neutral());
+    EXPECT_NEAR(moved, face.nodes().row(node).z() - rest.z(), 0.2e-3);
+}
+
+TEST(FaceTerms, ADriveAsConstructedMeansThatNothingIsActive) {
+    Face face = adult_face(kCoarse);
+    const track::Drive nothing{};
+    face.start(always(nothing));
+    face.step(always(nothing));
+    const FacePose pose = face.pose_at(0.1, always(nothing));
+    Face other = adult_face(kCoarse);
+    other.start(always(neutral()));
+    other.step(always(neutral()));
+    EXPECT_EQ(pose.vertices, other.pose_at(0.1, always(neutral())).vertices);
+    face.settle(nothing.excitation, nothing);
+    other.settle(neutral().excitation, neutral());
+    EXPECT_EQ(face.pose().vertices, other.pose().vertices);
+    EXPECT_EQ(face.driven(nothing).excitation, other.driven(neutral()).excitation);
+}
+
+TEST(FaceTerms, TheEnergyAndTheTetrahedraOfAFaceCanBeAskedFor) {
+    Face face = adult_face(kCoarse);
+    EXPECT_EQ(face.tets().rows(), face.tet_count());
+    EXPECT_LT(face.tets().maxCoeff(), face.node_count());
+    const double rest = face.energy_j();
+    const track::Drive smile = with_muscle("zygomaticus_major", 0.5);
+    face.settle(smile.excitation, smile);
+    EXPECT_LT(face.energy_j(), rest - 1e-6);  // muscles have given their work
+    face.settle({}, {});
+    EXPECT_NEAR(face.energy_j(), rest, 1e-6);
+}
+
+TEST(FaceTerms, AMuscleThatActsIsShorterAndPullsAndItsLandmarkMoves) {
+    Face face = adult_face(kCoarse);
+    const std::string muscle = "risorius";
+    const MuscleState rest = face.muscle_state(muscle, Side::kLeft).value();
+    const Vec3 corner = face.landmark("nl3_l");
+    EXPECT_LT((corner - face.head().landmark("nl3_l")).norm(), 1e-9);
+    const track::Drive smile = with_muscle(muscle, 0.5, Side::kLeft);
+    face.settle(smile.excitation, smile);
+    const MuscleState now = face.muscle_state(muscle, Side::kLeft).value();
+    EXPECT_GT(rest.length_m, 0.02);
+    EXPECT_LT(now.length_m, rest.length_m);
+    EXPECT_GT(now.force_n, rest.force_n + 0.05);
+    EXPECT_NEAR(now.stretch / rest.stretch, now.length_m / rest.length_m, 0.05);
+    EXPECT_GT((face.landmark("nl3_l") - corner).norm(), 0.3e-3);
+    EXPECT_FALSE(face.muscle_state("zygomaticus_major", Side::kLeft)) << "a volume muscle";
+    EXPECT_FALSE(face.muscle_state("no such muscle", Side::kLeft).has_value());
+}
+
+}  // namespace
+}  // namespace risorius::face
