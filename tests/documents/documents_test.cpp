@@ -1,4 +1,5 @@
-// What the manual shows is what happens: its commands run, its examples are accepted, its links lead somewhere.
+// What the manual shows is what happens: examples follow their schema, names of sources and options are
+// right. tests/scenario/manual_test.cpp runs its commands.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -38,17 +39,6 @@ Said run(const std::string& command) {
     return said;
 }
 
-TEST(Documents, EveryCommandOfReadmeAndManualRuns) {
-    const Said said =
-        run("tools/docs/run_examples.py --program '" RISORIUS_BINARY_DIR "/risorius'");
-    EXPECT_EQ(said.code, 0) << said.text;
-}
-
-TEST(Documents, LinksLeadSomewhere) {
-    const Said said = run("tools/docs.sh --links");
-    EXPECT_EQ(said.code, 0) << said.text;
-}
-
 TEST(Documents, PageOfTheCommandLineSaysWhatHelpSays) {
     const TemporaryFolder folder;
     ASSERT_EQ(
@@ -82,11 +72,6 @@ TEST(Documents, SourcesThatPagesAndCommentsNameAreThere) {
             }
         }
     EXPECT_GT(names, 100);
-}
-
-TEST(Documents, ReadmeIsShort) {
-    const std::string text = bytes_of(kRoot / "README.md");
-    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 200);
 }
 
 // Examples that say which format they are follow its schema.
