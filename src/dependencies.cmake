@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Finds what the modules link. This build reads it, and so does find_package(risorius) in the projects of others, for the
 # modules that they ask for. `risorius_needed` is the list of modules.
 

@@ -1,4 +1,6 @@
-// What every energy term must keep: its gradient, force and second derivative belong to its energy.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What every energy term must keep: its gradient, force and second derivative belong to its energy.
 #pragma once
 
 #include <gtest/gtest.h>

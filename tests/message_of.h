@@ -1,4 +1,6 @@
-// What an Error says, for tests of messages.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What an Error says, for tests of messages.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Muscles of every shape for tests: sizes as in a face, and a closed surface to fill.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Muscles of every shape for tests: sizes as in a face, and a closed surface to fill.
 #pragma once
 
 #include <cmath>

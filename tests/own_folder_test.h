@@ -1,4 +1,6 @@
-// A test in a folder of its own, so that it can write files by short names while others run beside it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A test in a folder of its own, so that it can write files by short names while others run beside it.
 #pragma once
 
 #include <gtest/gtest.h>

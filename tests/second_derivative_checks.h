@@ -1,5 +1,7 @@
-// Second derivatives that energies over nodes hand out themselves (not as terms): against differences of their gradients,
-// and what is left of them without the negative part.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Second derivatives that energies over nodes hand out themselves (not as terms): against differences of their gradients,
+/// and what is left of them without the negative part.
 #pragma once
 
 #include <gtest/gtest.h>

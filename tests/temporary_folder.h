@@ -1,4 +1,6 @@
-// A folder of its own for one test, gone with it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A folder of its own for one test, gone with it.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # From a bare Debian 12 to the first video: installs what is missing, builds, renders samples/hello to out/hello.mp4.
 # Arguments go to `risorius render`, for instance: tools/demo.sh --size 512x512
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Builds the manual as a site with search, and the C++ reference, into build/site; checks every link. A warning is an error.
 #
 #   tools/docs.sh             the site, its links, the C++ reference

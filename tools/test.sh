@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Installs what is missing, builds everything and runs every test: those of the folders below with assertions, warnings as
 # errors and the address and undefined-behaviour sanitizers, all others in the release build.
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bakes blend shapes of a rig into shapes.glb, with progress on standard error.
 //
 //   bake_shapes FOLDER [RIG]

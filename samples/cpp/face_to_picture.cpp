@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Simulates a smile and draws it: a rig and activations in, a PNG out.
 //
 //   face_to_picture smile.png

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lets a volume-preserving cube hang from its ceiling and prints how its volume and its lowest node move.
 //
 //   soft_body

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A table of frames taken apart again, and the moments of a motion found in it.
 #include "risorius/animate/frame_rows.h"
 

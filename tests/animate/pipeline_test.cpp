@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/pipeline.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A render job is complete: its script and rig are read when it is planned, once.
 #include "risorius/animate/render_job.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Equilibria measured on shells of several sizes.
 #include "tools/bench/bench_poses.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What one frame of the face is made of, at the size of the face: a curved patch of 41 x 41 x 3 nodes (5,043 nodes, 19,200
 // tets, 3,200 triangles), 1,800 fibre segments, its deep nodes tethered.
 //   kernels_bench --benchmark_min_time=1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a real-time step of a solid of cells is made of, on the thesis' cube under a ceiling. The argument is the number of
 // nodes along an edge; accuracy and whole steps are in `risorius bench --solids`.
 //   solids_bench --benchmark_min_time=1

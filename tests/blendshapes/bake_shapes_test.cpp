@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Blend shapes of the adult: halves make wholes, what does not move stays put to the bit, and files hold what was made.
 #include "risorius/blendshapes/bake_shapes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes add up by weight, and correctives come in by the rule that files state for them.
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
 

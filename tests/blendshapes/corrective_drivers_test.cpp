@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Terms of correctives: what they add up to in the poses that they were made of.
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 

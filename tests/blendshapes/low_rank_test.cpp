@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many drivers in few correctives: fitted to frames, split into sides, compressed within a budget.
 #include "risorius/blendshapes/detail/low_rank.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What linear rigs are tried on: drawn at random, but the same every time, and like faces.
 #include "risorius/blendshapes/detail/random_weights.h"
 

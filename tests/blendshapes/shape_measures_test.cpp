@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two sides of a face: how far they are from each other's mirror image, and the mean that is its own.
 #include "risorius/blendshapes/detail/shape_measures.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Blend shapes end softly, have two halves that make a whole, and say how they stretch.
 #include "risorius/blendshapes/detail/sparse_shape.h"
 

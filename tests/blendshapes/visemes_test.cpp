@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mouth shapes of speech on the adult: lips as far apart, as wide and as far forward as in conversation.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/detail/closed_surface.h"
 
 #include <gtest/gtest.h>

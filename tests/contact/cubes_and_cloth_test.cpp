@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Soft cubes on each other, and cloth over what is rigid or soft.
 #include <gtest/gtest.h>
 

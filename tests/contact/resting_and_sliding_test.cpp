@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A soft cube on obstacles, run in explicit and implicit steps.
 #include <gtest/gtest.h>
 

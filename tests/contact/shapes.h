@@ -1,4 +1,6 @@
-// Bodies and surfaces for tests of contact, made in code.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Bodies and surfaces for tests of contact, made in code.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// Soft blocks put into one system with what they touch, and run: for tests of contact in motion.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Soft blocks put into one system with what they touch, and run: for tests of contact in motion.
 #pragma once
 
 #include <memory>

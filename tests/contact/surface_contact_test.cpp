@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/surface_contact.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a person reads when a JSON file is wrong: place, expected, found. Messages are compared whole.
 #include "risorius/core/json_cursor.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a design file to the clips it asks for.
 #include "risorius/design/conditions.h"
 

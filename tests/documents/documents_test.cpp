@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the manual shows is what happens: examples follow their schema, names of sources and options are
 // right. tests/scenario/manual_test.cpp runs its commands.
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
-// The adult's simulated face, and drives to move it with.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The adult's simulated face, and drives to move it with.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A smile folds the skin beside the mouth; the cheek behind the fold moves as one.
 #include "risorius/face/anatomy/detail/cheek.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What tissue feels of weight and of a moving head, and that it does not matter in which steps it is computed.
 #include <gtest/gtest.h>
 

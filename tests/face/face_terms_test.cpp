@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A force that is new to the face: added to its list of energy terms, it acts as its law says.
 #include "face/adult_face.h"
 #include "force_term_checks.h"

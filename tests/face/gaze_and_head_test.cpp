@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Eyes turn by exactly the angle asked for; the head turns as one piece over shoulders that stay.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The forward-dynamic jaw by itself: its equations, its ranges, its bite. Ranges are those of skull.json's sources (Travers 2000,
 // Ferrario 2005, clinical norms): opening 46.6 (women) to 56 mm (men), to the side 8-12 mm, forwards 7-10 mm.
 #include "risorius/face/anatomy/detail/jaw_dynamics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A jaw that its muscles move, with the tissue of the face on it. Ranges: see jaw_dynamics_test.cpp.
 #include <gtest/gtest.h>
 

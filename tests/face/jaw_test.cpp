@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mandible moves as one body; teeth, chin and lower lip go with it, the skull stays.
 #include "risorius/face/anatomy/detail/jaw.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lids close, open again, and slide over the eye without entering it.
 #include "risorius/face/anatomy/lids.h"
 

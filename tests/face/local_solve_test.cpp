@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mouth's own iterations are iterations of the same step.
 #include "risorius/face/solver/detail/local_solve.h"
 

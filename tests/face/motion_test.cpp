@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // In motion the face stays bounded, comes to rest, and is the same every time and at every frame rate.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The lining of the mouth stays behind the skin, however the lips turn.
 #include "risorius/face/skin/detail/mouth_lining.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a mouth must be able to do: seal, slide, roll in, push out, smile, and open without showing its lining.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Volume muscles under the skin: what they keep, what they do to the face, and that the rest stays as it is.
 #include "risorius/face/muscle/detail/muscle_solids.h"
 

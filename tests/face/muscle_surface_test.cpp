@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The muscles as surfaces to look at: all of them, closed, below the skin, and moving as the muscles do.
 #include <gtest/gtest.h>
 

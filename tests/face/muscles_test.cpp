@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Each muscle pulls the skin where anatomy says it does.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The measured head as other people: the face is built of them, their bone stays under their skin, and they move.
 #include <gtest/gtest.h>
 

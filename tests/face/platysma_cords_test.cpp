@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cords of the neck: a string on a bed, and what it raises on a head.
 #include "risorius/face/skin/detail/platysma_cords.h"
 

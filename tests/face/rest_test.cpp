@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A face nobody drives is the face that was imported, and stays so.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The simulated tissue is a sound mesh under the face, at the size asked for, and its motion reaches every vertex.
 #include "risorius/face/anatomy/shell.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The skin over the tissue: nothing at rest, even where the tissue is not, folded where it is compressed.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skull and mandible under the skin: as deep as the tissue over them is thick, open where a skull is, whole on any head.
 #include "risorius/face/view/skull.h"
 

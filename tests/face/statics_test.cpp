@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The equilibrium of a face, and how it answers to its drive. A coarse shell: the laws hold on any.
 #include <random>
 

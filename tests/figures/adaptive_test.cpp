@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adaptive against uniform resolution: the shortened figure, the same bytes for any number of threads, and wrong files.
 #include <gtest/gtest.h>
 

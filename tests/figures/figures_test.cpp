@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Short versions of the thesis' figures against published ranges, linear theory and numbers measured by an independent
 // prototype (3 m cube, 4 kg, held at its top).
 #include <gtest/gtest.h>

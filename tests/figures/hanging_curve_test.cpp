@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/hanging_curve.h"
 
 #include <gtest/gtest.h>

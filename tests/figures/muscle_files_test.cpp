@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a person reads who has written a muscle's experiment wrongly, and how activation follows what a file says.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Muscles at rest, in motion and under load on coarse grids: against one fibre and its tendon, Hill's law, and each other.
 #include <gtest/gtest.h>
 

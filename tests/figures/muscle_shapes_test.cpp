@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The figure of every muscle shape, on coarse grids.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Experiment files: what the registry knows, that all samples read, and what a person reads when one is wrong.
 #include "risorius/figures/registry.h"
 

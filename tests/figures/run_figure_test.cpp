@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The presentation of figures, with experiments made up here: what they measure is tested beside them.
 #include "risorius/figures/run_figure.h"
 

@@ -1,4 +1,6 @@
-// Experiment files of samples/figures, read as JSON so that a test can shorten them, and what they measured.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Experiment files of samples/figures, read as JSON so that a test can shorten them, and what they measured.
 #pragma once
 
 #include <gtest/gtest.h>

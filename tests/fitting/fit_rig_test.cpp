@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nothing of the user's is lost under what `fit` writes. What it finds on heads is in tests/scenario.
 #include "risorius/fitting/fit_rig.h"
 

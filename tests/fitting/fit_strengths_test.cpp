@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Muscles are scaled together until expressions move a head's landmarks as a table asks.
 #include "risorius/fitting/detail/fit_strengths.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pieces of a head without groups are told from where they lie.
 #include "risorius/fitting/detail/piece_guess.h"
 

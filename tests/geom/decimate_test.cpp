@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coarsening keeps the surface a surface: same outline, same sides, sizes as asked.
 #include "risorius/geom/decimate.h"
 

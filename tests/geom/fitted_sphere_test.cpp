@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/fitted_sphere.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/mesh_checks.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A surface that is its own mirror image is found to be, and coarsened in pairs; any other is left alone.
 #include "risorius/geom/mirror.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces of fields on a grid: where they lie, which way they face, that they are closed.
 #include "risorius/geom/surface_net.h"
 

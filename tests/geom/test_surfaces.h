@@ -1,4 +1,6 @@
-// Small surfaces for tests, made in code.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Small surfaces for tests, made in code.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/weld.h"
 
 #include <gtest/gtest.h>

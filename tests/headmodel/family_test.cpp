@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The embedded head and its relatives: how near they come to what was measured, and that one topology serves them all.
 #include <gtest/gtest.h>
 

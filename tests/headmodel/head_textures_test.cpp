@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The embedded head with a material library, as other programs open it.
 #include "risorius/headmodel/detail/head_textures.h"
 

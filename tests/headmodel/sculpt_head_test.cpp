@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A head of the family from the command's side: who is asked for, what is written, what is refused.
 #include "risorius/headmodel/sculpt_head.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a rig did itself, written down as if it had been measured, is found again; and a report is there as a whole or not at all.
 #include "risorius/inverse/evaluate.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Measured shapes: what belongs together is put together, in metres of the head frame, and a mistake in the file is told with its place.
 #include "risorius/inverse/measured_shapes.h"
 

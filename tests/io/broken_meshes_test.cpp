@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every file in tests/data/broken/meshes has to fail with the words in expected.json.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Loads a .glb by three.js' GLTFLoader, in node or in a browser, and says as JSON what came of it.
 'use strict';
 

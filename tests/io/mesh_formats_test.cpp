@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Formats that go through assimp, from small hand-written files and from what assimp itself exports.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Blend shapes survive a glTF file: names, numbers, vertices in their order, weights over time.
 #include "risorius/io/morph_model.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures of numbers written and read back to the bit.
 #include "risorius/media/float_image.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Light read from Radiance files, from files made here.
 #include "risorius/media/hdr_file.h"
 

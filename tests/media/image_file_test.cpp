@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PNG pictures written and read back.
 #include "risorius/media/image_file.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Against the signals of EBU Tech 3341 (2016), table 1, whose loudness is published.
 #include "risorius/media/loudness.h"
 

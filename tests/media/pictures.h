@@ -1,4 +1,6 @@
-// Pictures to write and to read back.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures to write and to read back.
 #pragma once
 
 #include "risorius/core/image.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SHA-256 against the vectors of FIPS 180-4 and NIST's example file.
 #include "risorius/media/sha256.h"
 

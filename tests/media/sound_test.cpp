@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sound put beside a video and read back: every sample in its place, at every format's own precision.
 #include "risorius/media/detail/sound.h"
 

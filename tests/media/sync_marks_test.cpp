@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What machines that watch the screen get: numbers of frames that survive encoders, squares, luminance.
 #include "risorius/media/sync_marks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/tone.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every kind of video file keeps, and how combinations it does not have are refused.
 #include <gtest/gtest.h>
 #include <png.h>

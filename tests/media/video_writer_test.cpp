@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Videos written and read back: every frame once, at its time, with its colour; and nothing left of
 // what failed.
 #include "risorius/media/video_writer.h"

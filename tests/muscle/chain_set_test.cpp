@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chains of fibres with tendons in series.
 #include "risorius/muscle/chain_set.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The published sets of force curves against their sources, and how a file chooses and tunes one.
 
 #include "risorius/muscle/curve_sets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tables of curves: where they agree with the curve, and that their force is the slope of their energy.
 #include "risorius/muscle/detail/curve_table.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A musculotendon at rest in one dimension, and how its five parameters scale it.
 
 #include "risorius/muscle/equilibrium.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/fibre_set.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The force curves of a musculotendon against tabulated values, their slopes and integrals against differences.
 
 #include "risorius/muscle/muscle_curves.h"

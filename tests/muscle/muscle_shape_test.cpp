@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grids of every muscle shape: what volume, lengths and directions they have, and what is refused.
 
 #include "risorius/muscle/muscle_shape.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The musculotendon's forces: laws, derivatives against differences, pennation, and what is refused.
 
 #include "risorius/muscle/musculotendon.h"

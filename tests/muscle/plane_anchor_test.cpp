@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tendons that stand square on a plane: their force, its derivatives, and what keeps the end before its plate.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The library and the program as others have them: installed, moved, found by CMake and pkg-config, far from the sources.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/plot/write_chart.h"
 
 #include <gtest/gtest.h>

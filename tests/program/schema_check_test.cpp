@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Schemas against the readers: what the project's own files say is accepted by both, and mistakes that a schema can tell are told.
 #include "tools/risorius/schema_check.h"
 

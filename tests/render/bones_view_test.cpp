@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bone under skin of glass: seen through it wherever it is, and moved by the pose alone.
 #include <gtest/gtest.h>
 

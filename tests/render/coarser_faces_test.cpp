@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Skin of fewer triangles for small pictures: near to what it stands for, with the same rim and what must stay.
 #include "risorius/render/detail/coarser_faces.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures over a time (motion blur) and through a lens of some width (depth of field).
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
-// Objects of the kind experiments draw, made up without physics: a hanging block, a cloth, a tube.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Objects of the kind experiments draw, made up without physics: a hanging block, a cloth, a tube.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Laws of light: exposure on a grey card, no energy made or lost, and what presets promise.
 
 #include "risorius/render/detail/light.h"

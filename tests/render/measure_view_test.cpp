@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures to measure by: things are where they are drawn, in the colour they were given.
 #include "risorius/render/measure_view.h"
 

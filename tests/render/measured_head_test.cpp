@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scanned head, where there is one: what the round head of the other tests cannot tell.
 
 #include <gtest/gtest.h>

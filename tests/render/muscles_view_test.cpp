@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The muscles under translucent skin: seen where they are, brighter the more active, never outside of the head.
 #include <gtest/gtest.h>
 

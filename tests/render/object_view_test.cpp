@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/object_view.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours of eyes and teeth on their texture coordinates.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
-// A head made of spheres: skin with two eyes let into it, and teeth behind it. Small, closed and known to the last vertex.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A head made of spheres: skin with two eyes let into it, and teeth behind it. Small, closed and known to the last vertex.
 #pragma once
 
 #include <cmath>

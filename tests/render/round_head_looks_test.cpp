@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What skin, lips, hair, eyes, lids and teeth of the round head look like.
 #include <gtest/gtest.h>
 

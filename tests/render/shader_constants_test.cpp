@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/shader_constants.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The skin's colours on texture coordinates, and where the hair of the scalp begins.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
-// Small pictures of the round head, and what is read off them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Small pictures of the round head, and what is read off them.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ground truth of pictures against what is known of simple bodies, and against the picture that is drawn.
 #include "risorius/render/surface_passes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh's own pictures on skin and eyes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A quantity on the skin: its colours are in order, where there is none is grey, and the face comes back as it was.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/atomic_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small pictures on one sheet.
 #include "risorius/report/contact_sheet.h"
 

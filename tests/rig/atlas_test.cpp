@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The standard anatomy is complete, the same on both sides, and speaks of landmarks that exist.
 #include "risorius/rig/atlas.h"
 

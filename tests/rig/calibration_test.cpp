@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a rig was calibrated on is told by the rig itself, as a list or as the file of one.
 #include "risorius/rig/calibration.h"
 

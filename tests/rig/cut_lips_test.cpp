@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lips of scans are told from lips that part, and cut into two with a mouth behind.
 #include "risorius/rig/cut_lips.h"
 

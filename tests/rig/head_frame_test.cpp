@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A head is found however its mesh lies in space, and whatever its units.
 #include "risorius/rig/detail/head_frame.h"
 

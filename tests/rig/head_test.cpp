@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A placed head knows each of its vertices: what is skin, what turns with an eye, what goes with the jaw.
 #include "risorius/rig/head.h"
 

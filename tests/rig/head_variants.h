@@ -1,4 +1,6 @@
-// Heads made from another head: other people, scans, other resolutions, mistakes in their landmarks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Heads made from another head: other people, scans, other resolutions, mistakes in their landmarks.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,6 @@
-// The heads of the tests: the adult that comes with the project, and two measured ones that may lie beside it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The heads of the tests: the adult that comes with the project, and two measured ones that may lie beside it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wrong landmarks are found by what the others say of them, and right ones are left alone on people of all kinds.
 #include "risorius/rig/landmark_check.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The warp through landmarks goes where it is told, and leaves alone what an affine map explains.
 #include "risorius/rig/landmark_warp.h"
 

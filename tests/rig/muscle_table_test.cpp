@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Muscles as the standard table gives them, and their paths laid into a head.
 #include "risorius/rig/muscle_table.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rig file means the same after it is written and read again, and says what is wrong with it.
 #include "risorius/rig/rig_description.h"
 

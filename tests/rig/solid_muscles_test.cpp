@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which muscles are solids, as a rig file says it.
 #include "risorius/rig/detail/solid_muscles.h"
 

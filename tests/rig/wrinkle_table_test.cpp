@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The table of wrinkle lines is read as written, and mistakes in it are found.
 #include "risorius/rig/wrinkle_table.h"
 

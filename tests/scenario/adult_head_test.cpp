@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The embedded head: what the simulation and the renderer take for granted about its geometry.
 #include <gtest/gtest.h>
 

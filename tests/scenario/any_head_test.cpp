@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heads as people bring them: scans with grown lips, soups of triangles, other people, other units.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every file and command line under tests/data/broken: the exact message, and nothing left behind. Command lines and one
 // file of each command go through the real program, whose start takes most of the time, and end with exit code 2.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The experiments that come with a stimulus set: PsychoPy's program is run with a stand-in for PsychoPy, jsPsych's page is
 // played by the real jsPsych in a real browser.
 #include <gtest/gtest.h>

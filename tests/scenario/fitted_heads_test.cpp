@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heads made by others, fitted from their landmarks alone: the same muscles do the same things on both.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The manual holds: its commands run, its links lead somewhere, its site builds. A suite per part, so that they run side by side.
 #include <gtest/gtest.h>
 

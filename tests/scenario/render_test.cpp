@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a script to a video and what lies beside it, end to end on the adult.
 #include <gtest/gtest.h>
 

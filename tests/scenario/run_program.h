@@ -1,4 +1,6 @@
-// Runs the real program and catches what it says.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Runs the real program and catches what it says.
 #pragma once
 
 #include <sys/wait.h>

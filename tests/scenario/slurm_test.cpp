@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stimulus set made by a job array of a real Slurm that the test starts on the loopback.
 #include "risorius/stimuli/slurm.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a laboratory gets of one run: every frame findable, everything in it known, the sound in its place.
 #include <gtest/gtest.h>
 

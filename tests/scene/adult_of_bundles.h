@@ -1,4 +1,6 @@
-// The adult with its muscles as bundles alone, which settles quickly.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The adult with its muscles as bundles alone, which settles quickly.
 #pragma once
 
 #include "paths.h"

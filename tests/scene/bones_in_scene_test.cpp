@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bones in the scene: one array, the mandible moved by the jaw, both by the head.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The score of an expression, on fields whose score is known exactly.
 #include "risorius/scene/expression_score.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/face_oval.h"
 
 #include <gtest/gtest.h>

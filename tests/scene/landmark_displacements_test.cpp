@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far landmarks go in expressions, written and read.
 #include "risorius/scene/landmark_displacements.h"
 

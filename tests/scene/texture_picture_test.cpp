@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures that a mesh's materials name, from an OBJ with its MTL to pixels.
 #include "risorius/scene/detail/texture_picture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Strain as it is shown.
 #include "risorius/scene/visualization.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Filters against the frequency response that defines them, and against what must not happen: delay and drift.
 
 #include "risorius/signal/filter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Recordings as files: what is read, and what is refused with file, line and column.
 
 #include "risorius/signal/recording.h"

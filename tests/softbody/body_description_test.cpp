@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a person reads when the description of a soft body is wrong, and what a right one says. Messages are compared whole.
 #include "risorius/softbody/body_description.h"
 

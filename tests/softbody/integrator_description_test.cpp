@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a person reads when the description of an integrator is wrong.
 #include "risorius/softbody/integrator_description.h"
 

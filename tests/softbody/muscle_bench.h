@@ -1,4 +1,6 @@
-// The prototype muscle on its test bench: 40 mm long, 10 mm in radius, 0.30 MPa of specific tension, cells of 5 MPa.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The prototype muscle on its test bench: 40 mm long, 10 mm in radius, 0.30 MPa of specific tension, cells of 5 MPa.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Zajac's and Gasser and Hill's experiments on a muscle of cells: tension over length, quick release, bulging, popping.
 
 #include "softbody/muscle_bench.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An isolated muscle against the one-dimensional equilibrium of fibre and tendon, and what its belly does.
 
 #include "risorius/softbody/muscle_body.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The prototype muscle between planes: its belly swells alike all along, so that it is fibre, tendon and matrix in a row.
 
 #include <cmath>

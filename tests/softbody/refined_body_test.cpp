@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Solids on meshes finer than their description: the same part is held, and the boundary is closed.
 #include "risorius/softbody/refined_body.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Muscles of every shape contract: volume, balance of forces, what rings and fans do, rigid tendons, and what is refused.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Least squares in a box with a price: against the conditions of its minimum and cases known by hand.
 #include "risorius/solve/box_quadratic.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Order, stability limits, step control and book-keeping of the explicit methods.
 #include <gtest/gtest.h>
 

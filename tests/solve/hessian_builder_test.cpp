@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Assembly of second derivatives against a dense sum.
 #include "risorius/solve/hessian_builder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Implicit Euler, Baraff-Witkin, Terzopoulos and equilibria.
 #include <gtest/gtest.h>
 

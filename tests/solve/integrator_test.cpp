@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names and options of the methods.
 #include "risorius/solve/integrator.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sums over terms, masses and fixed nodes.
 #include "risorius/solve/motion_system.h"
 

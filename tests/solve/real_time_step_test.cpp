@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/real_time_step.h"
 
 #include <gtest/gtest.h>

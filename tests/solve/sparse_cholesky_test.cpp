@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/sparse_cholesky.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/supernodal_cholesky.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
-// Forces with known motions for the tests of integrators: springs to the origin, chains, a stiffening spring.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Forces with known motions for the tests of integrators: springs to the origin, chains, a stiffening spring.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Clips of a design: the same bytes however they come about, kept while nothing changes.
 #include "risorius/stimuli/batch.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the house style asks of every file, where a machine can tell.
 #include <gtest/gtest.h>
 
@@ -83,14 +84,17 @@ TEST(HouseRules, NoFileNamesAMachine) {
     EXPECT_GT(files, 20);
 }
 
-TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
+TEST(HouseRules, EverySourceNamesItsLicenceAndSaysWhatItIsFor) {
+    const std::string licence = "// SPDX-License-Identifier: MIT\n";
     const auto files = files_below("src", kSources);
     ASSERT_FALSE(files.empty());
     for (const auto& file : files) {
-        const std::string text = text_of(file);
+        std::string text = text_of(file);
+        ASSERT_TRUE(text.starts_with(licence)) << shown(file) << " does not name its licence";
+        text = text.substr(licence.size());
         if (file.extension() == ".h") {
-            EXPECT_TRUE(text.starts_with("// ") || text.starts_with("/// \\file\n/// "))
-                << shown(file) << " does not start with a comment";
+            EXPECT_TRUE(text.starts_with("/// \\file\n/// "))
+                << shown(file) << " does not say in its first lines what it is for";
             EXPECT_NE(text.find("#pragma once"), std::string::npos) << shown(file);
             continue;
         }
@@ -102,6 +106,10 @@ TEST(HouseRules, EverySourceSaysInItsFirstLineWhatItIsFor) {
             << shown(file)
             << " starts neither with a comment that says what it is for nor with its own header";
     }
+    for (const char* folder : {"tools", "tests", "samples"})
+        for (const auto& file : files_below(folder, kSources))
+            EXPECT_TRUE(text_of(file).starts_with(licence))
+                << shown(file) << " does not name its licence";
 }
 
 TEST(HouseRules, EveryTestFileExpectsSomething) {

@@ -1,4 +1,6 @@
-// The declared architecture (risorius_module lines of src/CMakeLists.txt) and the includes that have to keep to it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The declared architecture (risorius_module lines of src/CMakeLists.txt) and the includes that have to keep to it.
 #pragma once
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // src/CMakeLists.txt is the architecture; these tests hold the include lines to it.
 #include "structure/layers.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tools/setup.sh on machines made up of stand-ins: which packages it asks for, and what it says when they cannot be had.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,6 @@
-// The project's own files as text, for tests on how they are written.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The project's own files as text, for tests on how they are written.
 #pragma once
 
 #include <algorithm>

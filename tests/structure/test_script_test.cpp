@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // tools/test.sh with stand-ins for cmake and ctest: what it has run, and whether it tells of what fails.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

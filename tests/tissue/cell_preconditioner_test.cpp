@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/cell_preconditioner.h"
 
 #include <gtest/gtest.h>

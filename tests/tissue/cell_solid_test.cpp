@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The solid of trilinear cells: forces, energies, stiffness, volume, moduli, on uniform and on refined meshes.
 #include "risorius/tissue/cell_solid.h"
 

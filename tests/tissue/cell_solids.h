@@ -1,4 +1,6 @@
-// Solids of cells the tests share: the thesis' cube, shaken, bent and refined.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Solids of cells the tests share: the thesis' cube, shaken, bent and refined.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/force_generators.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/grid_surface.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
-// The thesis' cube under a ceiling (figures 5 and 9), and its equilibrium by Newton's method.
-//
-// L = 3 m and g = 9.81 m/s^2 are inferred: with them the published figures come out. The plane of highest a3 is held.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The thesis' cube under a ceiling (figures 5 and 9), and its equilibrium by Newton's method.
+///
+/// L = 3 m and g = 9.81 m/s^2 are inferred: with them the published figures come out. The plane of highest a3 is held.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hanging cube in finite differences: acceptance tests T4 and T5.
 #include "tissue/hanging_cube.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tethers, contacts and dead loads: what holds and pushes the tissue from outside.
 #include <gtest/gtest.h>
 

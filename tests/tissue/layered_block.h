@@ -1,4 +1,6 @@
-// A small layered block of tissue and its top sheet, and the checks every energy term has to pass.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A small layered block of tissue and its top sheet, and the checks every energy term has to pass.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/moduli.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adaptive resolution of surfaces: bisection keeps the mesh and the material, the estimate knows where to look.
 #include "risorius/tissue/detail/refine_surface.h"
 

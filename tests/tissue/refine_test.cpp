@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adaptive resolution: the tree keeps its balance, the estimate knows the error, and the body stays what it is.
 #include "risorius/tissue/refine.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Second derivatives of the tissue of a face: tetrahedra, skin, tethers, contacts.
 #include "risorius/tissue/contacts.h"
 #include "risorius/tissue/detail/principal_stretches.h"

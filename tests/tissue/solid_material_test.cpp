@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/solid_material.h"
 
 #include <gtest/gtest.h>

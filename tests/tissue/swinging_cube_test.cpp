@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cube let go under its ceiling: the transients of figures 9a and 9b, acceptance tests T5a and T5b. Implicit Euler would
 // damp what is measured here, so the classic Runge-Kutta method steps at 0.6 of its limit.
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
-// What every force term of a surface or curve has to pass: forces and second derivatives against differences, laws of
-// motion, and a linear solve for small deflections.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What every force term of a surface or curve has to pass: forces and second derivatives against differences, laws of
+/// motion, and a linear solve for small deflections.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fans of tetrahedra: all tets once, each where its fan says it is.
 #include "risorius/tissue/detail/tet_fans.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/tet_solid.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Electromyograms in, and simulated ones out: what is read from where, and how much a way there and back loses.
 
 #include "risorius/track/detail/emg_source.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Expressions take the times that are reported for people, and more of one is more of everything in it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A face left to itself blinks, looks about and sways as people do, the same way for the same seed.
 #include "risorius/track/detail/idle.h"
 

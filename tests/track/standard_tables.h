@@ -1,4 +1,6 @@
-// The project's own muscle, FACS and expression tables, read once for the tests of this folder.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The project's own muscle, FACS and expression tables, read once for the tests of this folder.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much of an action unit a script asks for, whatever way it asks.
 #include "risorius/track/unit_intensity.h"
 

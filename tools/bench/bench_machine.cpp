@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/bench/bench_machine.h"
 
 #include <sys/resource.h>

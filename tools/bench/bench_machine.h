@@ -1,4 +1,6 @@
-// Benchmark of this machine: steps of solids, and simulation, drawing and encoding of faces. Times are medians.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of this machine: steps of solids, and simulation, drawing and encoding of faces. Times are medians.
 #pragma once
 
 #include <filesystem>

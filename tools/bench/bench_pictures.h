@@ -1,5 +1,7 @@
-// Benchmark of rendering, from simulation to video file, at 512 x 512, 1024 x 1024 and 1920 x 1080, with and without
-// RenderRequest::draft.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of rendering, from simulation to video file, at 512 x 512, 1024 x 1024 and 1920 x 1080, with and without
+/// RenderRequest::draft.
 #pragma once
 
 #include <filesystem>

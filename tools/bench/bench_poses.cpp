@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/bench/bench_poses.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,8 @@
-// Benchmark of static equilibria on shells of increasing size: iterations, time and remaining error.
-//
-//   left    maximum motion of a node when the equilibrium is solved again from the solution, with a tolerance 100 times smaller
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of static equilibria on shells of increasing size: iterations, time and remaining error.
+///
+///   left    maximum motion of a node when the equilibrium is solved again from the solution, with a tolerance 100 times smaller
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Benchmark of a frame of blend shapes: weights from a drive, the sum of the shapes, and rotation of eyes, head and neck.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of a frame of blend shapes: weights from a drive, the sum of the shapes, and rotation of eyes, head and neck.
 #pragma once
 
 #include <filesystem>

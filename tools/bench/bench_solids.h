@@ -1,7 +1,9 @@
-// Benchmark of deformable solids of cells: a cube that hangs from a ceiling is released at rest and measured while it swings.
-//
-//   accuracy   |x - x_c| / |x_c - x_n|, RMS over nodes: x_c is the same step from the same state, converged
-//   time       processor time of one core for a step
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of deformable solids of cells: a cube that hangs from a ceiling is released at rest and measured while it swings.
+///
+///   accuracy   |x - x_c| / |x_c - x_n|, RMS over nodes: x_c is the same step from the same state, converged
+///   time       processor time of one core for a step
 #pragma once
 
 #include <vector>

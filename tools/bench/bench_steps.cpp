@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/bench/bench_steps.h"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
-// Benchmark of the time and the error of steps of a face, on a demanding track: smile, sneer, open jaw and pucker alternate every half
-// second, the jaw opens twice a second, and the eyes blink.
-//
-//   error   of skin nodes over all steps, against the same track with every step converged; errors that accumulate are included
-//   time    processor time of one core for a step of 1/60 s: median and mean over the steps of three runs; and the median over
-//           steps of the minimum of the three runs, which depends least on the load of the machine
+// SPDX-License-Identifier: MIT
+/// \file
+/// Benchmark of the time and the error of steps of a face, on a demanding track: smile, sneer, open jaw and pucker alternate every half
+/// second, the jaw opens twice a second, and the eyes blink.
+///
+///   error   of skin nodes over all steps, against the same track with every step converged; errors that accumulate are included
+///   time    processor time of one core for a step of 1/60 s: median and mean over the steps of three runs; and the median over
+///           steps of the minimum of the three runs, which depends least on the load of the machine
 #pragma once
 
 #include <vector>

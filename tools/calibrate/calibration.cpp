@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/calibrate/calibration.h"
 
 #include <cmath>

@@ -1,10 +1,12 @@
-// Brings the anatomy of a rig near measured expressions: parameters of the anatomy and the activations of every expression
-// together, by Gauss-Newton over settled poses.
-//
-//   minimise  sum over expressions 1/2 |u - g|_w^2 / |g|_w^2 + keep/2 sum (p / spread)^2 + stay/2 sum (a - a_table)^2 + price sum |a|
-//
-//   p   parameters (parameters.h), 0 as they are     a   activations of one expression, within their range
-//   u   displacement of the simulated skin nodes, dx/dp = -H^-1 dg/dp with H the second derivative of the settled face
+// SPDX-License-Identifier: MIT
+/// \file
+/// Brings the anatomy of a rig near measured expressions: parameters of the anatomy and the activations of every expression
+/// together, by Gauss-Newton over settled poses.
+///
+///   minimise  sum over expressions 1/2 |u - g|_w^2 / |g|_w^2 + keep/2 sum (p / spread)^2 + stay/2 sum (a - a_table)^2 + price sum |a|
+///
+///   p   parameters (parameters.h), 0 as they are     a   activations of one expression, within their range
+///   u   displacement of the simulated skin nodes, dx/dp = -H^-1 dg/dp with H the second derivative of the settled face
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Calibrates the standard anatomy on measured expressions of one head: a tool for those who make the tables, not for those who use them.
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/calibrate/parameters.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Numbers of the standard anatomy that calibration may change: attachments, muscle paths and strengths, tissue. All are
-// relative to landmarks or to head size, so that what one measured head teaches carries to others.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Numbers of the standard anatomy that calibration may change: attachments, muscle paths and strengths, tissue. All are
+/// relative to landmarks or to head size, so that what one measured head teaches carries to others.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,6 @@
-// Writes what calibration found into the standard tables, keeping their form: one landmark, one band, one shape per line.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes what calibration found into the standard tables, keeping their form: one landmark, one band, one shape per line.
 #pragma once
 
 #include <filesystem>

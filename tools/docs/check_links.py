@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Checks links: of every Markdown page of the repository, and with a folder given, of every HTML page of the built site.
 
     check_links.py                   README.md, CONTRIBUTING.md, docs/, samples/, rigs/, models/: files and headings exist

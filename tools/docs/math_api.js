@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Formulas of the C++ reference by KaTeX. Doxygen's pages load this file under the name of MathJax.
 for (const [kind, name] of [["link", "../katex/katex.min.css"], ["script", "../katex/katex.min.js"], ["script", "../katex/contrib/auto-render.js"]]) {
     const element = document.createElement(kind);

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Runs the examples of the manual: the shell commands of README.md and docs/, page by page, each page in a scratch copy.
 
     tools/docs/run_examples.py                        every page

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Lays out what the site is built from: docs/ as it is, and below files/ whatever its pages link to outside of docs/.
 
     stage.py build/docs-source

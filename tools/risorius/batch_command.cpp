@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius batch DESIGN -o DIR
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius bench [--rig RIG]... [--solids | --steps | --poses | --pictures | --shapes [FILE] | --stress STEPS] [-o FILE]
 #include <cstdio>
 #include <nlohmann/json.hpp>

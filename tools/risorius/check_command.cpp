@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius check FILE...
 #include <cstdio>
 #include <nlohmann/json.hpp>

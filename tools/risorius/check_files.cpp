@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/check_files.h"
 
 #include <algorithm>

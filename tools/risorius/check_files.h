@@ -1,4 +1,6 @@
-// Reads and checks files of all formats of the toolkit without running anything.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads and checks files of all formats of the toolkit without running anything.
 #pragma once
 
 #include <filesystem>

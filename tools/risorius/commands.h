@@ -1,4 +1,6 @@
-// The commands of the program. Each adds its options to the command line and runs when it is the one that was asked for.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The commands of the program. Each adds its options to the command line and runs when it is the one that was asked for.
 #pragma once
 
 #include <CLI/CLI.hpp>

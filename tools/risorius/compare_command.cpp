@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius compare SCRIPT [SCRIPT] -o OUT
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius evaluate RIG --shapes FILE [--fit] [-o DIR]
 #include <algorithm>
 #include <cstdio>

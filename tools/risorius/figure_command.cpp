@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius figure ID[,ID..]|all|EXPERIMENT.json -o DIR, risorius figure --list
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius fit MESH --landmarks FILE -o RIG
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius head [--identity NAME|FILE] [--seed N] -o DIR
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius info RIG
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line: turns arguments into calls of the libraries, and exceptions into messages and exit codes.
 #include <algorithm>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/manual_pages.h"
 
 #include <fstream>

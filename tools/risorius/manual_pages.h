@@ -1,5 +1,7 @@
-// Pages about the command line, made from the same description as --help: a page of the manual, man pages, and completions
-// for shells.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pages about the command line, made from the same description as --help: a page of the manual, man pages, and completions
+/// for shells.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius render SCRIPT -o OUT
 #include <cstdio>
 #include <nlohmann/json.hpp>

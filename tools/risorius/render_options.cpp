@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/render_options.h"
 
 #include <algorithm>

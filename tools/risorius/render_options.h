@@ -1,4 +1,6 @@
-// Options that several commands share: the view and the encoding.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Options that several commands share: the view and the encoding.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/rig_info.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// What a rig is made of and what scripts can drive on it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a rig is made of and what scripts can drive on it.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/schema_check.h"
 
 #include <algorithm>

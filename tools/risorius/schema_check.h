@@ -1,4 +1,6 @@
-// Holds a file of the toolkit against the JSON Schema of its format.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Holds a file of the toolkit against the JSON Schema of its format.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius shapes RIG -o DIR [--set arkit52|facs|muscles|visemes]
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius sheet SCRIPT... --times T,T,... -o OUT.png
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // risorius solve RIG --shapes FILE | --mesh FILE | --landmarks FILE -o DIR
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tools/risorius/terminal.h"
 
 #include <unistd.h>

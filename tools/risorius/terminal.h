@@ -1,4 +1,6 @@
-// The progress bar of the program, and its reaction to Ctrl-C.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The progress bar of the program, and its reaction to Ctrl-C.
 #pragma once
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sculpt: makes the embedded head from its design tables. See models/adult/ORIGIN.md.
 #include <cstdio>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/animate.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,6 @@
-// From a script to a video: plans the job, runs it and writes its files.
+// SPDX-License-Identifier: MIT
+/// \file
+/// From a script to a video: plans the job, runs it and writes its files.
 #pragma once
 
 #include "risorius/animate/detail/run_record.h"

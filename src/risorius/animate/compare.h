@@ -1,4 +1,6 @@
-// Two scripts, or two heads under one script, side by side in one video.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Two scripts, or two heads under one script, side by side in one video.
 #pragma once
 
 #include "risorius/animate/render_request.h"

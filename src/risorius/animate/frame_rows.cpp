@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/frame_rows.h"
 
 #include <algorithm>

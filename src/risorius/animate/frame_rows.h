@@ -1,4 +1,6 @@
-// Reads a table of frames (frame_table.h) back into rows of cells under column names.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads a table of frames (frame_table.h) back into rows of cells under column names.
 #pragma once
 
 #include <string>

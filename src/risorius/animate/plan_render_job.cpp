@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plans a render: reads every input once, and checks it and the request.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/render_inputs.h"
 
 #include "risorius/core/json_text.h"

@@ -1,4 +1,6 @@
-// The files that renders read. Each is read from disk once, however many jobs use it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The files that renders read. Each is read from disk once, however many jobs use it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// One render, planned: everything that a run needs is read and checked before it begins.
+// SPDX-License-Identifier: MIT
+/// \file
+/// One render, planned: everything that a run needs is read and checked before it begins.
 #pragma once
 
 #include <memory>

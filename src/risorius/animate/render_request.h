@@ -1,4 +1,6 @@
-// What a caller asks for when it renders a script. Fields that are not given keep the value of the script.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a caller asks for when it renders a script. Fields that are not given keep the value of the script.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,8 @@
-// What renders of the same face share: the face, the scene that is made of it, and the views with what they have baked.
-//
-// A job leaves nothing behind that a later one would show: a face starts anew, and views keep nothing of a frame.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What renders of the same face share: the face, the scene that is made of it, and the views with what they have baked.
+///
+/// A job leaves nothing behind that a later one would show: a face starts anew, and views keep nothing of a frame.
 #pragma once
 
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a job to pictures: the file to read first. JobRun::run() is the loop over the frames.
 #include "risorius/animate/run_render_job.h"
 

@@ -1,4 +1,6 @@
-// Runs a planned render from its first frame to its last: simulates, draws, measures and marks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Runs a planned render from its first frame to its last: simulates, draws, measures and marks.
 #pragma once
 
 #include <functional>

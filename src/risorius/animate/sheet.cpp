@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/sheet.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Frames of scripts side by side on one picture: a row for each script and head, a column for each time.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Frames of scripts side by side on one picture: a row for each script and head, a column for each time.
 #pragma once
 
 #include <filesystem>

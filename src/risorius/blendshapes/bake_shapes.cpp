@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/bake_shapes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// `risorius shapes`: makes blend shapes from a rig, with a certificate, in the file formats that other programs read.
+// SPDX-License-Identifier: MIT
+/// \file
+/// `risorius shapes`: makes blend shapes from a rig, with a certificate, in the file formats that other programs read.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/shape_player.h"
 
 #include <cmath>

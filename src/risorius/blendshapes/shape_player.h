@@ -1,7 +1,9 @@
-// Plays scripts with blend shapes instead of the simulation: the drive becomes weights, shapes and correctives are added, and eyes, head and
-// neck move as in the simulated face.
-//
-// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck; it is not stepped.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Plays scripts with blend shapes instead of the simulation: the drive becomes weights, shapes and correctives are added, and eyes, head and
+/// neck move as in the simulated face.
+///
+/// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck; it is not stepped.
 #pragma once
 
 #include <filesystem>

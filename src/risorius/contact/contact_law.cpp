@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/contact_law.h"
 
 #include <Eigen/Eigenvalues>

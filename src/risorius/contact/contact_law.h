@@ -1,13 +1,15 @@
-// How surfaces in contact press and rub: a soft penalty on the gap and Coulomb friction smoothed near rest.
-//
-//   g  gap, m     t  thickness, m     k  stiffness, Pa/m     p  pressure, Pa, = - dw/dg     w  energy, J/m^2
-//   p = k (t - g)^2 / (2 t) for 0 < g < t,   k (t/2 - g) for g <= 0: two continuous derivatives of the energy
-//   u  slip in a step of h, m    e = v_s h    v_s  slip speed below which friction grows with speed, m/s
-//   friction = mu N f1(u),  f1 = 2 u/e - u^2/e^2 for u < e, 1 beyond; f0 its integral
-//
-// A body resting on a slope thus creeps, at less than v_s. For explicit steps friction near rest is a damper of 2 mu N / v_s,
-// and they are stable below about 2 m / (2 mu N / v_s) (RK4: 2.8). Smoothed friction with the normal force of the step's start:
-// Li et al. 2020, Incremental Potential Contact, ACM TOG 39(4).
+// SPDX-License-Identifier: MIT
+/// \file
+/// How surfaces in contact press and rub: a soft penalty on the gap and Coulomb friction smoothed near rest.
+///
+///   g  gap, m     t  thickness, m     k  stiffness, Pa/m     p  pressure, Pa, = - dw/dg     w  energy, J/m^2
+///   p = k (t - g)^2 / (2 t) for 0 < g < t,   k (t/2 - g) for g <= 0: two continuous derivatives of the energy
+///   u  slip in a step of h, m    e = v_s h    v_s  slip speed below which friction grows with speed, m/s
+///   friction = mu N f1(u),  f1 = 2 u/e - u^2/e^2 for u < e, 1 beyond; f0 its integral
+///
+/// A body resting on a slope thus creeps, at less than v_s. For explicit steps friction near rest is a damper of 2 mu N / v_s,
+/// and they are stable below about 2 m / (2 mu N / v_s) (RK4: 2.8). Smoothed friction with the normal force of the step's start:
+/// Li et al. 2020, Incremental Potential Contact, ACM TOG 39(4).
 #pragma once
 
 #include <cmath>

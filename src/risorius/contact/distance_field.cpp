@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/distance_field.h"
 
 #include <algorithm>

@@ -1,8 +1,10 @@
-// A closed mesh as an obstacle: its exact signed distance sampled on a grid and interpolated by cubic splines, so that a
-// query costs the same for any mesh and the gap has two continuous derivatives.
-//
-// Between grid points the gap is within about a thousandth of a cell of the exact one where the surface is smooth, and
-// within about a fifth of a cell at sharp edges, which it rounds.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A closed mesh as an obstacle: its exact signed distance sampled on a grid and interpolated by cubic splines, so that a
+/// query costs the same for any mesh and the gap has two continuous derivatives.
+///
+/// Between grid points the gap is within about a thousandth of a cell of the exact one where the surface is smooth, and
+/// within about a fifth of a cell at sharp edges, which it rounds.
 #pragma once
 
 #include <memory>

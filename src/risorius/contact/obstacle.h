@@ -1,6 +1,8 @@
-// Rigid things that soft objects touch: shapes as signed distances, put somewhere and perhaps moved.
-//
-//   gap   signed distance from the surface, m, negative inside
+// SPDX-License-Identifier: MIT
+/// \file
+/// Rigid things that soft objects touch: shapes as signed distances, put somewhere and perhaps moved.
+///
+///   gap   signed distance from the surface, m, negative inside
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/obstacle_contact.h"
 
 #include <algorithm>

@@ -1,11 +1,13 @@
-// Contact of a soft body's surface with one rigid obstacle, with friction (see contact_law.h for the symbols).
-//
-//   E = sum over samples of A k w(g(p))     A  area of the sample, m^2     p  its place
-//
-// Implicit steps lag friction: the normal force and the tangent plane are those of the step's start, which makes friction a
-// potential mu N f0(|u|) of the slip u against the obstacle's own motion. Explicit steps take the normal force as it is.
-// Damping acts on approach only, so that surfaces do not stick; its strength is lagged in the same way. An equilibrium has
-// neither friction nor damping. A sample that passes through an obstacle thinner than its way in one step is not caught.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Contact of a soft body's surface with one rigid obstacle, with friction (see contact_law.h for the symbols).
+///
+///   E = sum over samples of A k w(g(p))     A  area of the sample, m^2     p  its place
+///
+/// Implicit steps lag friction: the normal force and the tangent plane are those of the step's start, which makes friction a
+/// potential mu N f0(|u|) of the slip u against the obstacle's own motion. Explicit steps take the normal force as it is.
+/// Damping acts on approach only, so that surfaces do not stick; its strength is lagged in the same way. An equilibrium has
+/// neither friction nor damping. A sample that passes through an obstacle thinner than its way in one step is not caught.
 #pragma once
 
 #include <memory>

@@ -1,11 +1,13 @@
-// Contact between two soft bodies of one system, with friction (see contact_law.h for the symbols).
-//
-//   E = sum over pairs of A k w(n . xi)     xi  place of a sample in the frame of the other body's nearest triangle
-//
-// Samples of each body's surface are paired with the triangles of the other, and each side carries half of the stiffness.
-// Pairs and their normals are found at the start of a step and frozen in the frame of the triangle (carried_frame.h), so
-// that net force and torque are zero to rounding at any state, friction and damping included. Friction and damping are
-// lagged as in obstacle_contact.h; the slip is what the triangle sees.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Contact between two soft bodies of one system, with friction (see contact_law.h for the symbols).
+///
+///   E = sum over pairs of A k w(n . xi)     xi  place of a sample in the frame of the other body's nearest triangle
+///
+/// Samples of each body's surface are paired with the triangles of the other, and each side carries half of the stiffness.
+/// Pairs and their normals are found at the start of a step and frozen in the frame of the triangle (carried_frame.h), so
+/// that net force and torque are zero to rounding at any state, friction and damping included. Friction and damping are
+/// lagged as in obstacle_contact.h; the slip is what the triangle sees.
 #pragma once
 
 #include <array>

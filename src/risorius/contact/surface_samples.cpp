@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/surface_samples.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Points of a surface at which it feels contact: its nodes, and points between them so that a coarse grid does not swallow
-// what is smaller than a cell.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Points of a surface at which it feels contact: its nodes, and points between them so that a coarse grid does not swallow
+/// what is smaller than a cell.
 #pragma once
 
 #include <vector>

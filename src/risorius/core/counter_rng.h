@@ -1,6 +1,8 @@
-// Counter-based random numbers: each depends only on its key, so that it is the same on every machine and in any order.
-//
-// Source: splitmix64 of Steele, Lea, Flood 2014, OOPSLA, 453-472; one step for every part of the key.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Counter-based random numbers: each depends only on its key, so that it is the same on every machine and in any order.
+///
+/// Source: splitmix64 of Steele, Lea, Flood 2014, OOPSLA, 453-472; one step for every part of the key.
 #pragma once
 
 #include <cstdint>

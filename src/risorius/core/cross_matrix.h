@@ -1,4 +1,6 @@
-// The matrix of a cross product: cross_matrix(a) b = a x b.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The matrix of a cross product: cross_matrix(a) b = a x b.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/core/data_folder.h"
 
 #include <dlfcn.h>

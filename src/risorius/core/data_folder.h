@@ -1,4 +1,6 @@
-// Where the files lie that the library reads by itself: the standard anatomy, the embedded head, the figures of the thesis.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Where the files lie that the library reads by itself: the standard anatomy, the embedded head, the figures of the thesis.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// Decompositions of dense matrices of any size, compiled here once: wherever Eigen's own are named they take seconds to compile.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Decompositions of dense matrices of any size, compiled here once: wherever Eigen's own are named they take seconds to compile.
 #pragma once
 
 #include <complex>

@@ -1,5 +1,7 @@
-// The one exception for input a person can mend: place first, then what was expected, then what was found.
-//   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
+// SPDX-License-Identifier: MIT
+/// \file
+/// The one exception for input a person can mend: place first, then what was expected, then what was found.
+///   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
 #pragma once
 
 #include <functional>

@@ -1,4 +1,6 @@
-// A file that a JSON file names: missing, the message is about the key that asks for it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A file that a JSON file names: missing, the message is about the key that asks for it.
 #pragma once
 
 #include <filesystem>

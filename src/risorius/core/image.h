@@ -1,4 +1,6 @@
-// Pictures in memory: 8 bits per channel, sRGB-encoded colour, straight (not premultiplied) alpha.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures in memory: 8 bits per channel, sRGB-encoded colour, straight (not premultiplied) alpha.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/core/json_cursor.h"
 
 #include <algorithm>

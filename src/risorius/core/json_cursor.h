@@ -1,5 +1,7 @@
-// A place in a JSON file: reads values and, when something is wrong, says which file, where in it (JSON pointer),
-// what was expected and what was found. Unknown keys are errors, so every reader lists the keys it knows.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A place in a JSON file: reads values and, when something is wrong, says which file, where in it (JSON pointer),
+/// what was expected and what was found. Unknown keys are errors, so every reader lists the keys it knows.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// JSON that is read as text first, so that the same bytes can be parsed and hashed.
+// SPDX-License-Identifier: MIT
+/// \file
+/// JSON that is read as text first, so that the same bytes can be parsed and hashed.
 #pragma once
 
 #include <filesystem>

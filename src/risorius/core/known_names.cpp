@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/core/known_names.h"
 
 #include <algorithm>

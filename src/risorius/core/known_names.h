@@ -1,4 +1,6 @@
-// Names that a person may get wrong: all there are, and which one was probably meant.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Names that a person may get wrong: all there are, and which one was probably meant.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Loops on several threads. Nested loops share one pool of spare threads, so that a loop that ends early lends its threads to others.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Loops on several threads. Nested loops share one pool of spare threads, so that a loop that ends early lends its threads to others.
 #pragma once
 
 #include <functional>

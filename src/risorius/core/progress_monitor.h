@@ -1,4 +1,6 @@
-// Progress and interruption of a long run. The caller hands in two functions; the run calls them between its steps.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Progress and interruption of a long run. The caller hands in two functions; the run calls them between its steps.
 #pragma once
 
 #include <exception>

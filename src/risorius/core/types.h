@@ -1,4 +1,6 @@
-// Shapes of the arrays that travel between folders. One row per element; SI units unless a name says otherwise.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Shapes of the arrays that travel between folders. One row per element; SI units unless a name says otherwise.
 #pragma once
 
 #include <Eigen/Core>

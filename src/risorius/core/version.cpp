@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/core/version.h"
 
 namespace risorius {

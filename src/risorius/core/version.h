@@ -1,4 +1,6 @@
-// The version of the toolkit, as run records name it. It is set in one place, the project() line of CMakeLists.txt.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The version of the toolkit, as run records name it. It is set in one place, the project() line of CMakeLists.txt.
 #pragma once
 
 namespace risorius {

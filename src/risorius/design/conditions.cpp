@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/design/conditions.h"
 
 #include <algorithm>

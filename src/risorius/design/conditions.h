@@ -1,4 +1,6 @@
-// The clips that a design asks for, each with its name, its values and its script.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The clips that a design asks for, each with its name, its values and its script.
 #pragma once
 
 #include <filesystem>

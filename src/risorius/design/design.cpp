@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/design/design.h"
 
 #include <cctype>

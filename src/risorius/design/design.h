@@ -1,5 +1,7 @@
-// A design as read from its file: scripts and the values that vary in them, controls, and how clips are written.
-// JSON format "risorius-design", version 1; field names are its keys.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A design as read from its file: scripts and the values that vary in them, controls, and how clips are written.
+/// JSON format "risorius-design", version 1; field names are its keys.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The simulated face of one rig: soft tissue, skin, muscles, jaw, lids and eyes. It is stepped in time by BDF2, the second-order
 /// backward difference formula.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/figure_page.h"
 
 #include <algorithm>

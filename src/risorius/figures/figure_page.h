@@ -1,4 +1,6 @@
-// One HTML page with figures side by side: what was published, what was measured, pictures and charts, and why they differ.
+// SPDX-License-Identifier: MIT
+/// \file
+/// One HTML page with figures side by side: what was published, what was measured, pictures and charts, and why they differ.
 #pragma once
 
 #include <filesystem>

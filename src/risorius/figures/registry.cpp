@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/registry.h"
 
 #include <algorithm>

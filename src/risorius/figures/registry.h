@@ -1,9 +1,11 @@
-// The thesis' figures and the kinds of experiment that make them. An experiment file says what is run, what is measured
-// and what was published; so a person's own parameters run just as well:
-//
-//   {"format": "risorius-experiment", "version": 1, "figure": "9b", "kind": "volume-history", "title": "...", ...}
-//
-// "figure" names the results, "kind" chooses the experiment; each kind lists its further keys in its own header.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The thesis' figures and the kinds of experiment that make them. An experiment file says what is run, what is measured
+/// and what was published; so a person's own parameters run just as well:
+///
+///   {"format": "risorius-experiment", "version": 1, "figure": "9b", "kind": "volume-history", "title": "...", ...}
+///
+/// "figure" names the results, "kind" chooses the experiment; each kind lists its further keys in its own header.
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/run_figure.h"
 
 #include <algorithm>

@@ -1,12 +1,14 @@
-// Runs experiments of samples/figures, or of a file of one's own, and writes what they leave as folders of results:
-//
-//   DIR/results.json     id, checks, parameters, what was run, the list of all files
-//   DIR/experiment.json  what it was run from
-//   DIR/index.html       published and measured side by side
-//   DIR/*.csv *.svg *.png *.gp
-//   DIR/timing.json      how long it took: the only file that differs between two runs
-//
-// Of several figures each has such a folder below DIR, and DIR the page of all.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Runs experiments of samples/figures, or of a file of one's own, and writes what they leave as folders of results:
+///
+///   DIR/results.json     id, checks, parameters, what was run, the list of all files
+///   DIR/experiment.json  what it was run from
+///   DIR/index.html       published and measured side by side
+///   DIR/*.csv *.svg *.png *.gp
+///   DIR/timing.json      how long it took: the only file that differs between two runs
+///
+/// Of several figures each has such a folder below DIR, and DIR the page of all.
 #pragma once
 
 #include <filesystem>

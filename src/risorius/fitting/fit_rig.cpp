@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/fit_rig.h"
 
 #include <algorithm>

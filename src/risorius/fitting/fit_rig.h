@@ -1,4 +1,6 @@
-// Makes a muscle rig from any face mesh with landmarks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Makes a muscle rig from any face mesh with landmarks.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/landmark_file.h"
 
 #include <algorithm>

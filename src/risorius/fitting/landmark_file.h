@@ -1,4 +1,6 @@
-// Reads a landmark file whose names are those of the atlas.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads a landmark file whose names are those of the atlas.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/part_guess.h"
 
 #include <algorithm>

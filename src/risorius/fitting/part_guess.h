@@ -1,4 +1,6 @@
-// Guesses the roles of an unknown mesh's groups from their names: "Eyeball_L" is the left eye.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Guesses the roles of an unknown mesh's groups from their names: "Eyeball_L" is the left eye.
 #pragma once
 
 #include <functional>

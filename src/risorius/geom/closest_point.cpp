@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/closest_point.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Closest points on a triangle surface, first hits of rays, and points bound to a surface so that they move with it.
-//
-// Results do not depend on the search tree: of equally near triangles the one with the lowest index is taken.
-// Closest point on a triangle by regions of Voronoi: Ericson 2005, Real-Time Collision Detection, 5.1.5.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Closest points on a triangle surface, first hits of rays, and points bound to a surface so that they move with it.
+///
+/// Results do not depend on the search tree: of equally near triangles the one with the lowest index is taken.
+/// Closest point on a triangle by regions of Voronoi: Ericson 2005, Real-Time Collision Detection, 5.1.5.
 #pragma once
 
 #include <array>

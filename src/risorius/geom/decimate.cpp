@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/decimate.h"
 
 #include <algorithm>

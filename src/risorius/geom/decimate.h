@@ -1,7 +1,9 @@
-// Coarsens a triangle surface by half-edge collapse towards a size field, keeping a subset of the original vertices,
-// then flips edges towards larger smallest angles. Deterministic.
-//
-// Half-edge collapse: Hoppe 1996, "Progressive meshes"; here ordered by edge length over wanted length.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Coarsens a triangle surface by half-edge collapse towards a size field, keeping a subset of the original vertices,
+/// then flips edges towards larger smallest angles. Deterministic.
+///
+/// Half-edge collapse: Hoppe 1996, "Progressive meshes"; here ordered by edge length over wanted length.
 #pragma once
 
 #include <vector>

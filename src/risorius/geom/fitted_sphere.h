@@ -1,4 +1,6 @@
-// The sphere that fits points best: least squares of |p - c|^2 - r^2.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The sphere that fits points best: least squares of |p - c|^2 - r^2.
 #pragma once
 
 #include <vector>

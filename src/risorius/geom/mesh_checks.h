@@ -1,7 +1,9 @@
-// Checks of a face mesh before a rig is built on it: errors and warnings.
-//
-// Messages name vertices and faces counted from 0, as the rows of PolygonMesh are, with the position in metres:
-//   head.obj:face 17: expected an area above 1e-13 m2, found 0 m2 (group skin, at (0.01, 0.02, 0.09) m)
+// SPDX-License-Identifier: MIT
+/// \file
+/// Checks of a face mesh before a rig is built on it: errors and warnings.
+///
+/// Messages name vertices and faces counted from 0, as the rows of PolygonMesh are, with the position in metres:
+///   head.obj:face 17: expected an area above 1e-13 m2, found 0 m2 (group skin, at (0.01, 0.02, 0.09) m)
 #pragma once
 
 #include <string>

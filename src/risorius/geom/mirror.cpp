@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/mirror.h"
 
 #include <algorithm>

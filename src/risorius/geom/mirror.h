@@ -1,7 +1,9 @@
-// Left and right of a symmetric surface: the mirror partner of each vertex, one half, and coarsening in pairs.
-//
-// Only surfaces whose vertices come in pairs, with a line of vertices between the halves, count as symmetric. Triangles need not be
-// symmetric (polygons are cut arbitrarily): one half and its image stand for both.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Left and right of a symmetric surface: the mirror partner of each vertex, one half, and coarsening in pairs.
+///
+/// Only surfaces whose vertices come in pairs, with a line of vertices between the halves, count as symmetric. Triangles need not be
+/// symmetric (polygons are cut arbitrarily): one half and its image stand for both.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/polygon_mesh.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// A mesh as its file gives it: polygons of any size over shared vertices, with faces in named groups. The vertex order is that of the file,
-// so that displacement tables by vertex index remain valid.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A mesh as its file gives it: polygons of any size over shared vertices, with faces in named groups. The vertex order is that of the file,
+/// so that displacement tables by vertex index remain valid.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/polyline.h"
 
 #include <algorithm>

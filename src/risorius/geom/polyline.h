@@ -1,4 +1,6 @@
-// Distance to open polylines in space, and smooth curves through landmarks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Distance to open polylines in space, and smooth curves through landmarks.
 #pragma once
 
 #include <vector>

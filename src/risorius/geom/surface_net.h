@@ -1,5 +1,7 @@
-// The zero surface of a field on a grid, as triangles: naive surface nets (Gibson 1998), with one vertex in each cell that the surface
-// crosses, at the mean of its crossings of the cell's edges.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The zero surface of a field on a grid, as triangles: naive surface nets (Gibson 1998), with one vertex in each cell that the surface
+/// crosses, at the mean of its crossings of the cell's edges.
 #pragma once
 
 #include <array>

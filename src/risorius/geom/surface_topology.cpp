@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/geom/surface_topology.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Topology of a triangle surface: edges, neighbours, boundary loops, pieces, hinges, vertex normals.
-//
-// Corner k of a triangle is its k-th vertex; side k runs from corner k to corner k + 1 (mod 3). Results are ordered by
-// index, so the same triangles give the same lists.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Topology of a triangle surface: edges, neighbours, boundary loops, pieces, hinges, vertex normals.
+///
+/// Corner k of a triangle is its k-th vertex; side k runs from corner k to corner k + 1 (mod 3). Results are ordered by
+/// index, so the same triangles give the same lists.
 #pragma once
 
 #include <array>

@@ -1,9 +1,11 @@
-// Joins a mesh that is split at seams into one surface: texture seams of glTF, seams between regions of a face mesh.
-//
-//   V   vertices of the mesh      W   vertices of the welded surface, W <= V
-//
-// By default only boundary vertices are joined. A seam is a boundary on both sides, whereas lips that touch, or the root of lashes on a
-// lid, lie inside of a surface and must remain separate.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Joins a mesh that is split at seams into one surface: texture seams of glTF, seams between regions of a face mesh.
+///
+///   V   vertices of the mesh      W   vertices of the welded surface, W <= V
+///
+/// By default only boundary vertices are joined. A seam is a boundary on both sides, whereas lips that touch, or the root of lashes on a
+/// lid, lie inside of a surface and must remain separate.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,6 @@
-// Quality of a head: distances to the tables of its design, anthropometric measures, and the topology that animation needs. Lengths in mm.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Quality of a head: distances to the tables of its design, anthropometric measures, and the topology that animation needs. Lengths in mm.
 #pragma once
 
 #include <string>

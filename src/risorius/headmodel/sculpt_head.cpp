@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/headmodel/sculpt_head.h"
 
 #include <algorithm>

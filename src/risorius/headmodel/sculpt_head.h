@@ -1,4 +1,6 @@
-// Writes a head of the parametric family into a folder: mesh, landmarks, rig, picture, and the identity it was made from.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes a head of the parametric family into a folder: mesh, landmarks, rig, picture, and the identity it was made from.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/compare_heads.h"
 
 #include <cmath>

@@ -1,7 +1,9 @@
-// Compares the expressions of two heads: each is driven by its own tables, and the displacements of landmarks are compared after scaling
-// by the size of the head.
-//
-//   difference  sqrt(sum |u/s - u'/s'|^2 / sum |u'/s'|^2) over the landmarks of brows, eyes, nose and lips;  s  size of a head / the atlas head
+// SPDX-License-Identifier: MIT
+/// \file
+/// Compares the expressions of two heads: each is driven by its own tables, and the displacements of landmarks are compared after scaling
+/// by the size of the head.
+///
+///   difference  sqrt(sum |u/s - u'/s'|^2 / sum |u'/s'|^2) over the landmarks of brows, eyes, nose and lips;  s  size of a head / the atlas head
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// Compares a rig's expressions with measured ones: driven by the rig's own tables, and after a bounded search of activations.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Compares a rig's expressions with measured ones: driven by the rig's own tables, and after a bounded search of activations.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/fit_activations.h"
 
 #include <algorithm>

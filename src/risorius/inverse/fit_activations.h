@@ -1,9 +1,11 @@
-// Finds the activations that bring a face nearest to a measured expression: bounded least squares with an L1 and an L2 penalty.
-//
-//   minimise  1/2 |u(a) - g|_w^2 / |g|_w^2 + l1 sum |a_i| + l2/2 sum a_i^2 + keep/2 sum (a_i - near_i)^2,
-//             0 <= a_i <= 1 (or the muscle's range)
-//
-// Gauss-Newton over poses in equilibrium. Left and right have the same activation where the measured shape has both sides.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds the activations that bring a face nearest to a measured expression: bounded least squares with an L1 and an L2 penalty.
+///
+///   minimise  1/2 |u(a) - g|_w^2 / |g|_w^2 + l1 sum |a_i| + l2/2 sum a_i^2 + keep/2 sum (a_i - near_i)^2,
+///             0 <= a_i <= 1 (or the muscle's range)
+///
+/// Gauss-Newton over poses in equilibrium. Left and right have the same activation where the measured shape has both sides.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/measured_shapes.h"
 
 #include <algorithm>

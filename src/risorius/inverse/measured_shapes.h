@@ -1,8 +1,10 @@
-// Measured expressions of a head: displacement fields over the vertices of its mesh, and the drive of the rig for each.
-//
-// File: {"shape": [S, V, 3], "dtype": "<f4", "layout": "[shape][vertex][xyz]", "names": [...], "file": "x.f32",
-// "units_per_metre": 100, "excitations": {name: {source: value}}, "on_top_of": {name: other}} beside the raw numbers; vertices in
-// the order of the mesh file. Without "file" the numbers are in x.f32 beside x.json, without "units_per_metre" in the unit of the mesh.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measured expressions of a head: displacement fields over the vertices of its mesh, and the drive of the rig for each.
+///
+/// File: {"shape": [S, V, 3], "dtype": "<f4", "layout": "[shape][vertex][xyz]", "names": [...], "file": "x.f32",
+/// "units_per_metre": 100, "excitations": {name: {source: value}}, "on_top_of": {name: other}} beside the raw numbers; vertices in
+/// the order of the mesh file. Without "file" the numbers are in x.f32 beside x.json, without "units_per_metre" in the unit of the mesh.
 #pragma once
 
 #include <filesystem>

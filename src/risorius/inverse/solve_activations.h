@@ -1,14 +1,16 @@
-// `risorius solve`: finds the muscle activations for measured or sculpted shapes, or for landmarks over time, and writes them as a script.
-//
-//   minimise over a_t   sum_t ( 1/2 |u(a_t) - g_t|_w^2 / G + l1 |a_t|_1 + l2/2 |a_t|^2 ) + temporal/2 sum_t |a_t - a_t-1|^2
-//
-//   a_t   activations of muscles, jaw, gaze, tongue, pressure in the mouth, each within its range
-//   u     displacement of the face in equilibrium      g   what is given, m
-//   w     skin area of a vertex, and a fifth of its mean for vertices of other parts that the shapes move; 1 for landmarks
-//   G     |g|_w^2; of a sequence the largest of all frames
-//
-// Shapes are solved independently, each from rest. Frames of a sequence start from the frame before, and are then solved once more
-// backwards in time, between both neighbours.
+// SPDX-License-Identifier: MIT
+/// \file
+/// `risorius solve`: finds the muscle activations for measured or sculpted shapes, or for landmarks over time, and writes them as a script.
+///
+///   minimise over a_t   sum_t ( 1/2 |u(a_t) - g_t|_w^2 / G + l1 |a_t|_1 + l2/2 |a_t|^2 ) + temporal/2 sum_t |a_t - a_t-1|^2
+///
+///   a_t   activations of muscles, jaw, gaze, tongue, pressure in the mouth, each within its range
+///   u     displacement of the face in equilibrium      g   what is given, m
+///   w     skin area of a vertex, and a fifth of its mean for vertices of other parts that the shapes move; 1 for landmarks
+///   G     |g|_w^2; of a sequence the largest of all frames
+///
+/// Shapes are solved independently, each from rest. Frames of a sequence start from the frame before, and are then solved once more
+/// backwards in time, between both neighbours.
 #pragma once
 
 #include <filesystem>

@@ -1,12 +1,14 @@
-// Writes and reads a mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and others.
-//
-// Space: metres, y up, the face looks along +z, as glTF asks for. Every part is a primitive of one mesh with a material of
-// its own and only the vertices it needs, in the order of the mesh; the attribute _VERTEX holds each one's number in the
-// mesh. Blend shapes are morph targets of positions and normals, stored where they are not zero (sparse accessors), their names in
-// the mesh's extras.targetNames. Positions of targets are whole numbers of 16 bits that the node's scale makes metres of
-// (KHR_mesh_quantization), not "normalized" ones, which three.js from r145 to r168 misreads in sparse accessors; normals are floats.
-// Sources: glTF 2.0 specification, Khronos 2021, sections 3.6.2.3 and 3.7.2.2; KHR_mesh_quantization, Khronos 2020; three.js pull
-// requests 22874 and 29330.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes and reads a mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and others.
+///
+/// Space: metres, y up, the face looks along +z, as glTF asks for. Every part is a primitive of one mesh with a material of
+/// its own and only the vertices it needs, in the order of the mesh; the attribute _VERTEX holds each one's number in the
+/// mesh. Blend shapes are morph targets of positions and normals, stored where they are not zero (sparse accessors), their names in
+/// the mesh's extras.targetNames. Positions of targets are whole numbers of 16 bits that the node's scale makes metres of
+/// (KHR_mesh_quantization), not "normalized" ones, which three.js from r145 to r168 misreads in sparse accessors; normals are floats.
+/// Sources: glTF 2.0 specification, Khronos 2021, sections 3.6.2.3 and 3.7.2.2; KHR_mesh_quantization, Khronos 2020; three.js pull
+/// requests 22874 and 29330.
 #pragma once
 
 #include <filesystem>

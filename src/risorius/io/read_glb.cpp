@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Binary glTF in (tinygltf): what write_glb.cpp writes.
 #include <tiny_gltf.h>
 
@@ -174,8 +175,8 @@ void write_targets(const std::vector<std::map<int, Vec3>>& deltas, MorphModel& o
 }
 
 // The weights of all shapes over time.
-MorphAnimation read_animation(const tinygltf::Model& model, const Unpacker& from,
-                              const tinygltf::Animation& animation, std::size_t targets) {
+MorphAnimation read_animation(const Unpacker& from, const tinygltf::Animation& animation,
+                              std::size_t targets) {
     const tinygltf::AnimationSampler& sampler =
         from.at(animation.samplers, animation.channels[0].sampler, "sampler");
     const Eigen::MatrixXf times = from.floats(sampler.input, 1),
@@ -260,7 +261,7 @@ MorphModel read_glb(const std::filesystem::path& file) {
     write_targets(deltas, out);
     for (const tinygltf::Animation& animation : model.animations)
         if (!animation.channels.empty() && animation.channels[0].target_path == "weights")
-            out.animations.push_back(read_animation(model, from, animation, out.targets.size()));
+            out.animations.push_back(read_animation(from, animation, out.targets.size()));
     return out;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/io/read_mesh.h"
 
 #include <algorithm>

@@ -1,19 +1,21 @@
-// Reads face meshes from files with assimp: OBJ, PLY, STL, glTF/GLB, FBX, COLLADA and other formats.
-//
-// Vertices keep the order of the file (OBJ, PLY, glTF), polygons stay polygons, groups and objects
-// keep their names.
-//
-//   OBJ          groups are the "g" or "o" names, or the materials where there are neither
-//   glTF, PLY    vertices in file order, mesh after mesh; glTF holds triangles only
-//   FBX, DAE,    assimp gives face corners without the file's indices: corners of one node at exactly
-//   STL, ...     the same position become one vertex, in the order of first use; one group per node
-//                with a mesh, named after it, or "node.material" where a node has several; node
-//                transforms are applied
-//   textures     the colour pictures of materials: "map_Kd" of MTL files, base colour of glTF,
-//                diffuse colour elsewhere; files next to the mesh or inside it
-//   units        the unit stated in FBX and COLLADA files is applied, which gives metres; then
-//                `metres_per_unit` multiplies
-//   texture      v up, as in OBJ (glTF's v is flipped)
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads face meshes from files with assimp: OBJ, PLY, STL, glTF/GLB, FBX, COLLADA and other formats.
+///
+/// Vertices keep the order of the file (OBJ, PLY, glTF), polygons stay polygons, groups and objects
+/// keep their names.
+///
+///   OBJ          groups are the "g" or "o" names, or the materials where there are neither
+///   glTF, PLY    vertices in file order, mesh after mesh; glTF holds triangles only
+///   FBX, DAE,    assimp gives face corners without the file's indices: corners of one node at exactly
+///   STL, ...     the same position become one vertex, in the order of first use; one group per node
+///                with a mesh, named after it, or "node.material" where a node has several; node
+///                transforms are applied
+///   textures     the colour pictures of materials: "map_Kd" of MTL files, base colour of glTF,
+///                diffuse colour elsewhere; files next to the mesh or inside it
+///   units        the unit stated in FBX and COLLADA files is applied, which gives metres; then
+///                `metres_per_unit` multiplies
+///   texture      v up, as in OBJ (glTF's v is flipped)
 #pragma once
 
 #include <filesystem>

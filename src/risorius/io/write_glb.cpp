@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Binary glTF out (tinygltf): parts with the vertices they need, morph targets as sparse accessors, animated weights.
 #include <tiny_gltf.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wavefront OBJ out: groups, polygons of any size and texture coordinates, in the order of the mesh.
 #include <array>
 #include <fstream>

@@ -1,5 +1,7 @@
-// Floating-point pictures: OpenEXR files, 32 bits, compressed without loss (ZIP), written by the FFmpeg libraries. One channel is named Y,
-// three are named R, G and B.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Floating-point pictures: OpenEXR files, 32 bits, compressed without loss (ZIP), written by the FFmpeg libraries. One channel is named Y,
+/// three are named R, G and B.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,8 @@
-// High dynamic range pictures (Radiance .hdr, RGBE), as used for photographed surroundings.
-//
-// Source: Ward 1991, Real Pixels (Graphics Gems II), and the file format of Radiance.
+// SPDX-License-Identifier: MIT
+/// \file
+/// High dynamic range pictures (Radiance .hdr, RGBE), as used for photographed surroundings.
+///
+/// Source: Ward 1991, Real Pixels (Graphics Gems II), and the file format of Radiance.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PNG pictures through libpng, which keeps the bytes of 8-bit sRGB pixels as they are; OpenCV's reader of all formats would load
 // 77 more libraries at every start of the program.
 #include "risorius/media/image_file.h"

@@ -1,4 +1,6 @@
-// Pictures to and from files (libpng): PNG with or without alpha.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures to and from files (libpng): PNG with or without alpha.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/loudness.h"
 
 #include <ebur128.h>

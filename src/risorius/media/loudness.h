@@ -1,8 +1,10 @@
-// Loudness of a recording: EBU R 128 and ITU-R BS.1770-4, by libebur128.
-//
-//   LUFS   integrated loudness: K-weighted power of blocks of 0.4 s, without those below -70 LUFS and then without those
-//          10 LU below the mean of the rest
-//   dBTP   true peak: the highest value between the samples too, four times oversampled
+// SPDX-License-Identifier: MIT
+/// \file
+/// Loudness of a recording: EBU R 128 and ITU-R BS.1770-4, by libebur128.
+///
+///   LUFS   integrated loudness: K-weighted power of blocks of 0.4 s, without those below -70 LUFS and then without those
+///          10 LU below the mean of the rest
+///   dBTP   true peak: the highest value between the samples too, four times oversampled
 #pragma once
 
 #include "risorius/media/detail/sound.h"

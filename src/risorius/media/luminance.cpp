@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/luminance.h"
 
 #include <algorithm>

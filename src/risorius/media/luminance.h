@@ -1,8 +1,10 @@
-// Luminance statistics of pictures as stimuli: mean, contrast, and change since the previous picture.
-//
-//   Y    relative luminance of a pixel, 0 black .. 1 white: sRGB decoded to linear light (IEC 61966-2-1), BT.709 weights
-//
-// The values are proportional to those of a screen whose luminance is proportional to the decoded value. Pixels are weighted by opacity.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Luminance statistics of pictures as stimuli: mean, contrast, and change since the previous picture.
+///
+///   Y    relative luminance of a pixel, 0 black .. 1 white: sRGB decoded to linear light (IEC 61966-2-1), BT.709 weights
+///
+/// The values are proportional to those of a screen whose luminance is proportional to the decoded value. Pixels are weighted by opacity.
 #pragma once
 
 #include <cstdint>

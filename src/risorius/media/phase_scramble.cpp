@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/phase_scramble.h"
 
 #include <algorithm>

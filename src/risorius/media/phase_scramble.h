@@ -1,6 +1,8 @@
-// Phase-scrambled pictures: every spatial frequency keeps its amplitude, and its phase is shifted at random. All pictures of a scrambler
-// have the same shifts, so that what does not move stands still.
-// Source: as stimuli of vision research have it, e.g. Dakin, Hess, Ledgeway & Achtman 2002, Current Biology 12(14).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Phase-scrambled pictures: every spatial frequency keeps its amplitude, and its phase is shifted at random. All pictures of a scrambler
+/// have the same shifts, so that what does not move stands still.
+/// Source: as stimuli of vision research have it, e.g. Dakin, Hess, Ledgeway & Achtman 2002, Current Biology 12(14).
 #pragma once
 
 #include <memory>

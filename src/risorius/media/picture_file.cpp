@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/picture_file.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Reads pictures of common formats (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads pictures of common formats (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/sha256.h"
 
 #include <openssl/evp.h>

@@ -1,4 +1,6 @@
-// SHA-256 of bytes and files, as lower-case hexadecimal. For run records: which script, which mesh, which frames.
+// SPDX-License-Identifier: MIT
+/// \file
+/// SHA-256 of bytes and files, as lower-case hexadecimal. For run records: which script, which mesh, which frames.
 #pragma once
 
 #include <cstdint>

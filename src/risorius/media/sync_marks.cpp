@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/sync_marks.h"
 
 #include <algorithm>

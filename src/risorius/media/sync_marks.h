@@ -1,8 +1,10 @@
-// Marks in a corner of every picture for equipment that watches the screen: a square for a photodiode, and the frame number as black and
-// white cells, which any encoder preserves and which can be read without a font.
-//
-// The counter is a strip of 24 square cells, from the left: white, black, the number as 20 bits with the most significant
-// first (white is 1), a cell that makes the number of white bits even, white. Numbers start again at 2^20.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Marks in a corner of every picture for equipment that watches the screen: a square for a photodiode, and the frame number as black and
+/// white cells, which any encoder preserves and which can be read without a font.
+///
+/// The counter is a strip of 24 square cells, from the left: white, black, the number as 20 bits with the most significant
+/// first (white is 1), a cell that makes the number of white bits even, white. Numbers start again at 2^20.
 #pragma once
 
 #include <optional>

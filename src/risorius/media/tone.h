@@ -1,9 +1,11 @@
-// Changes luminance and contrast of pictures, and measures many pictures as one.
-//
-//   Y    relative luminance, see luminance.h
-//
-// The linear light of every channel becomes gain * c + offset, clamped to 0..1, so that Y becomes gain * Y + offset and hues are kept. The
-// result depends only on the bytes of the picture.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Changes luminance and contrast of pictures, and measures many pictures as one.
+///
+///   Y    relative luminance, see luminance.h
+///
+/// The linear light of every channel becomes gain * c + offset, clamped to 0..1, so that Y becomes gain * Y + offset and hues are kept. The
+/// result depends only on the bytes of the picture.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Decodes forward from the nearest key frame; frames are told apart by their time stamps.
 #include "risorius/media/video_reader.h"
 

@@ -1,4 +1,6 @@
-// Reads frames of a video file through the FFmpeg libraries: their number, size, times, and the pixels of any frame.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads frames of a video file through the FFmpeg libraries: their number, size, times, and the pixels of any frame.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chooses the form by the target's ending and keeps everything under a temporary name until
 // finish().
 #include "risorius/media/video_writer.h"

@@ -1,15 +1,17 @@
-// Frames to video through the FFmpeg libraries, constant frame rate, frame n at n / fps:
-//
-//   .mp4    H.264; lossless: H.264 in RGB            AAC
-//   .mov    H.264; lossless: H.264 in RGB            PCM     with transparency ProRes 4444; lossless: PNG
-//   .mkv    FFV1, always lossless                    PCM     transparency too
-//   .webm   VP9; lossless: VP9 in RGB                Opus    transparency too, not lossless
-//   frames/ PNG, 8 or 16 bits                        none    transparency too
-//
-// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
-// millisecond.
-//
-// Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Frames to video through the FFmpeg libraries, constant frame rate, frame n at n / fps:
+///
+///   .mp4    H.264; lossless: H.264 in RGB            AAC
+///   .mov    H.264; lossless: H.264 in RGB            PCM     with transparency ProRes 4444; lossless: PNG
+///   .mkv    FFV1, always lossless                    PCM     transparency too
+///   .webm   VP9; lossless: VP9 in RGB                Opus    transparency too, not lossless
+///   frames/ PNG, 8 or 16 bits                        none    transparency too
+///
+/// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
+/// millisecond.
+///
+/// Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
 #pragma once
 
 #include <filesystem>

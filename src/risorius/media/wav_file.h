@@ -1,4 +1,6 @@
-// Writes sound to a WAV file: integers of 16 or 24 bits, or floating point of 32.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes sound to a WAV file: integers of 16 or 24 bits, or floating point of 32.
 #pragma once
 
 #include <filesystem>

@@ -1,12 +1,14 @@
-// Fibres of a volume muscle with their tendons: chains of nodes that pull along themselves with one tension each.
-//
-//   L    length of a chain, all its segments     lT   of it tendon, lTs when just slack     S = L - lT   of it fibres
-//   r    l/l0 at rest      alpha   pennation at l0      S0   S at rest, when the tendon is just slack
-//   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, thickness constant
-//   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
-//
-// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The length is that of the whole chain: segments in
-// series cannot run apart, and a stiff tendon makes no stiff segment. A short tendon may be rigid: lT = lTs.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Fibres of a volume muscle with their tendons: chains of nodes that pull along themselves with one tension each.
+///
+///   L    length of a chain, all its segments     lT   of it tendon, lTs when just slack     S = L - lT   of it fibres
+///   r    l/l0 at rest      alpha   pennation at l0      S0   S at rest, when the tendon is just slack
+///   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, thickness constant
+///   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
+///
+/// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The length is that of the whole chain: segments in
+/// series cannot run apart, and a stiff tendon makes no stiff segment. A short tendon may be rigid: lT = lTs.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/curve_sets.h"
 
 #include <stdexcept>

@@ -1,11 +1,13 @@
-// The published sets of force curves by name, and how a file chooses and tunes one:
-//
-//   "curves": "thelen2003"                                     as published
-//   "curves": {"set": "zajac", "tendon_strain": 0.05}          with numbers of one's own; keys are the fields of the shape
-//
-//   zajac         F. E. Zajac 1989 and S. L. Delp 1990            muscle_curves.h
-//   thelen2003    D. G. Thelen 2003                               thelen_curves.h
-//   millard2013   M. Millard, T. Uchida, A. Seth, S. L. Delp 2013   millard_curves.h
+// SPDX-License-Identifier: MIT
+/// \file
+/// The published sets of force curves by name, and how a file chooses and tunes one:
+///
+///   "curves": "thelen2003"                                     as published
+///   "curves": {"set": "zajac", "tendon_strain": 0.05}          with numbers of one's own; keys are the fields of the shape
+///
+///   zajac         F. E. Zajac 1989 and S. L. Delp 1990            muscle_curves.h
+///   thelen2003    D. G. Thelen 2003                               thelen_curves.h
+///   millard2013   M. Millard, T. Uchida, A. Seth, S. L. Delp 2013   millard_curves.h
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/equilibrium.h"
 
 #include <algorithm>

@@ -1,11 +1,13 @@
-// Where a musculotendon of given length comes to rest: fibre and tendon in series, in one dimension. What a solid muscle
-// is compared with.
-//
-//   L    from origin to insertion, m             l   fibre, m; s = sqrt(l^2 - w^2) its length along the tendon, m
-//   w    thickness l0 sin alpha, m, constant     cos(alpha) = s / l
-//   F0 fT((L - s - lTs) / lTs) = F0 [ a fl(l/l0) + fp(l/l0) ] s / l;   with a rigid tendon s = L - lTs
-//
-// Source: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; constant thickness as there.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Where a musculotendon of given length comes to rest: fibre and tendon in series, in one dimension. What a solid muscle
+/// is compared with.
+///
+///   L    from origin to insertion, m             l   fibre, m; s = sqrt(l^2 - w^2) its length along the tendon, m
+///   w    thickness l0 sin alpha, m, constant     cos(alpha) = s / l
+///   F0 fT((L - s - lTs) / lTs) = F0 [ a fl(l/l0) + fp(l/l0) ] s / l;   with a rigid tendon s = L - lTs
+///
+/// Source: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; constant thickness as there.
 #pragma once
 
 #include "risorius/muscle/musculotendon.h"

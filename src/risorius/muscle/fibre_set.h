@@ -1,14 +1,16 @@
-// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
-//
-//   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   greatest force, N
-//   at rest     E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
-//   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
-//               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths a second
-//
-// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv Hill's as in muscle/muscle_curves.h, Ifl, Ifp and
-// Ifv their integrals. A step's E is convex in l, and what comes to rest in steps (l = l_n, fv = 1) is at rest. fl is that
-// of each segment, not of the whole fibre: segments on the falling limb, which would run apart in series, are held by the
-// tissue they lie in.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
+///
+///   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   greatest force, N
+///   at rest     E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
+///   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
+///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths a second
+///
+/// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv Hill's as in muscle/muscle_curves.h, Ifl, Ifp and
+/// Ifv their integrals. A step's E is convex in l, and what comes to rest in steps (l = l_n, fv = 1) is at rest. fl is that
+/// of each segment, not of the whole fibre: segments on the falling limb, which would run apart in series, are held by the
+/// tissue they lie in.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The second derivative of FibreSet at rest. A segment of length l along u with tension T:
 //   by the difference of its ends   T/l (I - u u^T) + dT/dl u u^T,     dT/dl = F0 / l0 (a fl' + fp')
 #include <algorithm>

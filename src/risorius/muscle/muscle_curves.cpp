@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/muscle_curves.h"
 
 #include <algorithm>

@@ -1,13 +1,15 @@
-// The four force curves of a musculotendon after Zajac, dimensionless and C1.
-//
-//   l     fibre length / optimal fibre length                  active fl(l): peak 1 at l = 1; passive fp(l)
-//   v     fibre speed / greatest shortening speed, v < 0 shortens   velocity fv(v): 1 at v = 0
-//   eps   tendon strain (lT - lTs) / lTs                        tendon fT(eps)
-//   f     force / greatest isometric force
-//
-// A published set is a function that returns a MuscleCurves. Source of this one: F. E. Zajac, Crit. Rev. Biomed. Eng.
-// 17(4), 1989, and S. L. Delp, Stanford 1990, as their tables are carried by musculoskeletal simulators, re-normalised so
-// that the peak is exactly (1, 1), and with the kinks of the published passive, lengthening and tendon branches smoothed.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The four force curves of a musculotendon after Zajac, dimensionless and C1.
+///
+///   l     fibre length / optimal fibre length                  active fl(l): peak 1 at l = 1; passive fp(l)
+///   v     fibre speed / greatest shortening speed, v < 0 shortens   velocity fv(v): 1 at v = 0
+///   eps   tendon strain (lT - lTs) / lTs                        tendon fT(eps)
+///   f     force / greatest isometric force
+///
+/// A published set is a function that returns a MuscleCurves. Source of this one: F. E. Zajac, Crit. Rev. Biomed. Eng.
+/// 17(4), 1989, and S. L. Delp, Stanford 1990, as their tables are carried by musculoskeletal simulators, re-normalised so
+/// that the peak is exactly (1, 1), and with the kinks of the published passive, lengthening and tendon branches smoothed.
 #pragma once
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/muscle_shape.h"
 
 #include <algorithm>

@@ -1,17 +1,19 @@
-// The shape of a muscle's belly at rest, and the grid of nodes that fills it with its axis a1 along the fibres.
-//
-//   {"block_m": [0.05, 0.02, 0.01]}                                         length, width, thickness
-//   {"round": {"length_m": 0.1, "width_m": 0.03, "thickness_m": 0.03, "end_ratio": 0.4}}       fusiform; 1 is a cylinder
-//   {"sheet": {"length_m": 0.06, "origin_width_m": 0.08, "insertion_width_m": 0.02, "thickness_m": 0.004}}        a fan
-//   {"path": {"path_m": [[0, 0, 0], ..], "outward": [[0, 0, 1]], "width_m": [0.01, ..], "thickness_m": 0.004,
-//             "section": "round"}}                                          curved; origin first
-//   {"ring": {as path}}                                                     a sphincter, closed along a1
-//   {"surface": {"points_m": [[0, 0, 0], ..], "triangles": [[0, 1, 2], ..], "path_m": [[..], [..]]}}   a closed surface
-//
-// a1 runs along the fibres, a2 across (width), a3 outward (thickness). The first three lie along x from the origin, width
-// along y. "path_m" of a surface may be left out: its long axis is then its axis of least inertia. "equal_volume" of all
-// but blocks and sheets: cross-sections are scaled until the grid, which is angular, has the volume of what it stands for;
-// else its outermost nodes lie on the surface itself. Field names are the keys.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The shape of a muscle's belly at rest, and the grid of nodes that fills it with its axis a1 along the fibres.
+///
+///   {"block_m": [0.05, 0.02, 0.01]}                                         length, width, thickness
+///   {"round": {"length_m": 0.1, "width_m": 0.03, "thickness_m": 0.03, "end_ratio": 0.4}}       fusiform; 1 is a cylinder
+///   {"sheet": {"length_m": 0.06, "origin_width_m": 0.08, "insertion_width_m": 0.02, "thickness_m": 0.004}}        a fan
+///   {"path": {"path_m": [[0, 0, 0], ..], "outward": [[0, 0, 1]], "width_m": [0.01, ..], "thickness_m": 0.004,
+///             "section": "round"}}                                          curved; origin first
+///   {"ring": {as path}}                                                     a sphincter, closed along a1
+///   {"surface": {"points_m": [[0, 0, 0], ..], "triangles": [[0, 1, 2], ..], "path_m": [[..], [..]]}}   a closed surface
+///
+/// a1 runs along the fibres, a2 across (width), a3 outward (thickness). The first three lie along x from the origin, width
+/// along y. "path_m" of a surface may be left out: its long axis is then its axis of least inertia. "equal_volume" of all
+/// but blocks and sheets: cross-sections are scaled until the grid, which is angular, has the volume of what it stands for;
+/// else its outermost nodes lie on the surface itself. Field names are the keys.
 #pragma once
 
 #include <string>

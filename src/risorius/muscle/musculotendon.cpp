@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/musculotendon.h"
 
 #include <algorithm>

@@ -1,29 +1,31 @@
-// Zajac's musculotendon in a grid solid: fibres between successive nodes along a1, and tendons from the ends of the belly
-// to its anchors.
-//
-//   F0   greatest isometric force, N       l0   optimal fibre length, m      lTs   slack length of both tendons together, m
-//   vmax greatest shortening speed, l0/s   alpha  pennation at l0            a   activation, 0..1     b   damping
-//   fibre   l = sqrt(s^2 + w^2), s its length along the grid, w = l0 sin alpha: pennation grows at constant thickness
-//           T = F0 [ a fl(mean of l/l0 along the chain) fv(l'/(vmax l0)) + fp(l/l0) + b l'/(vmax l0) ] along s: T s/l
-//   tendon  T = F0 fT((lT - lTs/2) / (lTs/2)), one at either end of a chain
-//
-// (M-1) N O fibres and 2 N O tendons share F0 among the N O chains; l0 is the mean of the chains', which share it as they
-// share length at rest, so that every fibre is stretched alike there. Force-length is taken of the whole chain's mean length: taken segment by segment, segments in series on the falling limb run apart. For an implicit step fl is that of
-// the step's start and fv is implicit, which makes the potential convex; in an equilibrium fl has a potential of its own.
-//
-// Ends: an end without anchor points is free: what the muscle runs into, such as skin, holds its nodes. A closed grid, a
-// sphincter, has M N O fibres and no ends; l0 and s are then once round. Of one anchored end lTs is that end's alone.
-//
-// At a plane lT is the distance of the tendon's node from it, and the tendon pulls along its normal alone: a belly may
-// narrow and swell up to its ends. Drift and turn along the plane, which that leaves free, F0 / l0 holds weakly
-// (detail/plane_guide.h). At points of a plate tendons incline as the belly swells, and press its ends together.
-//
-// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then
-// points of the anchor, no unknowns: the system has to hold those nodes (tied_nodes) and move them (place_tied), the
-// fibre length is that of the path from anchor to anchor less lTs, and the outermost fibres pull on the anchor itself.
-// Nothing is stiff, no step is limited; lTs may be 0, as of short facial muscles that begin on the bone.
-//
-// Sources: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, 4.2.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Zajac's musculotendon in a grid solid: fibres between successive nodes along a1, and tendons from the ends of the belly
+/// to its anchors.
+///
+///   F0   greatest isometric force, N       l0   optimal fibre length, m      lTs   slack length of both tendons together, m
+///   vmax greatest shortening speed, l0/s   alpha  pennation at l0            a   activation, 0..1     b   damping
+///   fibre   l = sqrt(s^2 + w^2), s its length along the grid, w = l0 sin alpha: pennation grows at constant thickness
+///           T = F0 [ a fl(mean of l/l0 along the chain) fv(l'/(vmax l0)) + fp(l/l0) + b l'/(vmax l0) ] along s: T s/l
+///   tendon  T = F0 fT((lT - lTs/2) / (lTs/2)), one at either end of a chain
+///
+/// (M-1) N O fibres and 2 N O tendons share F0 among the N O chains; l0 is the mean of the chains', which share it as they
+/// share length at rest, so that every fibre is stretched alike there. Force-length is taken of the whole chain's mean length: taken segment by segment, segments in series on the falling limb run apart. For an implicit step fl is that of
+/// the step's start and fv is implicit, which makes the potential convex; in an equilibrium fl has a potential of its own.
+///
+/// Ends: an end without anchor points is free: what the muscle runs into, such as skin, holds its nodes. A closed grid, a
+/// sphincter, has M N O fibres and no ends; l0 and s are then once round. Of one anchored end lTs is that end's alone.
+///
+/// At a plane lT is the distance of the tendon's node from it, and the tendon pulls along its normal alone: a belly may
+/// narrow and swell up to its ends. Drift and turn along the plane, which that leaves free, F0 / l0 holds weakly
+/// (detail/plane_guide.h). At points of a plate tendons incline as the belly swells, and press its ends together.
+///
+/// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then
+/// points of the anchor, no unknowns: the system has to hold those nodes (tied_nodes) and move them (place_tied), the
+/// fibre length is that of the path from anchor to anchor less lTs, and the outermost fibres pull on the anchor itself.
+/// Nothing is stiff, no step is limited; lTs may be 0, as of short facial muscles that begin on the bone.
+///
+/// Sources: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, 4.2.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/published_tables.h"
 
 namespace risorius::muscle {

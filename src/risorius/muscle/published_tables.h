@@ -1,8 +1,10 @@
-// Tables of force curves as published, to draw and to compare the curves of this folder with. Lengths and strains as in
-// muscle_curves.h.
-//
-// Source: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989, and S. L. Delp, Stanford 1990, in the digits OpenSim's
-// RigidTendonMuscle carries.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Tables of force curves as published, to draw and to compare the curves of this folder with. Lengths and strains as in
+/// muscle_curves.h.
+///
+/// Source: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989, and S. L. Delp, Stanford 1990, in the digits OpenSim's
+/// RigidTendonMuscle carries.
 #pragma once
 
 #include <utility>

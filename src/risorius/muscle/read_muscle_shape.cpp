@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Muscle shapes from JSON.
 #include <limits>
 

@@ -1,4 +1,6 @@
-// A chart as described: curves over two axes, in the way journals print them. plot::write_chart draws it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A chart as described: curves over two axes, in the way journals print them. plot::write_chart draws it.
 #pragma once
 
 #include <optional>

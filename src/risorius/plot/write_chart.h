@@ -1,7 +1,9 @@
-// Draws a chart as NAME.svg and NAME.png, sharp enough for print, and leaves what it was drawn from beside them:
-// NAME.gp, a script for gnuplot, and NAME.data.csv (series, x, y), so that it can be drawn again in another style.
-//
-// Colours are those of Okabe and Ito 2008, which people with any colour vision tell apart.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Draws a chart as NAME.svg and NAME.png, sharp enough for print, and leaves what it was drawn from beside them:
+/// NAME.gp, a script for gnuplot, and NAME.data.csv (series, x, y), so that it can be drawn again in another style.
+///
+/// Colours are those of Okabe and Ito 2008, which people with any colour vision tell apart.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// Chooses the OpenGL implementation: OSMesa, which draws in memory, or EGL without a window, which can use a graphics processor.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Chooses the OpenGL implementation: OSMesa, which draws in memory, or EGL without a window, which can use a graphics processor.
 #pragma once
 
 #include <string>

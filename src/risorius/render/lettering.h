@@ -1,6 +1,8 @@
-// Short texts in pictures: names and numbers in letters of constant stroke width, antialiased, the same on every machine.
-//
-// Letters, digits and the marks . , : ; - + / % ( ) _ = ' of ASCII; anything else shows as a box.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Short texts in pictures: names and numbers in letters of constant stroke width, antialiased, the same on every machine.
+///
+/// Letters, digits and the marks . , : ; - + / % ( ) _ = ' of ASCII; anything else shows as a box.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,7 @@
-// Pictures for measurement: surfaces in given colours in parallel projection along an axis, with marks and lines. Rendered in software
-// without OpenGL, without perspective or light that changes a colour; the same bytes on every machine.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures for measurement: surfaces in given colours in parallel projection along an axis, with marks and lines. Rendered in software
+/// without OpenGL, without perspective or light that changes a colour; the same bytes on every machine.
 #pragma once
 
 #include <vector>

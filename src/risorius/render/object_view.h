@@ -1,9 +1,11 @@
-// Draws deformed objects off-screen as figures in papers show them: a transparent shaded surface, its grid as
-// wires that pale with distance, nodes that are held as balls. White background, z up, a
-// three-quarter view in mild perspective, framed so that every vertex is inside.
-//
-// Several objects stand in a row in the order given, at the same scale and height, so that they can be compared.
-// Deterministic: the same objects and options give the same bytes, for any number of threads.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Draws deformed objects off-screen as figures in papers show them: a transparent shaded surface, its grid as
+/// wires that pale with distance, nodes that are held as balls. White background, z up, a
+/// three-quarter view in mild perspective, framed so that every vertex is inside.
+///
+/// Several objects stand in a row in the order given, at the same scale and height, so that they can be compared.
+/// Deterministic: the same objects and options give the same bytes, for any number of threads.
 #pragma once
 
 #include <array>

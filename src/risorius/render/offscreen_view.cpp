@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/offscreen_view.h"
 
 #include <algorithm>

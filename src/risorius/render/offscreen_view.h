@@ -1,6 +1,8 @@
-// Draws a scene off-screen into images: linear light, shadow, antialiasing, one shader program per material.
-//
-// Deterministic: the same scene, pose and options give the same bytes, for any number of threads.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Draws a scene off-screen into images: linear light, shadow, antialiasing, one shader program per material.
+///
+/// Deterministic: the same scene, pose and options give the same bytes, for any number of threads.
 #pragma once
 
 #include <array>

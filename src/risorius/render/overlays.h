@@ -1,4 +1,6 @@
-// Lines and marks over a finished picture, hidden behind the head.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Lines and marks over a finished picture, hidden behind the head.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
-// What is drawn: surfaces of one material each over one shared vertex array, and what the materials need to know about the head. Positions
-// change in every frame; everything here is constant.
-//
-// Frame: the head frame, metres: origin between the tragia, x to the subject's left, y up, z forward.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What is drawn: surfaces of one material each over one shared vertex array, and what the materials need to know about the head. Positions
+/// change in every frame; everything here is constant.
+///
+/// Frame: the head frame, metres: origin between the tragia, x to the subject's left, y up, z forward.
 #pragma once
 
 #include <array>

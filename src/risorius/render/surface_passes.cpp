@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/surface_passes.h"
 
 #include <algorithm>

@@ -1,8 +1,10 @@
-// What every pixel shows, from the mesh itself rather than from the picture: which part of the head, how far away, which way
-// it faces, and where it goes until another pose. For stimulus ground truth; drawn by itself, without OpenGL.
-//
-// One sample at the centre of each pixel, nothing averaged: a pixel belongs to one part. Cornea and lashes are looked through. Same
-// bytes everywhere and for any number of threads.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What every pixel shows, from the mesh itself rather than from the picture: which part of the head, how far away, which way
+/// it faces, and where it goes until another pose. For stimulus ground truth; drawn by itself, without OpenGL.
+///
+/// One sample at the centre of each pixel, nothing averaged: a pixel belongs to one part. Cornea and lashes are looked through. Same
+/// bytes everywhere and for any number of threads.
 #pragma once
 
 #include <array>

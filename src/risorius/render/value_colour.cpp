@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/value_colour.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// The colour of a quantity: from pale through orange and red to a dark purple as it grows; of one that has a sign, from dark
-// blue through grey at zero to a light yellow.
-//
-// CIE lightness changes evenly and in one direction, so more can be told from less in grey and without colour vision too.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The colour of a quantity: from pale through orange and red to a dark purple as it grows; of one that has a sign, from dark
+/// blue through grey at zero to a light yellow.
+///
+/// CIE lightness changes evenly and in one direction, so more can be told from less in grey and without colour vision too.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/atomic_file.h"
 
 #include <unistd.h>

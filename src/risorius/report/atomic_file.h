@@ -1,5 +1,7 @@
-// A text file that appears whole or not at all. It is written at once under another name in the same folder; commit() gives it its
-// own name.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A text file that appears whole or not at all. It is written at once under another name in the same folder; commit() gives it its
+/// own name.
 #pragma once
 
 #include <filesystem>

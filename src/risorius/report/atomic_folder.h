@@ -1,8 +1,10 @@
-// A folder of results that appears whole or not at all. It is filled under another name beside its place; commit() gives it its own
-// name.
-//
-// An earlier folder of results is replaced. It is recognised by its results.json, which lists its files: a folder with any other
-// file is refused.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A folder of results that appears whole or not at all. It is filled under another name beside its place; commit() gives it its own
+/// name.
+///
+/// An earlier folder of results is replaced. It is recognised by its results.json, which lists its files: a folder with any other
+/// file is refused.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/contact_sheet.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Many small pictures on one sheet. Each row of pictures has a heading; rows are set in several columns, so that the sheet is about
-// as wide as high.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Many small pictures on one sheet. Each row of pictures has a heading; rows are set in several columns, so that the sheet is about
+/// as wide as high.
 #pragma once
 
 #include <string>

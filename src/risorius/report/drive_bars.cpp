@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/drive_bars.h"
 
 #include <algorithm>

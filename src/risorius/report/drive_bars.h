@@ -1,4 +1,6 @@
-// A drive as bars on a page: each muscle and channel in use with one value, or with two values to compare.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A drive as bars on a page: each muscle and channel in use with one value, or with two values to compare.
 #pragma once
 
 #include <string>

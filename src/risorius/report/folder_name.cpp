@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/folder_name.h"
 
 namespace risorius::report {

@@ -1,4 +1,6 @@
-// Makes names that come from files usable as names of files and folders on any system.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Makes names that come from files usable as names of files and folders on any system.
 #pragma once
 
 #include <set>

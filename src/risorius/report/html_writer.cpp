@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/html_writer.h"
 
 #include <algorithm>

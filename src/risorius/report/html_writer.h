@@ -1,5 +1,7 @@
-// Writes HTML element by element, so that every element is closed and text is escaped. html_page() puts a page around it, with the
-// style of this toolkit and without scripts or network resources.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes HTML element by element, so that every element is closed and text is escaped. html_page() puts a page around it, with the
+/// style of this toolkit and without scripts or network resources.
 #pragma once
 
 #include <string>

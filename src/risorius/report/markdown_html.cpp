@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/markdown_html.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Converts the part of Markdown that the README files of this project use to HTML: headings, paragraphs, lists, tables, code,
-// **strong**, *emphasis*, `code` and [links](https://...). Anything else stays text.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Converts the part of Markdown that the README files of this project use to HTML: headings, paragraphs, lists, tables, code,
+/// **strong**, *emphasis*, `code` and [links](https://...). Anything else stays text.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// The median of numbers.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The median of numbers.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/output_paths.h"
 
 #include <fstream>

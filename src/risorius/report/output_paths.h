@@ -1,4 +1,6 @@
-// Names of the files that a run writes beside its main output, and checks before they are overwritten.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Names of the files that a run writes beside its main output, and checks before they are overwritten.
 #pragma once
 
 #include <filesystem>

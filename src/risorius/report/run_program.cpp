@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/report/run_program.h"
 
 #include <spawn.h>

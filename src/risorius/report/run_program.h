@@ -1,4 +1,6 @@
-// Runs another program and waits for its end.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Runs another program and waits for its end.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Stopwatches for wall time and processor time since they were made. They are for reports only: no result depends on them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Stopwatches for wall time and processor time since they were made. They are for reports only: no result depends on them.
 #pragma once
 
 #include <time.h>

@@ -1,8 +1,10 @@
-// The standard anatomy from which every head is rigged, in the frame and size of one average adult head: 109 landmarks, soft-tissue
-// thickness, attachment stiffness, and the muscles of expression as bands given relative to landmarks.
-//
-// Frame: origin midway between the tragia, x to the subject's left, y up, z forward, Frankfurt horizontal. m, N, Pa/m.
-// Sources: rigs/standard/*.json, each with its own.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The standard anatomy from which every head is rigged, in the frame and size of one average adult head: 109 landmarks, soft-tissue
+/// thickness, attachment stiffness, and the muscles of expression as bands given relative to landmarks.
+///
+/// Frame: origin midway between the tragia, x to the subject's left, y up, z forward, Frankfurt horizontal. m, N, Pa/m.
+/// Sources: rigs/standard/*.json, each with its own.
 #pragma once
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/calibration.h"
 
 namespace risorius::rig {

@@ -1,4 +1,6 @@
-// Names of the measured expressions that the anatomy was calibrated on. Results on these expressions are no independent test.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Names of the measured expressions that the anatomy was calibrated on. Results on these expressions are no independent test.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/cut_lips.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Cuts apart lips that have grown together in a scan, along the line between them, and adds a lining of the mouth behind the cut.
-//
-// The cut follows the deepest line between the lips from corner to corner and passes through triangles where it has to. Vertices of the
-// mesh keep their number. They keep their place too, except for spikes into the mouth. New vertices follow after the old ones.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Cuts apart lips that have grown together in a scan, along the line between them, and adds a lining of the mouth behind the cut.
+///
+/// The cut follows the deepest line between the lips from corner to corner and passes through triangles where it has to. Vertices of the
+/// mesh keep their number. They keep their place too, except for spikes into the mouth. New vertices follow after the old ones.
 #pragma once
 
 #include <vector>

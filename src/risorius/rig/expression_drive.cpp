@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/expression_drive.h"
 
 #include <algorithm>

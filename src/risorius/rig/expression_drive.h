@@ -1,5 +1,7 @@
-// The drive that produces an expression known by name: an ARKit shape, an action unit, an expression of the rig's tables, or one muscle
-// at full excitation.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The drive that produces an expression known by name: an ARKit shape, an action unit, an expression of the rig's tables, or one muscle
+/// at full excitation.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,8 @@
-// The mesh of a rig placed in the head frame. The role of every vertex is known: skin, eye, tooth, lash, ...
-//
-// Frame: the head frame (see head_frame.h), metres. Vertex order: the mesh file's own.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The mesh of a rig placed in the head frame. The role of every vertex is known: skin, eye, tooth, lash, ...
+///
+/// Frame: the head frame (see head_frame.h), metres. Vertex order: the mesh file's own.
 #pragma once
 
 #include <array>

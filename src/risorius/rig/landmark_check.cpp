@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/landmark_check.h"
 
 #include <algorithm>

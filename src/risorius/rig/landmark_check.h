@@ -1,11 +1,13 @@
-// Finds landmarks that do not fit the others. Each landmark is predicted from the others by the warp of the atlas that fits them, and by
-// the mirror image of its partner. It is suspect when it lies farther from the prediction than faces vary.
-//
-//   e   distance of a landmark from its prediction, m
-//   d   uncertainty of the warp at that place, m: about the distance of the nearest other landmarks
-//   s   variance of faces about the atlas per d: e^2 / d, m
-//
-// Prediction without the landmark itself in one inverse: Dubrule 1983, Math. Geol. 15(6), 687-699.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds landmarks that do not fit the others. Each landmark is predicted from the others by the warp of the atlas that fits them, and by
+/// the mirror image of its partner. It is suspect when it lies farther from the prediction than faces vary.
+///
+///   e   distance of a landmark from its prediction, m
+///   d   uncertainty of the warp at that place, m: about the distance of the nearest other landmarks
+///   s   variance of faces about the atlas per d: e^2 / d, m
+///
+/// Prediction without the landmark itself in one inverse: Dubrule 1983, Math. Geol. 15(6), 687-699.
 #pragma once
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/landmark_warp.h"
 
 #include "risorius/core/dense_algebra.h"

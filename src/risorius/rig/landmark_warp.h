@@ -1,4 +1,6 @@
-// Thin-plate-spline warp of space through landmark pairs (Bookstein 1989), kernel |r| in three dimensions.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Thin-plate-spline warp of space through landmark pairs (Bookstein 1989), kernel |r| in three dimensions.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/muscle_path.h"
 
 namespace risorius::rig {

@@ -1,4 +1,6 @@
-// Places the paths of the muscle table in a head.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Places the paths of the muscle table in a head.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,5 +1,7 @@
-// Every muscle of the face and jaw: its properties as a Hill-type muscle, and its paths. Names are those of
-// rigs/standard/muscles.json; lengths are those of the atlas head.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Every muscle of the face and jaw: its properties as a Hill-type muscle, and its paths. Names are those of
+/// rigs/standard/muscles.json; lengths are those of the atlas head.
 #pragma once
 
 #include <string>

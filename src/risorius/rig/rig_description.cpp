@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/rig_description.h"
 
 #include <algorithm>

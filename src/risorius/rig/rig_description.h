@@ -1,5 +1,7 @@
-// The contents of a rig file: its mesh, the roles of the mesh's groups, the landmarks, and the anatomy that moves the face.
-// The format is described in rigs/README.md; field names are the JSON keys.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The contents of a rig file: its mesh, the roles of the mesh's groups, the landmarks, and the anatomy that moves the face.
+/// The format is described in rigs/README.md; field names are the JSON keys.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/wrinkle_table.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// The lines of expression of the skin in landmark terms: where each set of lines lies, how far apart they are, which muscles fold them.
-//
-// Lengths are in mm of the atlas head and scale with the head. Landmarks are those of the left side; a pattern of each side
-// takes their mirror images on the right. Source: rigs/standard/wrinkles.json.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The lines of expression of the skin in landmark terms: where each set of lines lies, how far apart they are, which muscles fold them.
+///
+/// Lengths are in mm of the atlas head and scale with the head. Landmarks are those of the left side; a pattern of each side
+/// takes their mirror images on the right. Source: rigs/standard/wrinkles.json.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/expression_score.h"
 
 #include <algorithm>

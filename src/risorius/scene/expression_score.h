@@ -1,7 +1,9 @@
-// Scores how close a simulated displacement field of the skin is to a measured one.
-//
-//   u, g   simulated, measured displacement, V x 3, m     w   skin area each vertex stands for, m^2
-//   cosine   <u, g>_w / (|u|_w |g|_w)         relative   |u - g|_w / |g|_w (1 when the simulated skin does not move)
+// SPDX-License-Identifier: MIT
+/// \file
+/// Scores how close a simulated displacement field of the skin is to a measured one.
+///
+///   u, g   simulated, measured displacement, V x 3, m     w   skin area each vertex stands for, m^2
+///   cosine   <u, g>_w / (|u|_w |g|_w)         relative   |u - g|_w / |g|_w (1 when the simulated skin does not move)
 #pragma once
 
 #include <map>

@@ -1,4 +1,6 @@
-// The oval of a face in a picture, from hairline to chin: a smooth convex curve through its landmarks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The oval of a face in a picture, from hairline to chin: a smooth convex curve through its landmarks.
 #pragma once
 
 #include <string>

@@ -1,7 +1,9 @@
-// Displacements of the landmarks of brows, eyes, nose and lips when a head makes an expression. They are scaled to the size of the
-// atlas head, so that expressions of different heads can be compared.
-//
-// File: {"format": "risorius-landmark-ways", "version": 1, "source": "...", "expressions": {name: {landmark: [x, y, z]}}}, mm.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Displacements of the landmarks of brows, eyes, nose and lips when a head makes an expression. They are scaled to the size of the
+/// atlas head, so that expressions of different heads can be compared.
+///
+/// File: {"format": "risorius-landmark-ways", "version": 1, "source": "...", "expressions": {name: {landmark: [x, y, z]}}}, mm.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/landmark_points.h"
 
 namespace risorius::scene {

@@ -1,4 +1,6 @@
-// Positions of the landmarks of a head on a moving face. Each landmark moves with one vertex of the mesh.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Positions of the landmarks of a head on a moving face. Each landmark moves with one vertex of the mesh.
 #pragma once
 
 #include <map>

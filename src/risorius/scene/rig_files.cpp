@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/rig_files.h"
 
 #include "risorius/io/read_mesh.h"

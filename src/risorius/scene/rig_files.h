@@ -1,4 +1,6 @@
-// A rig and the mesh that it names, both checked.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A rig and the mesh that it names, both checked.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/scene_from_rig.h"
 
 #include <functional>

@@ -1,4 +1,6 @@
-// Makes the scene that the renderer draws, and the pose of a frame, from the head and its face.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Makes the scene that the renderer draws, and the pose of a frame, from the head and its face.
 #pragma once
 
 #include "risorius/face/face.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/script_drives.h"
 
 #include <cmath>

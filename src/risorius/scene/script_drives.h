@@ -1,5 +1,7 @@
-// The drive of a script over time for a face that is not stepped: muscle excitation has become activation through activation
-// dynamics, other channels are as in the script.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The drive of a script over time for a face that is not stepped: muscle excitation has become activation through activation
+/// dynamics, other channels are as in the script.
 #pragma once
 
 #include "risorius/muscle/activation.h"

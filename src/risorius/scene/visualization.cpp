@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/visualization.h"
 
 #include <algorithm>

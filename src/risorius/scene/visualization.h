@@ -1,4 +1,6 @@
-// What a picture shows besides the face: a quantity as colours on the skin, or lines and marks over it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a picture shows besides the face: a quantity as colours on the skin, or lines and marks over it.
 #pragma once
 
 #include <array>

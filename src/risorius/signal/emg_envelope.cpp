@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/signal/emg_envelope.h"
 
 #include <algorithm>

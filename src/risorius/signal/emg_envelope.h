@@ -1,8 +1,10 @@
-// Converts raw surface electromyograms to their linear envelope: band-pass, rectification, low-pass, all without delay.
-//
-// Defaults: the band of surface electrodes, 20 to 450 Hz (C. J. De Luca et al. 2010, J. Biomech. 43(8), 1573-1579), and the
-// 6 Hz usual for envelopes that drive muscle models (T. S. Buchanan et al. 2004, J. Appl. Biomech. 20(4), 367-395: 3 to 10).
-// Facial muscles are better served by a low edge of 15 to 25 Hz (A. van Boxtel 2001, Psychophysiology 38(1), 22-34).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Converts raw surface electromyograms to their linear envelope: band-pass, rectification, low-pass, all without delay.
+///
+/// Defaults: the band of surface electrodes, 20 to 450 Hz (C. J. De Luca et al. 2010, J. Biomech. 43(8), 1573-1579), and the
+/// 6 Hz usual for envelopes that drive muscle models (T. S. Buchanan et al. 2004, J. Appl. Biomech. 20(4), 367-395: 3 to 10).
+/// Facial muscles are better served by a low edge of 15 to 25 Hz (A. van Boxtel 2001, Psychophysiology 38(1), 22-34).
 #pragma once
 
 #include <array>

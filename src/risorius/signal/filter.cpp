@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/signal/filter.h"
 
 #include <algorithm>

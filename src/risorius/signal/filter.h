@@ -1,13 +1,15 @@
-// Butterworth and notch filters as second-order sections, run forwards and backwards so that they have no delay.
-//
-//   K   tan(pi f / rate): the bilinear transform, with which a cut-off stays where it was asked for
-//   n   order of one pass; both passes together attenuate like 2 n
-//
-// A cut-off is where the passes together have fallen to 1/sqrt(2), -3 dB; designed for two passes, one alone is at
-// -1.5 dB there.
-// Sources: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing; D. A. Winter, Biomechanics and Motor Control of
-// Human Movement, for the correction of the cut-off; F. Gustafsson 1996, IEEE Trans. Signal Process. 44(4), 988-992, for
-// starting in the steady state.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Butterworth and notch filters as second-order sections, run forwards and backwards so that they have no delay.
+///
+///   K   tan(pi f / rate): the bilinear transform, with which a cut-off stays where it was asked for
+///   n   order of one pass; both passes together attenuate like 2 n
+///
+/// A cut-off is where the passes together have fallen to 1/sqrt(2), -3 dB; designed for two passes, one alone is at
+/// -1.5 dB there.
+/// Sources: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing; D. A. Winter, Biomechanics and Motor Control of
+/// Human Movement, for the correction of the cut-off; F. Gustafsson 1996, IEEE Trans. Signal Process. 44(4), 988-992, for
+/// starting in the steady state.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/signal/recording.h"
 
 #include <algorithm>

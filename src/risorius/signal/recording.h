@@ -1,5 +1,7 @@
-// A table of samples from a text file: a header line with the names of the columns, then a line per sample. Columns are
-// separated by tabs, semicolons or commas, whichever the header has; lines that begin with # are skipped.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A table of samples from a text file: a header line with the names of the columns, then a line per sample. Columns are
+/// separated by tabs, semicolons or commas, whichever the header has; lines that begin with # are skipped.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/action_description.h"
 
 #include <numbers>

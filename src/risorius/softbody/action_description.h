@@ -1,12 +1,14 @@
-// What acts on a body besides its weight: springs, force generators and obstacles, as experiment files write them.
-//
-//   "springs": [{"at": [1, 1, 0], "tied_to_m": [4, 4, -1], "stiffness_n_per_m": 10, "rest_length_m": 0}]
-//   "pulses": [{"at": [0.5, 0.5, 0], "direction": [0, 0, 1], "shape": "sine", "amplitude_n": 2, "frequency_hz": 3}]
-//   "obstacles": [{"plane": {"point_m": [0, 0, -1], "normal": [0, 0, 1]}, "contact": {"friction": 0.5}},
-//                 {"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
-//                 {"capsule": {"start_m": [0, 0, 0], "end_m": [1, 0, 0], "radius_m": 0.2}}]
-//
-// "at" are material coordinates, so that the same point is meant at any resolution.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What acts on a body besides its weight: springs, force generators and obstacles, as experiment files write them.
+///
+///   "springs": [{"at": [1, 1, 0], "tied_to_m": [4, 4, -1], "stiffness_n_per_m": 10, "rest_length_m": 0}]
+///   "pulses": [{"at": [0.5, 0.5, 0], "direction": [0, 0, 1], "shape": "sine", "amplitude_n": 2, "frequency_hz": 3}]
+///   "obstacles": [{"plane": {"point_m": [0, 0, -1], "normal": [0, 0, 1]}, "contact": {"friction": 0.5}},
+///                 {"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
+///                 {"capsule": {"start_m": [0, 0, 0], "end_m": [1, 0, 0], "radius_m": 0.2}}]
+///
+/// "at" are material coordinates, so that the same point is meant at any resolution.
 #pragma once
 
 #include <memory>

@@ -1,18 +1,20 @@
-// A soft object as an experiment file describes it: its kind, grid, rest shape, material, what holds it and what acts on
-// it. Field names are the keys; read_body checks every one.
-//
-//   {"kind": "solid", "discretisation": "differences", "grid": [7, 7, 7],
-//    "rest": {"block_m": [3, 3, 3]},
-//    "material": {"mass_kg": 4, "elastic_n_per_m3": 1.5, "damping_ns_per_m3": 0.1, "incompressibility_n_per_m5": 10},
-//    "regions": [{"nodes": {"a1": "first"}, "factors": {"elastic": {"22": 0.1}}}],
-//    "fixed": [{"a3": "last"}], "gravity_m_per_s2": [0, 0, -9.81]}
-//
-// Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers and "bending_n_per_m" in place of the
-// incompressibility; their discretisations are "differences" and "triangles", which "irregular": {"share": 0.35, "seed": 1}
-// moves off the grid by so much of its spacing. Curves ("curve") have one number of nodes, numbers for tensors and no
-// discretisation. Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or
-// {"young_pa", "poisson_ratio", ..} for a material. "parameters": "per-node" takes lambda and omega as they stand instead
-// of by eq. (10), "bending_parameters" does so for the bending of surfaces.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A soft object as an experiment file describes it: its kind, grid, rest shape, material, what holds it and what acts on
+/// it. Field names are the keys; read_body checks every one.
+///
+///   {"kind": "solid", "discretisation": "differences", "grid": [7, 7, 7],
+///    "rest": {"block_m": [3, 3, 3]},
+///    "material": {"mass_kg": 4, "elastic_n_per_m3": 1.5, "damping_ns_per_m3": 0.1, "incompressibility_n_per_m5": 10},
+///    "regions": [{"nodes": {"a1": "first"}, "factors": {"elastic": {"22": 0.1}}}],
+///    "fixed": [{"a3": "last"}], "gravity_m_per_s2": [0, 0, -9.81]}
+///
+/// Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers and "bending_n_per_m" in place of the
+/// incompressibility; their discretisations are "differences" and "triangles", which "irregular": {"share": 0.35, "seed": 1}
+/// moves off the grid by so much of its spacing. Curves ("curve") have one number of nodes, numbers for tensors and no
+/// discretisation. Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or
+/// {"young_pa", "poisson_ratio", ..} for a material. "parameters": "per-node" takes lambda and omega as they stand instead
+/// of by eq. (10), "bending_parameters" does so for the bending of surfaces.
 #pragma once
 
 #include <optional>

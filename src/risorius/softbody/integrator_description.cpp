@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/integrator_description.h"
 
 #include "risorius/softbody/detail/read_numbers.h"

@@ -1,4 +1,6 @@
-// How an experiment file asks for an integrator: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
+// SPDX-License-Identifier: MIT
+/// \file
+/// How an experiment file asks for an integrator: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
 #pragma once
 
 #include "risorius/core/json_cursor.h"

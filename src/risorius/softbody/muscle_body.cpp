@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/muscle_body.h"
 
 #include <cmath>

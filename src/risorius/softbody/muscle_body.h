@@ -1,22 +1,24 @@
-// A muscle by itself: a belly of grid solid with its musculotendon, held between two plates. The test bench of Zajac's and
-// of Gasser and Hill's experiments, and of the stability of integration methods.
-//
-//   {"discretisation": "cells", "grid": [6, 6, 6], "section": "round", "length_m": 0.04, "width_m": 0.02,
-//    "thickness_m": 0.02,
-//    "moduli": {"shear_pa": 2000, "bulk_pa": 5e6, "viscosity_pa_s": 200, "density_kg_per_m3": 1060},
-//    "musculotendon": {"f0_n": 94.2, "optimal_length_m": 0.04, "tendon_slack_m": 0.02}}
-//
-// The belly lies along x with its axis through the origin, from x = 0; plates stand half the tendon slack length away
-// from its ends. In place of "section" and the three sizes any shape of muscle/muscle_shape.h may stand, and in place of
-// a plate nothing or points of a bone:
-//
-//    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
-//    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free", "bed_n_per_m": 500
-//
-// Tendons end in points of a "plate", which keep the distances they have at rest; on a "plane", as far away, they stand square
-// wherever the belly's end goes as it swells.
-//
-// Field names are the keys.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A muscle by itself: a belly of grid solid with its musculotendon, held between two plates. The test bench of Zajac's and
+/// of Gasser and Hill's experiments, and of the stability of integration methods.
+///
+///   {"discretisation": "cells", "grid": [6, 6, 6], "section": "round", "length_m": 0.04, "width_m": 0.02,
+///    "thickness_m": 0.02,
+///    "moduli": {"shear_pa": 2000, "bulk_pa": 5e6, "viscosity_pa_s": 200, "density_kg_per_m3": 1060},
+///    "musculotendon": {"f0_n": 94.2, "optimal_length_m": 0.04, "tendon_slack_m": 0.02}}
+///
+/// The belly lies along x with its axis through the origin, from x = 0; plates stand half the tendon slack length away
+/// from its ends. In place of "section" and the three sizes any shape of muscle/muscle_shape.h may stand, and in place of
+/// a plate nothing or points of a bone:
+///
+///    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
+///    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free", "bed_n_per_m": 500
+///
+/// Tendons end in points of a "plate", which keep the distances they have at rest; on a "plane", as far away, they stand square
+/// wherever the belly's end goes as it swells.
+///
+/// Field names are the keys.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/refined_body.h"
 
 #include <algorithm>

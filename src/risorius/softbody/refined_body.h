@@ -1,5 +1,7 @@
-// A solid of cells on meshes finer than its description's grid, whose cells are the roots: what holds it and its weight,
-// for any mesh of an adaptive solid.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A solid of cells on meshes finer than its description's grid, whose cells are the roots: what holds it and its weight,
+/// for any mesh of an adaptive solid.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/soft_body.h"
 
 #include <algorithm>

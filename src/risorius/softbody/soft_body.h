@@ -1,4 +1,6 @@
-// A soft object ready to move: its equations of motion, the state it starts from, what is drawn and what is measured.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A soft object ready to move: its equations of motion, the state it starts from, what is drawn and what is measured.
 #pragma once
 
 #include <array>

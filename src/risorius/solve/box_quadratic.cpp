@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/box_quadratic.h"
 
 #include <Eigen/Cholesky>

@@ -1,10 +1,12 @@
-// Least squares with limits and a price on every unknown: what a search for muscle activations solves in each round.
-//
-//   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  least_i <= x_i <= most_i
-//
-// by coordinate descent (A symmetric, positive semidefinite), exact for one coordinate at a time; for lasso problems see
-// Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). Once a sweep has left every unknown at its limit, at 0 or between them as
-// it was, those between are solved for at once.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Least squares with limits and a price on every unknown: what a search for muscle activations solves in each round.
+///
+///   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  least_i <= x_i <= most_i
+///
+/// by coordinate descent (A symmetric, positive semidefinite), exact for one coordinate at a time; for lasso problems see
+/// Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). Once a sweep has left every unknown at its limit, at 0 or between them as
+/// it was, those between are solved for at once.
 #pragma once
 
 #include <Eigen/Core>

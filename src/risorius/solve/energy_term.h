@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// One energy of a system of nodes, and so one kind of force. All forces of the library are energy terms.
 ///

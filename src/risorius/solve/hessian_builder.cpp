@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Assembly of 3 x 3 blocks into a symmetric sparse matrix, with the places of the last assembly kept.
 #include "risorius/solve/hessian_builder.h"
 

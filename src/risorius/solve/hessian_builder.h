@@ -1,8 +1,10 @@
-// Collects the symmetric 3n x 3n second derivative of an energy over node positions from 3 x 3 blocks, N/m.
-// Rows and columns of fixed nodes become those of the identity.
-//
-// A second derivative is asked for again and again over the same pairs of nodes in the same order: the builder remembers
-// where each call's block went and looks a place up only where the order has changed.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Collects the symmetric 3n x 3n second derivative of an energy over node positions from 3 x 3 blocks, N/m.
+/// Rows and columns of fixed nodes become those of the identity.
+///
+/// A second derivative is asked for again and again over the same pairs of nodes in the same order: the builder remembers
+/// where each call's block went and looks a place up only where the order has changed.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names of the methods, the check of their options, and the choice of the class behind each.
 #include "risorius/solve/integrator.h"
 

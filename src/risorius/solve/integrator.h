@@ -1,9 +1,11 @@
-// Steps a system of nodes in time: eight explicit methods, three implicit ones and equilibrium, behind one interface.
-//
-//   y = (x, v)      h   step, s      h_max of a linear mode: Press et al., Numerical Recipes; Hairer, Norsett & Wanner
-//
-// Cash & Karp 1990, ACM TOMS 16(3); Bulirsch & Stoer after Gragg's modified midpoint rule; Terzopoulos, Platt, Barr &
-// Fleischer 1987; Baraff & Witkin 1998.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Steps a system of nodes in time: eight explicit methods, three implicit ones and equilibrium, behind one interface.
+///
+///   y = (x, v)      h   step, s      h_max of a linear mode: Press et al., Numerical Recipes; Hairer, Norsett & Wanner
+///
+/// Cash & Karp 1990, ACM TOMS 16(3); Bulirsch & Stoer after Gragg's modified midpoint rule; Terzopoulos, Platt, Barr &
+/// Fleischer 1987; Baraff & Witkin 1998.
 #pragma once
 
 #include <limits>

@@ -1,5 +1,7 @@
-// Four doubles, or eight floats, worked on together. GCC and Clang turn these into AVX2, SSE2, NEON or WASM
-// instructions; but for fused() the arithmetic is the same in all of them, so the bits are too.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Four doubles, or eight floats, worked on together. GCC and Clang turn these into AVX2, SSE2, NEON or WASM
+/// instructions; but for fused() the arithmetic is the same in all of them, so the bits are too.
 #pragma once
 
 #include <cmath>

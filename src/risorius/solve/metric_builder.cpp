@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/metric_builder.h"
 
 #include <cassert>

@@ -1,5 +1,7 @@
-// Collects a symmetric scalar n x n matrix over the nodes: the metric of the quasi-Newton solver or
-// a Laplacian, N/m. One scalar matrix serves x, y and z alike.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Collects a symmetric scalar n x n matrix over the nodes: the metric of the quasi-Newton solver or
+/// a Laplacian, N/m. One scalar matrix serves x, y and z alike.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sums of the terms over a system of nodes.
 #include "risorius/solve/motion_system.h"
 

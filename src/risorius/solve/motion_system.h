@@ -1,6 +1,8 @@
-// Nodes with masses and the forces between them: what the integrators advance. It knows no faces.
-//
-//   m a = sum of the terms' forces       nodes that are fixed stand still or move as prescribed
+// SPDX-License-Identifier: MIT
+/// \file
+/// Nodes with masses and the forces between them: what the integrators advance. It knows no faces.
+///
+///   m a = sum of the terms' forces       nodes that are fixed stand still or move as prescribed
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Line-search Newton for implicit steps, mass-regularised Newton for equilibria.
 #include "risorius/solve/newton.h"
 

@@ -1,9 +1,11 @@
-// Newton's method on the incremental potential of a system of nodes (energy_term.h): one implicit Euler step, or an
-// equilibrium when the step is infinite.
-//
-//   Phi(x) = sum m |x - y|^2 / (2 h^2) + terms(x),   y = x_n + h v_n       g = dPhi/dx       d   Newton's move
-//
-// Nocedal & Wright, Numerical Optimization, ch. 3 (line search), 10 and 11 (regularised steps).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Newton's method on the incremental potential of a system of nodes (energy_term.h): one implicit Euler step, or an
+/// equilibrium when the step is infinite.
+///
+///   Phi(x) = sum m |x - y|^2 / (2 h^2) + terms(x),   y = x_n + h v_n       g = dPhi/dx       d   Newton's move
+///
+/// Nocedal & Wright, Numerical Optimization, ch. 3 (line search), 10 and 11 (regularised steps).
 #pragma once
 
 #include "risorius/solve/detail/conjugate_gradients.h"

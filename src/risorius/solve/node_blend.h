@@ -1,5 +1,7 @@
-// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. What acts on p acts on the nodes by
-// the same weights, so that work and net force are kept.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. What acts on p acts on the nodes by
+/// the same weights, so that work and net force are kept.
 #pragma once
 
 #include <array>

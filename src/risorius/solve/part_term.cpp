@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/part_term.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The energy term of one body in a system of several bodies: it sees only its own rows, numbered from 0.
 #pragma once

@@ -1,4 +1,6 @@
-// Sums over all nodes in one fixed order, so that the same numbers give the same bits.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sums over all nodes in one fixed order, so that the same numbers give the same bits.
 #pragma once
 
 #include <algorithm>

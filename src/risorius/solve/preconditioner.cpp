@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/preconditioner.h"
 
 namespace risorius::solve {

@@ -1,6 +1,8 @@
-// Approximate inverse of the second derivative of an implicit step's potential: what a quasi-Newton method starts from.
-//
-//   H  second derivative of Phi = sum m |x - y|^2 / (2 h^2) + E + h R, 3n x 3n, N/m
+// SPDX-License-Identifier: MIT
+/// \file
+/// Approximate inverse of the second derivative of an implicit step's potential: what a quasi-Newton method starts from.
+///
+///   H  second derivative of Phi = sum m |x - y|^2 / (2 h^2) + E + h R, 3n x 3n, N/m
 #pragma once
 
 #include "risorius/solve/motion_system.h"

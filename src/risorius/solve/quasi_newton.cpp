@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/quasi_newton.h"
 
 #include <algorithm>

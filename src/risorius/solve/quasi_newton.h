@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// L-BFGS over node positions with one prefactored matrix as the initial metric.
 ///

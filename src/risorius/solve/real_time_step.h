@@ -1,12 +1,14 @@
-// Implicit Euler for real-time use: a few iterations of L-BFGS on the potential of the step, around a preconditioner, from
-// where the last acceleration would lead.
-//
-//   Phi(x) = sum m |x - y|^2 / (2 h^2) + E(x) + h R(x; x_n, h),   y = x_n + h v_n,   v = (x - x_n) / h
-//
-// Every iteration lowers Phi, and however short it is cut, a step ends with Phi(x) <= Phi(x_n) = E(x_n) + m v_n^2 / 2: a bad
-// beginning does no harm. The count of iterations is fixed or ends at a tolerance, never at a clock.
-//
-// Liu, Bouaziz & Kavan 2017, ACM TOG 36(3).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Implicit Euler for real-time use: a few iterations of L-BFGS on the potential of the step, around a preconditioner, from
+/// where the last acceleration would lead.
+///
+///   Phi(x) = sum m |x - y|^2 / (2 h^2) + E(x) + h R(x; x_n, h),   y = x_n + h v_n,   v = (x - x_n) / h
+///
+/// Every iteration lowers Phi, and however short it is cut, a step ends with Phi(x) <= Phi(x_n) = E(x_n) + m v_n^2 / 2: a bad
+/// beginning does no harm. The count of iterations is fixed or ends at a tolerance, never at a clock.
+///
+/// Liu, Bouaziz & Kavan 2017, ACM TOG 36(3).
 #pragma once
 
 #include <memory>

@@ -1,7 +1,9 @@
-// Sparse Cholesky factor of a constant n x n matrix, solved for three right-hand sides at once.
-//
-//   A   symmetric positive definite, n x n
-//   L   its factor after a nested-dissection ordering P, A = P^T L L^T P
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sparse Cholesky factor of a constant n x n matrix, solved for three right-hand sides at once.
+///
+///   A   symmetric positive definite, n x n
+///   L   its factor after a nested-dissection ordering P, A = P^T L L^T P
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Left-looking by supernodes (Ng & Peyton 1993; Chen, Davis, Hager & Rajamanickam 2008, CHOLMOD, whose ordering and symbolic
 // analysis are used).
 #include "risorius/solve/supernodal_cholesky.h"

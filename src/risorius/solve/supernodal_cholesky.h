@@ -1,9 +1,11 @@
-// Sparse Cholesky factor whose columns of like pattern are kept together as dense panels (supernodes): the 3 x 3 blocks of
-// nodes in space make such panels everywhere.
-//
-//   A   symmetric, given by its lower triangle, n x n     P^T L L^T P = A,  P a nested-dissection ordering
-//
-// The dense work is done by own kernels: the bits of a BLAS depend on the library installed.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sparse Cholesky factor whose columns of like pattern are kept together as dense panels (supernodes): the 3 x 3 blocks of
+/// nodes in space make such panels everywhere.
+///
+///   A   symmetric, given by its lower triangle, n x n     P^T L L^T P = A,  P a nested-dissection ordering
+///
+/// The dense work is done by own kernels: the bits of a BLAS depend on the library installed.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // L D L^T by CHOLMOD's simplicial code, which takes negative pivots and needs no BLAS.
 #include "risorius/solve/symmetric_factor.h"
 

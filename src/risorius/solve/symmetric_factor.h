@@ -1,7 +1,9 @@
-// Sparse L D L^T factor of a symmetric matrix that may be indefinite.
-//
-//   A   symmetric, given by its lower triangle; n x n over nodes, or 3n x 3n over their coordinates
-//   D   its signs tell those of the eigenvalues of A (Sylvester's law of inertia)
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sparse L D L^T factor of a symmetric matrix that may be indefinite.
+///
+///   A   symmetric, given by its lower triangle; n x n over nodes, or 3n x 3n over their coordinates
+///   D   its signs tell those of the eigenvalues of A (Sylvester's law of inertia)
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the clips and the files of a stimulus set from a design.
 #include "risorius/stimuli/batch.h"
 

@@ -1,5 +1,7 @@
-// Makes all clips of a design, in one run or in several. Clips that are there and have not changed are kept, and a clip that fails
-// does not stop the others. A complete set also gets the files that a laboratory needs: see stimulus_set.h.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Makes all clips of a design, in one run or in several. Clips that are there and have not changed are kept, and a clip that fails
+/// does not stop the others. A complete set also gets the files that a laboratory needs: see stimulus_set.h.
 #pragma once
 
 #include <filesystem>

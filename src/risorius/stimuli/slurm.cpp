@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/slurm.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// A batch on a cluster. A Slurm job array makes the clips in parts, on nodes that share only the file system. This program submits it,
-// follows it, submits failed parts again and completes the set.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A batch on a cluster. A Slurm job array makes the clips in parts, on nodes that share only the file system. This program submits it,
+/// follows it, submits failed parts again and completes the set.
 #pragma once
 
 #include <filesystem>

@@ -1,10 +1,12 @@
-// What a solid of trilinear cells is made of: a mesh over material coordinates, its shape at rest, and in every cell
-// either the thesis' parameters per material coordinate or moduli in Pa. Any mesh of the same description is the same body.
-//
-//   W = 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c (dV - dV0)^2, dV = V_c / (h1 h2 h3)   parameters, per material volume
-//   W = (mu/4 dG_ij dG_kl C^ik C^jl + K/2 (J - 1)^2) sqrt(det G0),  C = G0^-1        moduli, at any rest shape
-//
-// Rectangular blocks: lambda_ij = mu V0 / (Li^2 Lj^2), psi_c = K / (2 V0), with edges Li and volume V0 of the whole.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a solid of trilinear cells is made of: a mesh over material coordinates, its shape at rest, and in every cell
+/// either the thesis' parameters per material coordinate or moduli in Pa. Any mesh of the same description is the same body.
+///
+///   W = 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c (dV - dV0)^2, dV = V_c / (h1 h2 h3)   parameters, per material volume
+///   W = (mu/4 dG_ij dG_kl C^ik C^jl + K/2 (J - 1)^2) sqrt(det G0),  C = G0^-1        moduli, at any rest shape
+///
+/// Rectangular blocks: lambda_ij = mu V0 / (Li^2 Lj^2), psi_c = K / (2 V0), with edges Li and volume V0 of the whole.
 #pragma once
 
 #include <functional>

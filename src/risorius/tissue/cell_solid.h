@@ -1,14 +1,16 @@
-// Volume-preserving soft solid of trilinear cells: the metric term at 2 x 2 x 2 Gauss points and one exact volume
-// constraint per cell (mean dilatation), on uniform and refined meshes alike.
-//
-//   E = sum over cells [ sum_8 (h1 h2 h3 / 8) 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c / (h1 h2 h3) (V_c - V_c0)^2 ]
-//   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed
-//   damping: the same sum with omega_ij and the strain rate; over an implicit step the rate is (G - G_n) / h, so that a
-//   turn is not damped and the potential is one of x alone
-//
-// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with C = G0^-1 at every Gauss point; see cell_body.h.
-// Source of the continuum: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5. Mean dilatation:
-// Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Volume-preserving soft solid of trilinear cells: the metric term at 2 x 2 x 2 Gauss points and one exact volume
+/// constraint per cell (mean dilatation), on uniform and refined meshes alike.
+///
+///   E = sum over cells [ sum_8 (h1 h2 h3 / 8) 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c / (h1 h2 h3) (V_c - V_c0)^2 ]
+///   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed
+///   damping: the same sum with omega_ij and the strain rate; over an implicit step the rate is (G - G_n) / h, so that a
+///   turn is not damped and the potential is one of x alone
+///
+/// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with C = G0^-1 at every Gauss point; see cell_body.h.
+/// Source of the continuum: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5. Mean dilatation:
+/// Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985.
 #pragma once
 
 #include <memory>

@@ -1,19 +1,21 @@
-// Contact between single nodes and planes, with the pairs and normals frozen by the caller for the length of a solve:
-// searching them anew inside the energy breaks its line search.
-//
-//   gap = (x_a - sum w_i x_i - p) . n     d = gap - g - s     E = kc/2 min(0, d)^2 + Es(gap)
-//
-// The plane is carried by up to four other nodes with weights w (p is then the constant offset from
-// them, usually zero), or by none and p is a point of it. g is the rest gap min(0, gap at rest), so
-// that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by half of what is
-// left of the penetration, by less the farther it has come, so that steps on end press as hard as they must without a
-// stiffness that would slow the solver.
-// Contacts that harden have E = kc/(3 h) |d|^3 for d < 0 instead: as firm at d = -h, firmer below, and without the kink at
-// touching on which Newton's method stumbles.
-//
-// Es: what was pressed together sticks a little. Opened by u dc beyond where it was let go, it pulls with
-//   T = Tmax 27/4 u (1-u)^2,   0 < u < 1,   Tmax at u = 1/3
-// and is free from u = 1 on. Held open it flows: from solve to solve the pull fades.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Contact between single nodes and planes, with the pairs and normals frozen by the caller for the length of a solve:
+/// searching them anew inside the energy breaks its line search.
+///
+///   gap = (x_a - sum w_i x_i - p) . n     d = gap - g - s     E = kc/2 min(0, d)^2 + Es(gap)
+///
+/// The plane is carried by up to four other nodes with weights w (p is then the constant offset from
+/// them, usually zero), or by none and p is a point of it. g is the rest gap min(0, gap at rest), so
+/// that rest is free of force. s is the shift of an augmented Lagrangian: after every solve it grows by half of what is
+/// left of the penetration, by less the farther it has come, so that steps on end press as hard as they must without a
+/// stiffness that would slow the solver.
+/// Contacts that harden have E = kc/(3 h) |d|^3 for d < 0 instead: as firm at d = -h, firmer below, and without the kink at
+/// touching on which Newton's method stumbles.
+///
+/// Es: what was pressed together sticks a little. Opened by u dc beyond where it was let go, it pulls with
+///   T = Tmax 27/4 u (1-u)^2,   0 < u < 1,   Tmax at u = 1/3
+/// and is free from u = 1 on. Held open it flows: from solve to solve the pull fades.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,7 @@
-// Forces on nodes that keep their size and direction while the tissue moves (weight, air pressure
-// held in the cheeks), N.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Forces on nodes that keep their size and direction while the tissue moves (weight, air pressure
+/// held in the cheeks), N.
 #pragma once
 
 #include <utility>

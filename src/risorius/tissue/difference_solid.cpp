@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/difference_solid.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,19 +1,21 @@
-// The grid solid in the thesis' finite differences (discretisation A): forward differences of positions, backward
-// differences of stress, nothing beyond the border.
-//
-//   r_i    = (r[n + u_i] - r[n]) / h_i, zero where n + u_i is outside      G_ij = r_i . r_j
-//   E      = sum over nodes of [ 1/4 sum_ij eta_ij (G_ij - G0_ij)^2 + psi (dV - dV0)^2 ],  dV = r_1 . (r_2 x r_3), signed
-//   force  = - dE/dr - damping: s_ij = eta_ij (G_ij - G0_ij) + phi_ij (v_i . r_j + r_i . v_j) in place of alpha_ij
-//
-// eta, phi and psi are coefficients of each node: sums over nodes carry no further weight, and psi is not scaled with the
-// resolution. A node without all three forward neighbours has no volume term. The force is the exact slope of the energy.
-// Because the differences look to one side, a hanging cube drifts sideways by some per mille of its length and its
-// result depends on which end is held; CellSolid has neither defect.
-//
-// In implicit steps the damping is that of the potential sum 1/4 phi_ij (G_ij - G_ij(x_n))^2 / h.
-//
-// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, eq. (3), (6), (8), (10); Terzopoulos, Platt, Barr &
-// Fleischer 1987 for the differences at borders.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The grid solid in the thesis' finite differences (discretisation A): forward differences of positions, backward
+/// differences of stress, nothing beyond the border.
+///
+///   r_i    = (r[n + u_i] - r[n]) / h_i, zero where n + u_i is outside      G_ij = r_i . r_j
+///   E      = sum over nodes of [ 1/4 sum_ij eta_ij (G_ij - G0_ij)^2 + psi (dV - dV0)^2 ],  dV = r_1 . (r_2 x r_3), signed
+///   force  = - dE/dr - damping: s_ij = eta_ij (G_ij - G0_ij) + phi_ij (v_i . r_j + r_i . v_j) in place of alpha_ij
+///
+/// eta, phi and psi are coefficients of each node: sums over nodes carry no further weight, and psi is not scaled with the
+/// resolution. A node without all three forward neighbours has no volume term. The force is the exact slope of the energy.
+/// Because the differences look to one side, a hanging cube drifts sideways by some per mille of its length and its
+/// result depends on which end is held; CellSolid has neither defect.
+///
+/// In implicit steps the damping is that of the potential sum 1/4 phi_ij (G_ij - G_ij(x_n))^2 / h.
+///
+/// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, eq. (3), (6), (8), (10); Terzopoulos, Platt, Barr &
+/// Fleischer 1987 for the differences at borders.
 #pragma once
 
 #include <string>

@@ -1,6 +1,8 @@
-// Constant damping of single nodes, the c of the equation of motion (11) of any body: f = -c v.
-//
-// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.2.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Constant damping of single nodes, the c of the equation of motion (11) of any body: f = -c v.
+///
+/// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.2.
 #pragma once
 
 #include "risorius/solve/energy_term.h"

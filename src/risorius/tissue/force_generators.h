@@ -1,8 +1,10 @@
-// Forces of given course in time on any point of a body: box, triangle and sine pulses along a direction.
-//
-//   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p
-//
-// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Forces of given course in time on any point of a body: box, triangle and sine pulses along a direction.
+///
+///   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p
+///
+/// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,6 @@
-// Weight of the nodes of any body: f = m g.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Weight of the nodes of any body: f = m g.
 #pragma once
 
 #include "risorius/solve/energy_term.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/grid_curve.h"
 
 #include <algorithm>

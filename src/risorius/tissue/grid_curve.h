@@ -1,14 +1,16 @@
-// The deformable curve: M nodes over a in [0,1], any rest shape in space, five numbers in every node. It stretches and
-// bends; twist is not in the model.
-//
-//   r' = dr/da    G = r' . r'    s = |r'' - c r'|, its bent part; S at rest
-//   energy  integral of 1/4 lambda (G - G0)^2 + 1/2 zeta (s - S)^2        dissipation  1/4 omega (dG/dt)^2
-//
-// r'' counts without its part along r' that the rest shape has (unevenly spaced nodes), c r0'. Where the rest shape is
-// straight S = 0 and bending is the plain 1/2 zeta |r''|^2; elsewhere s is rounded off near zero,
-// s = sqrt(|..|^2 + (0.1 S)^2), as in SkinSheet, so that a curve bent straight has finite forces.
-//
-// Source: Terzopoulos, Platt, Barr & Fleischer 1987, Elastically deformable models.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The deformable curve: M nodes over a in [0,1], any rest shape in space, five numbers in every node. It stretches and
+/// bends; twist is not in the model.
+///
+///   r' = dr/da    G = r' . r'    s = |r'' - c r'|, its bent part; S at rest
+///   energy  integral of 1/4 lambda (G - G0)^2 + 1/2 zeta (s - S)^2        dissipation  1/4 omega (dG/dt)^2
+///
+/// r'' counts without its part along r' that the rest shape has (unevenly spaced nodes), c r0'. Where the rest shape is
+/// straight S = 0 and bending is the plain 1/2 zeta |r''|^2; elsewhere s is rounded off near zero,
+/// s = sqrt(|..|^2 + (0.1 S)^2), as in SkinSheet, so that a curve bent straight has finite forces.
+///
+/// Source: Terzopoulos, Platt, Barr & Fleischer 1987, Elastically deformable models.
 #pragma once
 
 #include <string>

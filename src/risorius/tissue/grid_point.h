@@ -1,6 +1,8 @@
-// Any point of a grid body, named by its material coordinates and carried by the corners of the cell it lies in.
-//
-//   a   material coordinates, each in [0, 1]     weights: trilinear
+// SPDX-License-Identifier: MIT
+/// \file
+/// Any point of a grid body, named by its material coordinates and carried by the corners of the cell it lies in.
+///
+///   a   material coordinates, each in [0, 1]     weights: trilinear
 #pragma once
 
 #include "risorius/solve/node_blend.h"

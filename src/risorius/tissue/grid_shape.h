@@ -1,8 +1,10 @@
-// Shapes over a grid of nodes: the round body, planes of nodes to hold it by, its surface and lines for drawing, and the
-// volume it really has.
-//
-// Source of the disc from the square: (x, y) in [-1, 1]^2 goes to (x sqrt(1 - y^2/2), y sqrt(1 - x^2/2)), which takes the
-// border of the square to the circle.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Shapes over a grid of nodes: the round body, planes of nodes to hold it by, its surface and lines for drawing, and the
+/// volume it really has.
+///
+/// Source of the disc from the square: (x, y) in [-1, 1]^2 goes to (x sqrt(1 - y^2/2), y sqrt(1 - x^2/2)), which takes the
+/// border of the square to the circle.
 #pragma once
 
 #include <array>

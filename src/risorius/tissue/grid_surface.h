@@ -1,17 +1,19 @@
-// Forces of a deformable surface by the thesis' finite differences over its grid; a tube by periodic ones along n.
-//
-//   D_i r   forward difference along a_i, absent at the upper border         G_ij = D_i r . D_j r
-//   D_11, D_22   central second difference, absent at borders     D_12   cross difference of a cell
-//   t_k, n  tangents by differences centred on the second difference where there are neighbours, n = t_1 x t_2 / |..|
-//
-//   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
-//   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
-//
-// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference
-// with the rest shape's as carried along by the surface: every rest shape is free of force, rigid motion costs nothing,
-// and where the rest shape is flat and evenly spaced (c = 0) what is left is the plain 1/2 zeta |D_ij r|^2. The other
-// forms tried on paper fall short: |D_ij r|^2 alone flattens a tube; |D_ij r - D_ij r0| resists rotation; Terzopoulos'
-// xi (n . D_ij r - B0_ij)^2 in the constitutive form of the 1987 paper has no linear stiffness where B0 = 0.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Forces of a deformable surface by the thesis' finite differences over its grid; a tube by periodic ones along n.
+///
+///   D_i r   forward difference along a_i, absent at the upper border         G_ij = D_i r . D_j r
+///   D_11, D_22   central second difference, absent at borders     D_12   cross difference of a cell
+///   t_k, n  tangents by differences centred on the second difference where there are neighbours, n = t_1 x t_2 / |..|
+///
+///   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
+///   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
+///
+/// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference
+/// with the rest shape's as carried along by the surface: every rest shape is free of force, rigid motion costs nothing,
+/// and where the rest shape is flat and evenly spaced (c = 0) what is left is the plain 1/2 zeta |D_ij r|^2. The other
+/// forms tried on paper fall short: |D_ij r|^2 alone flattens a tube; |D_ij r - D_ij r0| resists rotation; Terzopoulos'
+/// xi (n . D_ij r - B0_ij)^2 in the constitutive form of the 1987 paper has no linear stiffness where B0 = 0.
 #pragma once
 
 #include <vector>

@@ -1,15 +1,17 @@
-// What the parameters of a grid solid are in the terms of elasticity: plain functions both ways.
-//
-//   mu    shear modulus, Pa          K     modulus of the volume term, Pa (Lame's first parameter, not the bulk modulus)
-//   E     Young's modulus, Pa        nu    Poisson's ratio            B = K + 2 mu / 3   bulk modulus, Pa
-//   L_i   rest edge lengths, m       V0 = L_1 L_2 L_3
-//
-// A block with lambda_ij = mu V0 / (L_i^2 L_j^2) and psi = K / (2 V0) stores, per rest volume,
-//
-//   mu/4 |F^T F - I|^2 + K/2 (J - 1)^2:  small strains meet  sigma = 2 mu eps + K tr(eps) I,  nu = K / (2 (K + mu))
-//
-// so the metric term alone (K = 0) has E = 2 mu, nu = 0. omega_ij relates to a shear viscosity, Pa s, as lambda_ij does to mu.
-// For a rest shape that is no block the relation holds cell by cell with the lengths of the cell's tangents r_i.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the parameters of a grid solid are in the terms of elasticity: plain functions both ways.
+///
+///   mu    shear modulus, Pa          K     modulus of the volume term, Pa (Lame's first parameter, not the bulk modulus)
+///   E     Young's modulus, Pa        nu    Poisson's ratio            B = K + 2 mu / 3   bulk modulus, Pa
+///   L_i   rest edge lengths, m       V0 = L_1 L_2 L_3
+///
+/// A block with lambda_ij = mu V0 / (L_i^2 L_j^2) and psi = K / (2 V0) stores, per rest volume,
+///
+///   mu/4 |F^T F - I|^2 + K/2 (J - 1)^2:  small strains meet  sigma = 2 mu eps + K tr(eps) I,  nu = K / (2 (K + mu))
+///
+/// so the metric term alone (K = 0) has E = 2 mu, nu = 0. omega_ij relates to a shear viscosity, Pa s, as lambda_ij does to mu.
+/// For a rest shape that is no block the relation holds cell by cell with the lengths of the cell's tangents r_i.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,10 +1,12 @@
-// Hookean springs from any point of a body to a fixed point in space, with a damper beside each, and the one spring a
-// person pulls at.
-//
-//   p  the point, m    o  where it is tied, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
-//   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which resists in all directions
-//
-// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Hookean springs from any point of a body to a fixed point in space, with a damper beside each, and the one spring a
+/// person pulls at.
+///
+///   p  the point, m    o  where it is tied, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
+///   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which resists in all directions
+///
+/// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
 #pragma once
 
 #include <mutex>

@@ -1,8 +1,10 @@
-// Adaptive resolution: cells are split where the strain asks for it and merged again where it no longer does, with the
-// material, which does not depend on the resolution, unchanged.
-//
-//   eta_c^2   estimated squared error of a cell in the energy norm, J (strain_error.h)      E   energy of the deformation, J
-//   a cell's due is tolerance^2 E / number of cells: with every cell at its due, the whole body is at the tolerance
+// SPDX-License-Identifier: MIT
+/// \file
+/// Adaptive resolution: cells are split where the strain asks for it and merged again where it no longer does, with the
+/// material, which does not depend on the resolution, unchanged.
+///
+///   eta_c^2   estimated squared error of a cell in the energy norm, J (strain_error.h)      E   energy of the deformation, J
+///   a cell's due is tolerance^2 E / number of cells: with every cell at its due, the whole body is at the tolerance
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The skin: a membrane of triangles with bending at the edges between them.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The second derivative of SkinSheet. A triangle in the frame of its principal stretches, as a solid of which the third
 // direction carries nothing: psi_i = k s_i (s_i^2 - 1), across the triangle psi_i / s_i. A hinge by the vector l:
 //   w (1 - S/s) I + w S / s^3 l l^T

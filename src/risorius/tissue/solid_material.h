@@ -1,10 +1,12 @@
-// The volume-preserving soft object as described: a grid of M x N x O nodes over material coordinates a in [0,1]^3, any
-// rest shape, and 21 numbers in every node, so that it may be inhomogeneous and anisotropic.
-//
-//   lambda_ij  elastic, N/m^3     omega_ij  damping, N s/m^3     psi  incompressibility, N/m^5     c  drag, N s/m
-//   energy  1/4 sum lambda_ij (G_ij - G0_ij)^2 + psi (dV - dV0)^2,   G_ij = r_i . r_j,   r_i = dr/da_i
-//
-// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5, eq. (2)-(10).
+// SPDX-License-Identifier: MIT
+/// \file
+/// The volume-preserving soft object as described: a grid of M x N x O nodes over material coordinates a in [0,1]^3, any
+/// rest shape, and 21 numbers in every node, so that it may be inhomogeneous and anisotropic.
+///
+///   lambda_ij  elastic, N/m^3     omega_ij  damping, N s/m^3     psi  incompressibility, N/m^5     c  drag, N s/m
+///   energy  1/4 sum lambda_ij (G_ij - G0_ij)^2 + psi (dV - dV0)^2,   G_ij = r_i . r_j,   r_i = dr/da_i
+///
+/// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5, eq. (2)-(10).
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/strain_error.h"
 
 #include <cmath>

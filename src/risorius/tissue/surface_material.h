@@ -1,12 +1,14 @@
-// The deformable surface as described: a grid of M x N nodes over material coordinates a in [0,1]^2, any rest shape in
-// space, open or closed along a2 (a tube), and 14 numbers in every node: metric tensor, damping tensor, bending tensor,
-// mass and drag.
-//
-//   lambda_ij  metric, N/m^3     omega_ij  damping, N s/m^3     zeta_ij  bending, N/m     c  drag, N s/m
-//   energy  integral of 1/4 sum lambda_ij (G_ij - G0_ij)^2 + 1/2 sum zeta_ij |d_ij r|^2,   G_ij = r_i . r_j
-//
-// Sources: Terzopoulos, Platt, Barr & Fleischer 1987, Elastically deformable models; M. Dobsik, Computer Animation of
-// Soft Tissues, Brno 2005, section 5.1.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The deformable surface as described: a grid of M x N nodes over material coordinates a in [0,1]^2, any rest shape in
+/// space, open or closed along a2 (a tube), and 14 numbers in every node: metric tensor, damping tensor, bending tensor,
+/// mass and drag.
+///
+///   lambda_ij  metric, N/m^3     omega_ij  damping, N s/m^3     zeta_ij  bending, N/m     c  drag, N s/m
+///   energy  integral of 1/4 sum lambda_ij (G_ij - G0_ij)^2 + 1/2 sum zeta_ij |d_ij r|^2,   G_ij = r_i . r_j
+///
+/// Sources: Terzopoulos, Platt, Barr & Fleischer 1987, Elastically deformable models; M. Dobsik, Computer Animation of
+/// Soft Tissues, Brno 2005, section 5.1.
 #pragma once
 
 #include <array>

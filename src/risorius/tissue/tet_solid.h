@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible solid.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The second derivative of TetSolid, tet by tet in the frame of its principal stretches:
 //   psi_i = mu s_i (s_i^2 - 1) + K (J - 1 + c min(0, J - J_c)) s_j s_k
 #include <algorithm>

@@ -1,8 +1,10 @@
-// Attachment of tissue to what lies under it: single nodes held to targets, firmly along a normal
-// and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may
-// be moved between steps.
-//
-//   E = 1/2 [ kn ((x - t).n)^2 + kt |x - t - ((x - t).n) n|^2 ]
+// SPDX-License-Identifier: MIT
+/// \file
+/// Attachment of tissue to what lies under it: single nodes held to targets, firmly along a normal
+/// and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may
+/// be moved between steps.
+///
+///   E = 1/2 [ kn ((x - t).n)^2 + kt |x - t - ((x - t).n) n|^2 ]
 #pragma once
 
 #include <vector>

@@ -1,16 +1,18 @@
-// The deformable surface on any triangle mesh, from the same material as on a grid: metric, damping and bending tensors
-// over material coordinates a that each triangle's corners are given (texture coordinates, or metres along a fibre).
-//
-//   A    area of a triangle in a      r_i, G_ij   its tangents by a and their metric, constant over the triangle
-//   b    curvature tensor of a triangle by a, from the folds theta of its edges      kappa = b with (b_11, b_22, sqrt2 b_12)
-//
-//   E = sum A (1/4 sum lambda_ij (G_ij - G0_ij)^2 + 1/2 sum zeta_ij (b_ij - b0_ij)^2)
-//
-// Curvature from folds: on a smooth surface z = 1/2 x . b x the interpolating triangles fold by theta = B kappa, B known
-// from the rest shape; so b is what the folds theta - theta0 mean, and at a border, where folds are missing, the b of
-// least energy among those that agree with the others (no moment acts there). Bending is then exact for constant curvature
-// on any triangulation, where a stiffness per hinge (SkinSheet) depends on how the triangles lie, by a factor of two in
-// twist.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The deformable surface on any triangle mesh, from the same material as on a grid: metric, damping and bending tensors
+/// over material coordinates a that each triangle's corners are given (texture coordinates, or metres along a fibre).
+///
+///   A    area of a triangle in a      r_i, G_ij   its tangents by a and their metric, constant over the triangle
+///   b    curvature tensor of a triangle by a, from the folds theta of its edges      kappa = b with (b_11, b_22, sqrt2 b_12)
+///
+///   E = sum A (1/4 sum lambda_ij (G_ij - G0_ij)^2 + 1/2 sum zeta_ij (b_ij - b0_ij)^2)
+///
+/// Curvature from folds: on a smooth surface z = 1/2 x . b x the interpolating triangles fold by theta = B kappa, B known
+/// from the rest shape; so b is what the folds theta - theta0 mean, and at a border, where folds are missing, the b of
+/// least energy among those that agree with the others (no moment acts there). Bending is then exact for constant curvature
+/// on any triangulation, where a stiffness per hinge (SkinSheet) depends on how the triangles lie, by a factor of two in
+/// twist.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/triangle_surface.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// The deformable surface on a triangle mesh as described: the same 14 numbers as on a grid, over material coordinates a
-// that each triangle's corners are given: texture coordinates, or metres along a fibre.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The deformable surface on a triangle mesh as described: the same 14 numbers as on a grid, over material coordinates a
+/// that each triangle's corners are given: texture coordinates, or metres along a fibre.
 #pragma once
 
 #include <string>

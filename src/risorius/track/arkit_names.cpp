@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/track/arkit_names.h"
 
 namespace risorius::track {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/track/channels.h"
 
 namespace risorius::track {

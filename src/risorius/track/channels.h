@@ -1,6 +1,8 @@
-// The channels that a script may drive: the muscles of a rig, action units, and kinematic channels; and their values at one moment.
-//
-// Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The channels that a script may drive: the muscles of a rig, action units, and kinematic channels; and their values at one moment.
+///
+/// Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
 #pragma once
 
 #include <array>

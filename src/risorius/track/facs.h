@@ -1,8 +1,10 @@
-// Action units of the Facial Action Coding System and expressions made of them: the muscles, jaw, eye and head movements of each. Tables:
-// rigs/standard/facs.json and expressions.json.
-//
-// A unit restricted to one side keeps the muscles and eye of that side and half of everything that has no sides. Left and right together
-// are the whole unit.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Action units of the Facial Action Coding System and expressions made of them: the muscles, jaw, eye and head movements of each. Tables:
+/// rigs/standard/facs.json and expressions.json.
+///
+/// A unit restricted to one side keeps the muscles and eye of that side and half of everything that has no sides. Left and right together
+/// are the whole unit.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,6 @@
-// How a face goes from one drive to the next.
+// SPDX-License-Identifier: MIT
+/// \file
+/// How a face goes from one drive to the next.
 #pragma once
 
 namespace risorius::track {

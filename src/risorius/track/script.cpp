@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/track/script.h"
 
 #include <algorithm>

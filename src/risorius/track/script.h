@@ -1,5 +1,7 @@
-// A script as read: the rig, the duration, all channels over time, expressions and blinks, and the view.
-// JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A script as read: the rig, the duration, all channels over time, expressions and blinks, and the view.
+/// JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
 #pragma once
 
 #include <array>

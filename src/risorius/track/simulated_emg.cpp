@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/track/simulated_emg.h"
 
 #include <algorithm>

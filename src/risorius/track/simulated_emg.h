@@ -1,13 +1,15 @@
-// Simulated linear envelopes of surface electrodes above every muscle: columns of the frame table.
-//
-//   e = (u - min) / (1 - min)      electrical activity, ratio of the greatest; u excitation, min 0 or, of a muscle with
-//                                  resting tone that can be taken away, -1
-//   envelope                       e through a low-pass of 6 Hz, second order forwards and backwards, as EMG is processed
-//
-// Amplitude is taken as proportional to excitation (A. L. Hof, Jw. van den Berg 1981, J. Biomech. 14(11), 747-758).
-// Electrical activity is simultaneous with excitation and precedes force: the delay between the two is that of the
-// activation dynamics, which the table shows beside it. Neither noise nor cross-talk nor electrodes are simulated. A muscle
-// whose activation is set directly has the excitation that would hold it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Simulated linear envelopes of surface electrodes above every muscle: columns of the frame table.
+///
+///   e = (u - min) / (1 - min)      electrical activity, ratio of the greatest; u excitation, min 0 or, of a muscle with
+///                                  resting tone that can be taken away, -1
+///   envelope                       e through a low-pass of 6 Hz, second order forwards and backwards, as EMG is processed
+///
+/// Amplitude is taken as proportional to excitation (A. L. Hof, Jw. van den Berg 1981, J. Biomech. 14(11), 747-758).
+/// Electrical activity is simultaneous with excitation and precedes force: the delay between the two is that of the
+/// activation dynamics, which the table shows beside it. Neither noise nor cross-talk nor electrodes are simulated. A muscle
+/// whose activation is set directly has the excitation that would hold it.
 #pragma once
 
 #include <deque>

@@ -1,9 +1,11 @@
-// A script at any moment: the drive of every muscle, the jaw, the eyes and the head.
-//
-// Sources of one muscle or channel are added and clamped to its range. A blink is two pulses of AU45: the levator of the lid falls silent,
-// 10 ms later orbicularis oculi fires, and both end together. Through activation dynamics the lids meet after 70 to 80 ms and are open
-// again at the end of the blink. Muscles of a side may be delayed and any muscle may be weak; both also apply to activation set directly.
-// Source of the blink: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
+// SPDX-License-Identifier: MIT
+/// \file
+/// A script at any moment: the drive of every muscle, the jaw, the eyes and the head.
+///
+/// Sources of one muscle or channel are added and clamped to its range. A blink is two pulses of AU45: the levator of the lid falls silent,
+/// 10 ms later orbicularis oculi fires, and both end together. Through activation dynamics the lids meet after 70 to 80 ms and are open
+/// again at the end of the blink. Muscles of a side may be delayed and any muscle may be weak; both also apply to activation set directly.
+/// Source of the blink: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/track/unit_intensity.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Intensity of every action unit of a script at any moment, left and right, as a FACS coder would rate it.
-//
-// From channels of units, expressions and blinks only; muscles and recordings do not name a unit. The sum of sources is limited to 1. A
-// blink is AU45 from the start of its drive until the lids are released.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Intensity of every action unit of a script at any moment, left and right, as a FACS coder would rate it.
+///
+/// From channels of units, expressions and blinks only; muscles and recordings do not name a unit. The sum of sources is limited to 1. A
+/// blink is AU45 from the start of its drive until the lids are released.
 #pragma once
 
 #include <string>

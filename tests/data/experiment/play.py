@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Plays the page of an experiment in a headless browser as a participant would, and keeps the data it sends.
 
     play.py ROOT PAGE DATA BROWSER...

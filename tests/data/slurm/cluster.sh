@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # A Slurm of one node on this machine, in a folder of its own.
 #
 #   cluster.sh start DIR PORT    munged, slurmctld at PORT and slurmd at PORT + 1; returns when the node is idle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/frame_table.h"
 
 #include <algorithm>

@@ -1,21 +1,23 @@
-// The table beside a video, tab-separated: one row for each frame, with the drive of the face and its motion.
-//
-//   frame, time_s
-//   excitation.<column>, activation.<column>    ratio, every column of the rig
-//   emg:<column>                                with emg: what electrodes would record, ratio of the maximum
-//   AU1.l ... AU66                              intensity of each action unit in the script, ratio; track/unit_intensity.h
-//   jaw_open ... tongue_out                     kinematic channels, in the units of their names
-//   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, whatever moves it: rotation about the
-//                     hinge, lower incisors along the opening path, condyles forwards, lower incisors to the left
-//   tooth_force_n     force on all teeth when muscles move the jaw, else 0
-//   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
-//   lip_width_mm      corner to corner, ch_l - ch_r
-//   lid_aperture_l_mm, lid_aperture_r_mm        ps - pi
-//   eye_yaw_deg.l .r, eye_pitch_deg.l .r        direction of gaze in the world, with the turn of the head: left and up > 0
-//   <landmark>.x_mm .y_mm .z_mm .u_px .v_px     with landmarks: world, and in the picture from its top left corner
-//   luminance_mean, luminance_sd, contrast_rms, motion_energy       of the picture without its marks; media/luminance.h
-//   luminance_face .eyes .mouth                 with masks: mean luminance within each mask; empty when it is not visible
-//   photodiode        1 where its square is white, with a photodiode
+// SPDX-License-Identifier: MIT
+/// \file
+/// The table beside a video, tab-separated: one row for each frame, with the drive of the face and its motion.
+///
+///   frame, time_s
+///   excitation.<column>, activation.<column>    ratio, every column of the rig
+///   emg:<column>                                with emg: what electrodes would record, ratio of the maximum
+///   AU1.l ... AU66                              intensity of each action unit in the script, ratio; track/unit_intensity.h
+///   jaw_open ... tongue_out                     kinematic channels, in the units of their names
+///   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, whatever moves it: rotation about the
+///                     hinge, lower incisors along the opening path, condyles forwards, lower incisors to the left
+///   tooth_force_n     force on all teeth when muscles move the jaw, else 0
+///   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
+///   lip_width_mm      corner to corner, ch_l - ch_r
+///   lid_aperture_l_mm, lid_aperture_r_mm        ps - pi
+///   eye_yaw_deg.l .r, eye_pitch_deg.l .r        direction of gaze in the world, with the turn of the head: left and up > 0
+///   <landmark>.x_mm .y_mm .z_mm .u_px .v_px     with landmarks: world, and in the picture from its top left corner
+///   luminance_mean, luminance_sd, contrast_rms, motion_energy       of the picture without its marks; media/luminance.h
+///   luminance_face .eyes .mouth                 with masks: mean luminance within each mask; empty when it is not visible
+///   photodiode        1 where its square is white, with a photodiode
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/marked_pictures.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Measures the pictures of a video and draws the sync marks on them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measures the pictures of a video and draws the sync marks on them.
 #pragma once
 
 #include <optional>

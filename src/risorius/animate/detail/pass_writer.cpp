@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/pass_writer.h"
 
 #include <algorithm>

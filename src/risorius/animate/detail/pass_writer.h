@@ -1,12 +1,14 @@
-// The ground truth of every frame as pictures, in a folder OUT.passes that appears whole or not at all:
-//
-//   segmentation_000000.png   8 bits, the number of the part of the head (render::Part; results.json names them)
-//   depth_000000.exr          Y, 32-bit float: metres from the camera along its axis, infinite where there is no surface
-//   normals_000000.exr        R G B = x y z of the skin's normal in the head frame's axes (left, up, forward)
-//   flow_000000.exr           R, G: pixels to the right and down until the next frame; B: 1 where the point is visible there too.
-//                             Computed from the motion of the mesh; there is none for the last frame
-//   mask_face_000000.png      255 inside the oval from hairline to chin; mask_eyes_..., mask_mouth_...: 255 on their visible parts
-//   results.json              camera, names of parts, list of files
+// SPDX-License-Identifier: MIT
+/// \file
+/// The ground truth of every frame as pictures, in a folder OUT.passes that appears whole or not at all:
+///
+///   segmentation_000000.png   8 bits, the number of the part of the head (render::Part; results.json names them)
+///   depth_000000.exr          Y, 32-bit float: metres from the camera along its axis, infinite where there is no surface
+///   normals_000000.exr        R G B = x y z of the skin's normal in the head frame's axes (left, up, forward)
+///   flow_000000.exr           R, G: pixels to the right and down until the next frame; B: 1 where the point is visible there too.
+///                             Computed from the motion of the mesh; there is none for the last frame
+///   mask_face_000000.png      255 inside the oval from hairline to chin; mask_eyes_..., mask_mouth_...: 255 on their visible parts
+///   results.json              camera, names of parts, list of files
 #pragma once
 
 #include <cstdint>

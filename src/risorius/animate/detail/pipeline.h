@@ -1,4 +1,6 @@
-// A pipeline of three stages: items are produced on one thread, transformed on several and consumed in order on another.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A pipeline of three stages: items are produced on one thread, transformed on several and consumed in order on another.
 #pragma once
 
 #include <condition_variable>

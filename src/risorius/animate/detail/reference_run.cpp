@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/reference_run.h"
 
 #include "risorius/face/face.h"

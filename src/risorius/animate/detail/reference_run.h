@@ -1,4 +1,6 @@
-// Another script, simulated on the same rig at the same times: where each vertex is in that run.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Another script, simulated on the same rig at the same times: where each vertex is in that run.
 #pragma once
 
 #include <memory>

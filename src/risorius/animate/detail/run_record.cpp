@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/animate/detail/run_record.h"
 
 #include <algorithm>

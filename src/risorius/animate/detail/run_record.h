@@ -1,5 +1,7 @@
-// The record of a run: its inputs with their checksums, its settings and how the solver did. With it the same frames can be made
-// again and compared. It is written as OUT.json. Only "timing" may differ between two runs of one script.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The record of a run: its inputs with their checksums, its settings and how the solver did. With it the same frames can be made
+/// again and compared. It is written as OUT.json. Only "timing" may differ between two runs of one script.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/blend_shape_player.h"
 
 namespace risorius::blendshapes {

@@ -1,4 +1,6 @@
-// A blend shape rig prepared for playback: the same displacements as float, since reading them takes most of the time of a frame.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A blend shape rig prepared for playback: the same displacements as float, since reading them takes most of the time of a frame.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
 
 #include <algorithm>

@@ -1,15 +1,17 @@
-// A blend shape rig: shapes added by weight, and correctives for the errors of the sum.
-//
-//   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
-//   k_c = sum_t a_ct f_t(w)                             drivers, shared by all correctives
-//   f_t = w_a w_b (1 - w_a) ...            several shapes: a product of their weights; 0 where any of them is 0, and where a shape of
-//                                `fades_with` has weight 1
-//   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one shape: a part of its path, for motion that is not straight; B_k = binomial(4, k)
-//                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which is 0 at weights 0 and 1. It fades as other shapes
-//                                of the same skin are added, since the skin then takes another path: two shapes that both part
-//                                the lips part them only once
-//
-// Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A blend shape rig: shapes added by weight, and correctives for the errors of the sum.
+///
+///   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
+///   k_c = sum_t a_ct f_t(w)                             drivers, shared by all correctives
+///   f_t = w_a w_b (1 - w_a) ...            several shapes: a product of their weights; 0 where any of them is 0, and where a shape of
+///                                `fades_with` has weight 1
+///   f_t = B_k(w) (1 - w_a) (1 - w_b) ...   one shape: a part of its path, for motion that is not straight; B_k = binomial(4, k)
+///                                w^k (1 - w)^(4 - k), k = 1, 2, 3, which is 0 at weights 0 and 1. It fades as other shapes
+///                                of the same skin are added, since the skin then takes another path: two shapes that both part
+///                                the lips part them only once
+///
+/// Source of combination correctives: Lewis et al. 2014, Practice and Theory of Blendshape Facial Models, Eurographics STAR, 4.2.
 #pragma once
 
 #include <Eigen/Core>

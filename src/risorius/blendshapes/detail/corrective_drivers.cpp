@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 
 #include <Eigen/LU>

@@ -1,5 +1,7 @@
-// The drivers of correctives (blend_shape_rig.h), made from simulated poses: shapes on their way, pairs of shapes, and pairs with one shape
-// on one side only.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The drivers of correctives (blend_shape_rig.h), made from simulated poses: shapes on their way, pairs of shapes, and pairs with one shape
+/// on one side only.
 #pragma once
 
 #include <array>

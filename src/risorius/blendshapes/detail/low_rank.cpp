@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/low_rank.h"
 
 #include <Eigen/Cholesky>

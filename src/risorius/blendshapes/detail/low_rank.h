@@ -1,11 +1,13 @@
-// Reduces correctives to few: the fields of the drivers are fitted to simulated frames and compressed to low rank. Each corrective is sparse
-// and belongs to one side of the face.
-//
-//   fit       D = D0 + R (K K' + p I)^-1 K      D, D0  3V x T   fields of the drivers, fitted and as found one by one
-//                                             K      F x T    drivers in the frames
-//                                             R      3V x F   residual of D0 in the frames
-//             least squares over the frames with the weight p on every change (ridge regression)
-//   compress  D ~ B A by the singular values of  root(area) D root(use): B the correctives, A their factors
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reduces correctives to few: the fields of the drivers are fitted to simulated frames and compressed to low rank. Each corrective is sparse
+/// and belongs to one side of the face.
+///
+///   fit       D = D0 + R (K K' + p I)^-1 K      D, D0  3V x T   fields of the drivers, fitted and as found one by one
+///                                             K      F x T    drivers in the frames
+///                                             R      3V x F   residual of D0 in the frames
+///             least squares over the frames with the weight p on every change (ridge regression)
+///   compress  D ~ B A by the singular values of  root(area) D root(use): B the correctives, A their factors
 #pragma once
 
 #include <Eigen/Core>

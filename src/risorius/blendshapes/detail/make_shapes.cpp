@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/make_shapes.h"
 
 #include <algorithm>

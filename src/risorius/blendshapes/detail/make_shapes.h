@@ -1,4 +1,6 @@
-// Blend shapes from physics: every shape of a set is the pose in equilibrium with its drive, on the mesh as imported.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Blend shapes from physics: every shape of a set is the pose in equilibrium with its drive, on the mesh as imported.
 #pragma once
 
 #include <array>

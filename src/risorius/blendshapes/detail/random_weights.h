@@ -1,4 +1,6 @@
-// Random weights of shapes, for tests of a blend shape rig. They depend only on names and seed.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Random weights of shapes, for tests of a blend shape rig. They depend only on names and seed.
 #pragma once
 
 #include <Eigen/Core>

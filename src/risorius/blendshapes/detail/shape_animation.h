@@ -1,4 +1,6 @@
-// Weights of blend shapes over time, and the tables from which other programs play them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Weights of blend shapes over time, and the tables from which other programs play them.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,7 @@
-// Measures of the physical quality of a blend shape, on its simulated pose and on the displaced mesh: change of volume, penetration, gaps
-// of closed eyes, symmetry.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measures of the physical quality of a blend shape, on its simulated pose and on the displaced mesh: change of volume, penetration, gaps
+/// of closed eyes, symmetry.
 #pragma once
 
 #include <optional>

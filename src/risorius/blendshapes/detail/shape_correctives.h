@@ -1,4 +1,6 @@
-// Finds the errors of sums of blend shapes by simulating shapes together, and makes correctives for them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds the errors of sums of blend shapes by simulating shapes together, and makes correctives for them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
-// Writes blend shapes to files: glTF, OBJ, and the plain table that `evaluate` reads too.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes blend shapes to files: glTF, OBJ, and the plain table that `evaluate` reads too.
 #pragma once
 
 #include <filesystem>

@@ -1,9 +1,11 @@
-// The blend shapes of a set: their names, what drives each, and how they belong together.
-//
-//   arkit52   the 52 names of ARKit face tracking, by the rig's own table
-//   facs      every action unit of the rig's table that moves the face, .l and .r where it has sides
-//   muscles   every muscle at full activation by itself, and the channels that no muscle drives
-//   visemes   the mouth shapes of speech, by the rig's own table
+// SPDX-License-Identifier: MIT
+/// \file
+/// The blend shapes of a set: their names, what drives each, and how they belong together.
+///
+///   arkit52   the 52 names of ARKit face tracking, by the rig's own table
+///   facs      every action unit of the rig's table that moves the face, .l and .r where it has sides
+///   muscles   every muscle at full activation by itself, and the channels that no muscle drives
+///   visemes   the mouth shapes of speech, by the rig's own table
 #pragma once
 
 #include <optional>

@@ -1,4 +1,6 @@
-// Measures of a displaced surface: its stretch, and its symmetry.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measures of a displaced surface: its stretch, and its symmetry.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/shape_solver.h"
 
 #include "risorius/core/parallel.h"

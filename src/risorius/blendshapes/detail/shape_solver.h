@@ -1,5 +1,7 @@
-// Solves the poses of a face in equilibrium with a list of drives, several at a time. Each starts from rest, so the results depend only on
-// the drive, not on the number of threads or the order.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Solves the poses of a face in equilibrium with a list of drives, several at a time. Each starts from rest, so the results depend only on
+/// the drive, not on the number of threads or the order.
 #pragma once
 
 #include <array>

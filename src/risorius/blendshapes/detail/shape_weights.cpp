@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/shape_weights.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Finds the weights of a set of shapes that come nearest to a drive. With it a script for muscles becomes one for blend shapes.
-//
-//   S   drive of every shape, one column each        E   displacement of the face per drive, linear at rest
-//   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1; of what lies on top of another shape no more than of that
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds the weights of a set of shapes that come nearest to a drive. With it a script for muscles becomes one for blend shapes.
+///
+///   S   drive of every shape, one column each        E   displacement of the face per drive, linear at rest
+///   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1; of what lies on top of another shape no more than of that
 #pragma once
 
 #include <vector>

@@ -1,5 +1,7 @@
-// The HTML page of a set of blend shapes: every shape in pictures, its certificate and its drive. It has no scripts and loads nothing from
-// the network.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The HTML page of a set of blend shapes: every shape in pictures, its certificate and its drive. It has no scripts and loads nothing from
+/// the network.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The pictures of a set of blend shapes: each from the front and from the side, and how far it moves the skin as colour.
 #include <cstdio>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/sparse_shape.h"
 
 #include <algorithm>

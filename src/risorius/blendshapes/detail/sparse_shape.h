@@ -1,4 +1,6 @@
-// A blend shape: the displacement of some vertices of a mesh at weight 1. All other vertices do not move.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A blend shape: the displacement of some vertices of a mesh at weight 1. All other vertices do not move.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/contact/detail/carried_frame.h"
 
 #include "risorius/core/cross_matrix.h"

@@ -1,8 +1,10 @@
-// Place of a point as a triangle sees it, with derivatives. Whatever depends on it alone neither pushes nor turns the two
-// together: its forces and torques cancel exactly.
-//
-//   a, b, c   corners     e1 along b - a, e3 normal, e2 = e3 x e1     R = (e1 e2 e3)
-//   d = p - (w_a a + w_b b + w_c c), w frozen      xi = R^T d
+// SPDX-License-Identifier: MIT
+/// \file
+/// Place of a point as a triangle sees it, with derivatives. Whatever depends on it alone neither pushes nor turns the two
+/// together: its forces and torques cancel exactly.
+///
+///   a, b, c   corners     e1 along b - a, e3 normal, e2 = e3 x e1     R = (e1 e2 e3)
+///   d = p - (w_a a + w_b b + w_c c), w frozen      xi = R^T d
 #pragma once
 
 #include <array>

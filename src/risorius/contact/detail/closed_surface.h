@@ -1,7 +1,9 @@
-// A closed triangle surface that tells inside from outside and may be deformed: exact signed distances.
-//
-// The sign is that of the distance along the angle-weighted normal of the nearest face, edge or vertex, which is right at
-// corners too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
+// SPDX-License-Identifier: MIT
+/// \file
+/// A closed triangle surface that tells inside from outside and may be deformed: exact signed distances.
+///
+/// The sign is that of the distance along the angle-weighted normal of the nearest face, edge or vertex, which is right at
+/// corners too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
 #pragma once
 
 #include <limits>

@@ -1,8 +1,10 @@
-// Formulas that stand for a number in a design file: "onset_s * 1.5 + 0.1".
-//
-//   sum     = term (("+" | "-") term)*
-//   term    = factor (("*" | "/") factor)*
-//   factor  = number | name | "(" sum ")" | ("-" | "+") factor | ("min" | "max") "(" sum "," sum ")"
+// SPDX-License-Identifier: MIT
+/// \file
+/// Formulas that stand for a number in a design file: "onset_s * 1.5 + 0.1".
+///
+///   sum     = term (("+" | "-") term)*
+///   term    = factor (("*" | "/") factor)*
+///   factor  = number | name | "(" sum ")" | ("-" | "+") factor | ("min" | "max") "(" sum "," sum ")"
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/design/detail/controls.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Controls: how a condition can be shown for comparison. A control shows the same pictures in another order or upside down, or plays
-// the script with something missing in the face.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Controls: how a condition can be shown for comparison. A control shows the same pictures in another order or upside down, or plays
+/// the script with something missing in the face.
 #pragma once
 
 #include <map>

@@ -1,13 +1,15 @@
-// Which conditions of a crossing are used: all, a regular fraction, or a random choice; and how balanced the choice is.
-//
-// Levels are numbered from 0 in the order of the file. A relation keeps the conditions in which
-//
-//     sum of coefficient * number of the level  =  remainder   (modulo m)
-//
-// With m the number of levels, a prime, k independent relations keep 1/m^k of the crossing, and every choice of t factors is
-// met equally often in each combination when each sum (and each combination of sums) has more than t factors in it: a regular
-// fractional factorial of resolution t + 1, an orthogonal array of strength t. Sums of two factors of m levels are Latin squares
-// in three. Sources: Box, Hunter 1961, Technometrics 3(3), 311-351; Franklin 1984, Technometrics 26(3), 225-232; Rao 1947.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Which conditions of a crossing are used: all, a regular fraction, or a random choice; and how balanced the choice is.
+///
+/// Levels are numbered from 0 in the order of the file. A relation keeps the conditions in which
+///
+///     sum of coefficient * number of the level  =  remainder   (modulo m)
+///
+/// With m the number of levels, a prime, k independent relations keep 1/m^k of the crossing, and every choice of t factors is
+/// met equally often in each combination when each sum (and each combination of sums) has more than t factors in it: a regular
+/// fractional factorial of resolution t + 1, an orthogonal array of strength t. Sums of two factors of m levels are Latin squares
+/// in three. Sources: Box, Hunter 1961, Technometrics 3(3), 311-351; Franklin 1984, Technometrics 26(3), 225-232; Rao 1947.
 #pragma once
 
 #include <string>

@@ -1,9 +1,11 @@
-// The named values of one condition. They are filled into the template of a script.
-//
-// A string of a template is  "${name}"           the value itself, whatever it is: number, text, list, null
-//                            "= name * 2 + 0.1"  a number, see arithmetic.h
-//                            "happy_${name}.wav" text with values in it
-// Values of parameters may be written like that too, with the names of other parameters.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The named values of one condition. They are filled into the template of a script.
+///
+/// A string of a template is  "${name}"           the value itself, whatever it is: number, text, list, null
+///                            "= name * 2 + 0.1"  a number, see arithmetic.h
+///                            "happy_${name}.wav" text with values in it
+/// Values of parameters may be written like that too, with the names of other parameters.
 #pragma once
 
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/design/detail/table.h"
 
 #include <charconv>

@@ -1,5 +1,7 @@
-// Tables of conditions as spreadsheets write them: a row of names, then a row of values for each condition, separated by tabs or
-// commas.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Tables of conditions as spreadsheets write them: a row of names, then a row of values for each condition, separated by tabs or
+/// commas.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/inside_skin.h"
 
 #include <algorithm>

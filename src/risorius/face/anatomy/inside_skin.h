@@ -1,7 +1,9 @@
-// Tests whether points of bone lie inside of the skin, and how deep bone can lie under it.
-//
-// Where skin folds back on itself, as in the wings of the nose, a thickness measured elsewhere would reach through to the skin on the
-// other side. There is no bone there, only cartilage between two layers of skin, so the tissue ends before the other layer.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Tests whether points of bone lie inside of the skin, and how deep bone can lie under it.
+///
+/// Where skin folds back on itself, as in the wings of the nose, a thickness measured elsewhere would reach through to the skin on the
+/// other side. There is no bone there, only cartilage between two layers of skin, so the tissue ends before the other layer.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/lid_measures.h"
 
 #include <algorithm>

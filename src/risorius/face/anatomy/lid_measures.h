@@ -1,4 +1,6 @@
-// Measures of the eyelids in a pose: the opening they leave, and how far they reach into the eye.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measures of the eyelids in a pose: the opening they leave, and how far they reach into the eye.
 #pragma once
 
 #include <array>

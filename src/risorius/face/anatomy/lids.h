@@ -1,14 +1,16 @@
-// Eyelids: tarsal plates that turn about the axis through the canthi and the eye centre until the margins meet.
-//
-//   s      place along the canthal axis, 0 at the inner, 1 at the outer canthus
-//   angle  of a point about the axis, rad, 0 forward, positive up
-//   A(s)   angle of a lid's margin at rest, measured on the mesh where skin ends before the eye
-//   q      height over the margin: 1 at the crease of the upper lid, 1 where the lower lid ends
-//
-// Gaze, wide opening and a tightened lower lid shape the curve of each margin. Both margins then close on the line where they meet:
-//   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - share) (U - L)
-// A margin point slides along its curve, inwards in a blink and sideways with the gaze, so that closed lids meet in every gaze.
-// The skin of the plate turns with gaze as one piece up to the crease. When the eye closes, it unrolls from below the crease.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Eyelids: tarsal plates that turn about the axis through the canthi and the eye centre until the margins meet.
+///
+///   s      place along the canthal axis, 0 at the inner, 1 at the outer canthus
+///   angle  of a point about the axis, rad, 0 forward, positive up
+///   A(s)   angle of a lid's margin at rest, measured on the mesh where skin ends before the eye
+///   q      height over the margin: 1 at the crease of the upper lid, 1 where the lower lid ends
+///
+/// Gaze, wide opening and a tightened lower lid shape the curve of each margin. Both margins then close on the line where they meet:
+///   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - share) (U - L)
+/// A margin point slides along its curve, inwards in a blink and sideways with the gaze, so that closed lids meet in every gaze.
+/// The skin of the plate turns with gaze as one piece up to the crease. When the eye closes, it unrolls from below the crease.
 #pragma once
 
 #include <vector>

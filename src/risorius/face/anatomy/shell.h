@@ -1,8 +1,10 @@
-// The simulated part of the skin: an open shell of outward-facing triangles, coarsened to a size field.
-//
-// Region: the face from hairline to throat and back to the front of the ears. Two kinds of triangles are left out: those that turn away
-// from the smooth outward direction (inner lips, lid margins), since prisms under them would be inverted, and walls of nostrils. These
-// parts follow by harmonic extension (skin_binding.h). The shell of a head that is its own mirror image is symmetric in every edge.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The simulated part of the skin: an open shell of outward-facing triangles, coarsened to a size field.
+///
+/// Region: the face from hairline to throat and back to the front of the ears. Two kinds of triangles are left out: those that turn away
+/// from the smooth outward direction (inner lips, lid margins), since prisms under them would be inverted, and walls of nostrils. These
+/// parts follow by harmonic extension (skin_binding.h). The shell of a head that is its own mirror image is symmetric in every edge.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
-// Soft tissue between the skin shell and the bone. It has three layers of nodes: deep (on the bone), middle and skin. Each prism of a
-// column is cut into tetrahedra.
-//
-// Node of shell vertex v in layer l: 3 v + l.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Soft tissue between the skin shell and the bone. It has three layers of nodes: deep (on the bone), middle and skin. Each prism of a
+/// column is cut into tetrahedra.
+///
+/// Node of shell vertex v in layer l: 3 v + l.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// A face driven at random: what a long run of wild excitation, jaw and head does to it, and whether it comes back.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A face driven at random: what a long run of wild excitation, jaw and head does to it, and whether it comes back.
 #pragma once
 
 #include "risorius/face/face.h"

@@ -1,7 +1,9 @@
-// Estimates skull and mandible of a head from its skin: the bones of the standard head are warped by the landmarks and cut back to
-// where the tissue over them is as thick as the rig's table says (means of Stephan and Simpson 2008, and later).
-//
-// For display only. The bone of the simulation is the layer of deep nodes in tissue_mesh.h, with the same thickness.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Estimates skull and mandible of a head from its skin: the bones of the standard head are warped by the landmarks and cut back to
+/// where the tissue over them is as thick as the rig's table says (means of Stephan and Simpson 2008, and later).
+///
+/// For display only. The bone of the simulation is the layer of deep nodes in tissue_mesh.h, with the same thickness.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,8 @@
-// Variations of one body: the experiment file gives a body and what each case changes in it.
-//
-//   "body": {...}, "change": {"grid": [4, 4, 4], "material": {"mass_kg": 10}}     a JSON merge patch (RFC 7386)
+// SPDX-License-Identifier: MIT
+/// \file
+/// Variations of one body: the experiment file gives a body and what each case changes in it.
+///
+///   "body": {...}, "change": {"grid": [4, 4, 4], "material": {"mass_kg": 10}}     a JSON merge patch (RFC 7386)
 #pragma once
 
 #include <optional>

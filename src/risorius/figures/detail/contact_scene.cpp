@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/contact_scene.h"
 
 #include <algorithm>

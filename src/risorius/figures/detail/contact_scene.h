@@ -1,11 +1,13 @@
-// Soft bodies let fall on rigid things and on each other: one scene of an experiment file, run and measured.
-//
-//   {"name": "cloth-over-torus", "caption": "...", "duration_s": 1.5, "parts_per_side": 2,
-//    "bodies": [{...}], "obstacles": [{"torus": {"centre_m": [0, 0, 0], "radius_m": 0.1, "tube_m": 0.04}}],
-//    "contact": {"stiffness_pa_per_m": 1e5, "thickness_m": 1e-3, "friction": 0.5}}
-//
-// Obstacles are planes, spheres and capsules as in softbody/action_description.h, and tori, which are closed meshes: each is
-// touched by every body. Bodies that are closed touch each other.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Soft bodies let fall on rigid things and on each other: one scene of an experiment file, run and measured.
+///
+///   {"name": "cloth-over-torus", "caption": "...", "duration_s": 1.5, "parts_per_side": 2,
+///    "bodies": [{...}], "obstacles": [{"torus": {"centre_m": [0, 0, 0], "radius_m": 0.1, "tube_m": 0.04}}],
+///    "contact": {"stiffness_pa_per_m": 1e5, "thickness_m": 1e-3, "friction": 0.5}}
+///
+/// Obstacles are planes, spheres and capsules as in softbody/action_description.h, and tori, which are closed meshes: each is
+/// touched by every body. Bodies that are closed touch each other.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,7 @@
-// What every kind of experiment is to the registry: a function from the experiment file to tables, charts, shapes and
-// measurements. To add one: write such a function, list it in registry.cpp and make a folder in samples/figures.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What every kind of experiment is to the registry: a function from the experiment file to tables, charts, shapes and
+/// measurements. To add one: write such a function, list it in registry.cpp and make a folder in samples/figures.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/figure_files.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
-// The result of an experiment as files: numbers as JSON and CSV, charts as SVG and PNG, shapes as pictures.
-//
-// The same result gives the same bytes; nothing here knows the time.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The result of an experiment as files: numbers as JSON and CSV, charts as SVG and PNG, shapes as pictures.
+///
+/// The same result gives the same bytes; nothing here knows the time.
 #pragma once
 
 #include <array>

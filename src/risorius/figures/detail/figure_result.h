@@ -1,4 +1,6 @@
-// What an experiment leaves: tables, charts, shapes to be drawn and checks against what was published. It writes nothing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What an experiment leaves: tables, charts, shapes to be drawn and checks against what was published. It writes nothing.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/implicit_steps.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/line_muscle.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// The law a solid muscle is held against: one fibre and its tendon in a row (muscle/equilibrium.h), in the units of the
-// figures: normalised lengths (muscle_runs.h), forces over F0, speeds over vmax l0.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The law a solid muscle is held against: one fibre and its tendon in a row (muscle/equilibrium.h), in the units of the
+/// figures: normalised lengths (muscle_runs.h), forces over F0, speeds over vmax l0.
 #pragma once
 
 #include "risorius/softbody/muscle_body.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/linear_modes.h"
 
 #include <algorithm>

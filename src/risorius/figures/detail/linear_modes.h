@@ -1,9 +1,11 @@
-// Small motions of a body about a state, and how explicit methods treat them: what linear theory says of stable steps.
-//
-//   M d'' = - K d - D d'     lambda   eigenvalues of [0 1; -M^-1 K  -M^-1 D], 1/s     z = h lambda
-//   a method multiplies a motion by R(z) every step
-//
-// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I and II: stability domains.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Small motions of a body about a state, and how explicit methods treat them: what linear theory says of stable steps.
+///
+///   M d'' = - K d - D d'     lambda   eigenvalues of [0 1; -M^-1 K  -M^-1 D], 1/s     z = h lambda
+///   a method multiplies a motion by R(z) every step
+///
+/// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I and II: stability domains.
 #pragma once
 
 #include <complex>

@@ -1,7 +1,9 @@
-// What an experiment measured, by name, and the checks its file makes of it: bands and published values are data.
-//
-//   "checks": [{"measured": "peak_volume_change_percent/3x3x3", "low": 8, "high": 13, "range": "published",
-//               "published": "up to ~10 %", "differs": true, "note": "..."}]
+// SPDX-License-Identifier: MIT
+/// \file
+/// What an experiment measured, by name, and the checks its file makes of it: bands and published values are data.
+///
+///   "checks": [{"measured": "peak_volume_change_percent/3x3x3", "low": 8, "high": 13, "range": "published",
+///               "published": "up to ~10 %", "differs": true, "note": "..."}]
 #pragma once
 
 #include <string>

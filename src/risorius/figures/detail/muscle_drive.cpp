@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/muscle_drive.h"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
-// What a muscle is told to do over time: activation as it stands, or excitation that activation follows, and its length.
-//
-//   "drive": {"activation": [[0, 0], [0.001, 1]]}                      held from each time on
-//            {"excitation": [[0, 0], [0.01, 1]], "t_act_s": 0.010, "t_deact_s": 0.040}
-//            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     of excitation 1
-//   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), straight between times
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a muscle is told to do over time: activation as it stands, or excitation that activation follows, and its length.
+///
+///   "drive": {"activation": [[0, 0], [0.001, 1]]}                      held from each time on
+///            {"excitation": [[0, 0], [0.01, 1]], "t_act_s": 0.010, "t_deact_s": 0.040}
+///            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     of excitation 1
+///   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), straight between times
 #pragma once
 
 #include <functional>

@@ -1,10 +1,12 @@
-// A muscle moved in time by implicit Euler steps and what its plates feel meanwhile: held at lengths that are prescribed, or
-// pulling a weight.
-//
-//   m x'' = T - W      x   how far the load has come, m      T   tension, N       W   weight of the load, N       m   its mass
-//
-// The load and the muscle take turns: the muscle's step ends where the load's speed takes the plate, the tension it ends
-// with is what the load feels (symplectic Euler, stable while h < 2 sqrt(m / k), k the tendons' stiffness).
+// SPDX-License-Identifier: MIT
+/// \file
+/// A muscle moved in time by implicit Euler steps and what its plates feel meanwhile: held at lengths that are prescribed, or
+/// pulling a weight.
+///
+///   m x'' = T - W      x   how far the load has come, m      T   tension, N       W   weight of the load, N       m   its mass
+///
+/// The load and the muscle take turns: the muscle's step ends where the load's speed takes the plate, the tension it ends
+/// with is what the load feels (symplectic Euler, stable while h < 2 sqrt(m / k), k the tendons' stiffness).
 #pragma once
 
 #include <functional>

@@ -1,5 +1,7 @@
-// A muscle let go from equilibrium, at a speed or against a weight, until its fibres pass a length; and Hill's hyperbola through
-// what it did there.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A muscle let go from equilibrium, at a speed or against a weight, until its fibres pass a length; and Hill's hyperbola through
+/// what it did there.
 #pragma once
 
 #include <vector>

@@ -1,10 +1,12 @@
-// Variations of one muscle for the kinds that experiment on it: an experiment file gives a muscle (softbody/muscle_body.h) and
-// what each run changes in it.
-//
-//   "muscle": {...}, "runs": [{"name": "k-0.2", "label": "K = 0.2 MPa", "change": {"moduli": {"bulk_pa": 2e5}}}]
-//
-// Lengths of a musculotendon are normalised as in the thesis' figure 11a: (distance of the plates - lTs) / l0, which is 1 at
-// rest for a belly of its optimal length.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Variations of one muscle for the kinds that experiment on it: an experiment file gives a muscle (softbody/muscle_body.h) and
+/// what each run changes in it.
+///
+///   "muscle": {...}, "runs": [{"name": "k-0.2", "label": "K = 0.2 MPa", "change": {"moduli": {"bulk_pa": 2e5}}}]
+///
+/// Lengths of a musculotendon are normalised as in the thesis' figure 11a: (distance of the plates - lTs) / l0, which is 1 at
+/// rest for a belly of its optimal length.
 #pragma once
 
 #include <string>

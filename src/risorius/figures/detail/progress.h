@@ -1,4 +1,6 @@
-// Counts finished work of several threads and tells whoever watches, one call at a time.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Counts finished work of several threads and tells whoever watches, one call at a time.
 #pragma once
 
 #include <mutex>

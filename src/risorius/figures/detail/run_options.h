@@ -1,4 +1,6 @@
-// How a figure is run: threads, progress, the wish to stop, and runs that several figures share.
+// SPDX-License-Identifier: MIT
+/// \file
+/// How a figure is run: threads, progress, the wish to stop, and runs that several figures share.
 #pragma once
 
 #include <any>

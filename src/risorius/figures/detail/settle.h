@@ -1,4 +1,6 @@
-// Brings a body to rest under what acts on it: by moving in time or by solving for equilibrium, as its integrator says.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Brings a body to rest under what acts on it: by moving in time or by solving for equilibrium, as its integrator says.
 #pragma once
 
 #include "risorius/figures/detail/run_options.h"

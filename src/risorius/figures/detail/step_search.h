@@ -1,5 +1,7 @@
-// The longest step of a table with which a method gets through a simulation: as in the thesis, steps are tried from the
-// longest down and the first with which the motion does not diverge counts.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The longest step of a table with which a method gets through a simulation: as in the thesis, steps are tried from the
+/// longest down and the first with which the motion does not diverge counts.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/still_muscle.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// A muscle at rest between plates that are put somewhere, and what its tension is over that.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A muscle at rest between plates that are put somewhere, and what its tension is over that.
 #pragma once
 
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/figures/detail/volume_history.h"
 
 #include <algorithm>

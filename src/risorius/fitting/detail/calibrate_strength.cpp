@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/detail/calibrate_strength.h"
 
 #include <algorithm>

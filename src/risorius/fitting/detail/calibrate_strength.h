@@ -1,9 +1,11 @@
-// Finds, for one head, the strength of every muscle with which activation 1 shortens it as published.
-//
-//   s   strength: force / force from the cross-section, ratio, [0.1, 6]
-//   l   mean fibre length / rest length at activation 1
-//
-// Targets for l are those of the muscle bands, "shortens_to".
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds, for one head, the strength of every muscle with which activation 1 shortens it as published.
+///
+///   s   strength: force / force from the cross-section, ratio, [0.1, 6]
+///   l   mean fibre length / rest length at activation 1
+///
+/// Targets for l are those of the muscle bands, "shortens_to".
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/detail/fit_landmarks.h"
 
 #include <algorithm>

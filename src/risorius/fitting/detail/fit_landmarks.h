@@ -1,5 +1,7 @@
-// Checks of a landmark file before a fit: all required landmarks are there, they lie on the skin, left ones on the left, and each where
-// the others predict it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Checks of a landmark file before a fit: all required landmarks are there, they lie on the skin, left ones on the left, and each where
+/// the others predict it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,6 @@
-// The report of a fit as a folder: a page with pictures, and results.json for programs.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The report of a fit as a folder: a page with pictures, and results.json for programs.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,7 @@
-// Picture of the result of a fit: landmarks given and estimated, lids, mouth and eyes from the front and the side, thickness of the tissue
-// as colour, and the estimated bone.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Picture of the result of a fit: landmarks given and estimated, lids, mouth and eyes from the front and the side, thickness of the tissue
+/// as colour, and the estimated bone.
 #pragma once
 
 #include <vector>

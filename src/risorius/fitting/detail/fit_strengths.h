@@ -1,14 +1,16 @@
-// Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
-// standard tables were calibrated on.
-//
-//   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + sum keep/2 z^2
-//
-//   u, g   displacements of the landmarks on this head and on the standard head, at atlas size, m
-//   z      logarithms of factors on the strength of each muscle, on turn and push of each lip, and on the pressure that puffs, |z| <= 1
-//   keep   weight of a change; the push of the lower lip has its own
-//
-// Gauss-Newton over faces in equilibrium, du/dz = -H^-1 dg/dz at the nodes of the skin. Squares are reweighted so that the sum is one of
-// lengths: an expression that this head cannot make does not distort the others.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
+/// standard tables were calibrated on.
+///
+///   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + sum keep/2 z^2
+///
+///   u, g   displacements of the landmarks on this head and on the standard head, at atlas size, m
+///   z      logarithms of factors on the strength of each muscle, on turn and push of each lip, and on the pressure that puffs, |z| <= 1
+///   keep   weight of a change; the push of the lower lip has its own
+///
+/// Gauss-Newton over faces in equilibrium, du/dz = -H^-1 dg/dz at the nodes of the skin. Squares are reweighted so that the sum is one of
+/// lengths: an expression that this head cannot make does not distort the others.
 #pragma once
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/fitting/detail/piece_guess.h"
 
 #include <algorithm>

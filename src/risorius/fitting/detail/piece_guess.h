@@ -1,4 +1,6 @@
-// Identifies the separate pieces of a mesh without groups by their position: eyes behind the lids, teeth and tongue behind the lips.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Identifies the separate pieces of a mesh without groups by their position: eyes behind the lids, teeth and tongue behind the lips.
 #pragma once
 
 #include <functional>

@@ -1,11 +1,13 @@
-// Deforms the average head into that of a person: handles of the parameters table move every part; the topology is unchanged.
-//
-// With k(d / reach) Wendland's bell (1 - t)^4 (4 t + 1) about each handle, a point p of the left side goes to
-//   p + sum over handles of  parameter * k * by                (move)
-//                            parameter * k * by (p - at) / 100 (scale)
-// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
-// form and lids their distance. Then lid handles slide the lids over the globe. The map is smooth and, within the ranges of identity.h,
-// one-to-one, so a mesh without self-intersections stays free of them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Deforms the average head into that of a person: handles of the parameters table move every part; the topology is unchanged.
+///
+/// With k(d / reach) Wendland's bell (1 - t)^4 (4 t + 1) about each handle, a point p of the left side goes to
+///   p + sum over handles of  parameter * k * by                (move)
+///                            parameter * k * by (p - at) / 100 (scale)
+/// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
+/// form and lids their distance. Then lid handles slide the lids over the globe. The map is smooth and, within the ranges of identity.h,
+/// one-to-one, so a mesh without self-intersections stays free of them.
 #pragma once
 
 #include "risorius/headmodel/detail/head_model.h"

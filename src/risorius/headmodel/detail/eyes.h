@@ -1,5 +1,7 @@
-// The globe, and the surface that lids must not enter. Sizes: schematic eye (axial length 24.0 mm, cornea 7.8 mm). The centre of rotation
-// lies 12.5 mm behind the apex of the cornea; pupils are 63 mm apart.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The globe, and the surface that lids must not enter. Sizes: schematic eye (axial length 24.0 mm, cornea 7.8 mm). The centre of rotation
+/// lies 12.5 mm behind the apex of the cornea; pupils are 63 mm apart.
 #pragma once
 
 #include "risorius/geom/polygon_mesh.h"

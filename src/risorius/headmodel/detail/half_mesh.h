@@ -1,5 +1,7 @@
-// The left half of the skin during construction: vertices, quads, and relaxation over the head surface. Both halves share the midline;
-// mirroring at the end makes the whole exactly symmetric.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The left half of the skin during construction: vertices, quads, and relaxation over the head surface. Both halves share the midline;
+/// mirroring at the end makes the whole exactly symmetric.
 #pragma once
 
 #include <array>

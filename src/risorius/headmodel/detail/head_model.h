@@ -1,4 +1,6 @@
-// The complete head: all parts over one vertex array, with the landmarks as vertices.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The complete head: all parts over one vertex array, with the landmarks as vertices.
 #pragma once
 
 #include <map>

@@ -1,11 +1,13 @@
-// The head without ears as a smooth function: distance from a vertical axis segment, over azimuth and height.
-//
-// Every point belongs to the nearest point O of the segment (0, 45, 0)-(0, -50, 0). Its coordinates are
-//   phi   azimuth about the segment, 0 forward, pi backward, rad
-//   s     height on the segment, continued beyond its ends by 90 mm per radian of elevation, mm
-//   rho   distance from O, mm
-// rho(phi, s) is the thin-plate fit on a regular grid to the measured depths, radii and landmarks. The head without ears
-// and nasal wings is star-shaped in this sense, so one smooth function carries forehead, face, chin, throat and nape.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The head without ears as a smooth function: distance from a vertical axis segment, over azimuth and height.
+///
+/// Every point belongs to the nearest point O of the segment (0, 45, 0)-(0, -50, 0). Its coordinates are
+///   phi   azimuth about the segment, 0 forward, pi backward, rad
+///   s     height on the segment, continued beyond its ends by 90 mm per radian of elevation, mm
+///   rho   distance from O, mm
+/// rho(phi, s) is the thin-plate fit on a regular grid to the measured depths, radii and landmarks. The head without ears
+/// and nasal wings is star-shaped in this sense, so one smooth function carries forehead, face, chin, throat and nape.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/head_textures.h"
 
 #include <algorithm>

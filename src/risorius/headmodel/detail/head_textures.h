@@ -1,4 +1,6 @@
-// Textures and material library of an exported head for other programs.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Textures and material library of an exported head for other programs.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,9 @@
-// The identity of a head: sex, age, shape parameters in standard deviations, and colours. It is read from a file, drawn by a seed, or set.
-//
-// A file names only what differs from the average adult:
-//   {"format": "risorius-identity", "version": 1, "name": "ada", "sex": -1, "age": 34, "shape": {"lips": 1.2}, "skin": "tan"}
+// SPDX-License-Identifier: MIT
+/// \file
+/// The identity of a head: sex, age, shape parameters in standard deviations, and colours. It is read from a file, drawn by a seed, or set.
+///
+/// A file names only what differs from the average adult:
+///   {"format": "risorius-identity", "version": 1, "name": "ada", "sex": -1, "age": 34, "shape": {"lips": 1.2}, "skin": "tan"}
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Brings the skin onto the landmarks: a smooth, local displacement that moves the nearest vertices onto them.
 #include <Eigen/SparseCholesky>
 #include <cmath>

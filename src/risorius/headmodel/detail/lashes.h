@@ -1,4 +1,6 @@
-// Lashes: one ribbon along each lid margin that curves away from the eye. The renderer draws single hairs on it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Lashes: one ribbon along each lid margin that curves away from the eye. The renderer draws single hairs on it.
 #pragma once
 
 #include "risorius/headmodel/detail/skin.h"

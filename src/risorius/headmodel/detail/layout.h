@@ -1,8 +1,10 @@
-// Texture coordinates of the head: charts flattened with little distortion, and the regions of the skin by name.
-//
-// The skin of face, scalp, neck and shoulders is one chart, symmetric about u = 1/2 and cut at the back of the head, from the crown down.
-// Ears are cut off where they meet the head, nostrils at their rims and open at one side, the lining of the mouth where the lips meet and
-// along its own middle. All of these share one square at one scale. The other parts bring their layout (part_layout.h).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Texture coordinates of the head: charts flattened with little distortion, and the regions of the skin by name.
+///
+/// The skin of face, scalp, neck and shoulders is one chart, symmetric about u = 1/2 and cut at the back of the head, from the crown down.
+/// Ears are cut off where they meet the head, nostrils at their rims and open at one side, the lining of the mouth where the lips meet and
+/// along its own middle. All of these share one square at one scale. The other parts bring their layout (part_layout.h).
 #pragma once
 
 #include "risorius/headmodel/detail/half_mesh.h"

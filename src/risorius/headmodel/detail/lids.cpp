@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lids: loops from the orbit to the margin, the margin's own thickness, and the inner face lying on the globe.
 #include <algorithm>
 #include <cmath>

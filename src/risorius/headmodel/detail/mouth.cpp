@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lips and the cavity behind them: skin loops, vermilion, the line of contact, the inner lip and a bag round the teeth.
 #include <cmath>
 

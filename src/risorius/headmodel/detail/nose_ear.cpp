@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nasal wing with nostril, and ear: lofts through the edge loops of the design tables.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/oral.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The inside of the mouth: two arches of fourteen tooth crowns, their gums, and the tongue at rest. Lengths in mm.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The inside of the mouth: two arches of fourteen tooth crowns, their gums, and the tongue at rest. Lengths in mm.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/part_layout.h"
 
 #include <cmath>

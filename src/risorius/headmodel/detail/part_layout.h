@@ -1,5 +1,7 @@
-// Texture coordinates of parts made of rings: eyes, tooth crowns and the tongue as discs about their pole, without a visible seam; gums and
-// lashes as strips. Each kind of part has a square that left and right, upper and lower parts share.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Texture coordinates of parts made of rings: eyes, tooth crowns and the tongue as discs about their pole, without a visible seam; gums and
+/// lashes as strips. Each kind of part has a square that left and right, upper and lower parts share.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
-// The skin of the left half: a grid of columns (azimuth) and rows (height) over the head. Blocks are cut out of it and filled by edge loops
-// around the eye, the mouth, the nasal wing and the ear. Below the neck follow the shoulders.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The skin of the left half: a grid of columns (azimuth) and rows (height) over the head. Blocks are cut out of it and filled by edge loops
+/// around the eye, the mouth, the nasal wing and the ear. Below the neck follow the shoulders.
 #pragma once
 
 #include <map>

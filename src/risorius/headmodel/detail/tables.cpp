@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/tables.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
-// Measured and designed numbers of the head, read from the model's design folder. Lengths in mm.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Measured and designed numbers of the head, read from the model's design folder. Lengths in mm.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/evaluation_page.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// The HTML page of an evaluation: means, a sortable table, and every expression in pictures, numbers and activations. It has no scripts
-// and loads nothing from the network.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The HTML page of an evaluation: means, a sortable table, and every expression in pictures, numbers and activations. It has no scripts
+/// and loads nothing from the network.
 #pragma once
 
 #include <string>

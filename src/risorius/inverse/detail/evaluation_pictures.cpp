@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/evaluation_pictures.h"
 
 #include <Eigen/SVD>

@@ -1,4 +1,6 @@
-// The pictures of an evaluation: every expression as simulated and as measured, the difference as colour on the face, and contact sheets.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The pictures of an evaluation: every expression as simulated and as measured, the difference as colour on the face, and contact sheets.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/fit_target.h"
 
 #include <Eigen/Geometry>

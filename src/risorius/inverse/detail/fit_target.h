@@ -1,4 +1,6 @@
-// The target of an inverse solve: measured or sculpted shapes, or landmarks over time, as displacements of the head's vertices.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The target of an inverse solve: measured or sculpted shapes, or landmarks over time, as displacements of the head's vertices.
 #pragma once
 
 #include <Eigen/Core>

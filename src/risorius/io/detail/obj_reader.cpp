@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/io/detail/obj_reader.h"
 
 #include <array>

@@ -1,8 +1,10 @@
-// Reads Wavefront OBJ and keeps its numbering: vertex i of the result is the i-th "v" of the file.
-//
-// assimp splits an OBJ by object and material and gives every face corner its own vertex. The index of the "v" line is lost, and positions
-// cannot restore it, because several vertices of a face may have the same position (a closed lid, a seam between regions). Displacement
-// tables and landmark lists use that index, so this format is read here.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads Wavefront OBJ and keeps its numbering: vertex i of the result is the i-th "v" of the file.
+///
+/// assimp splits an OBJ by object and material and gives every face corner its own vertex. The index of the "v" line is lost, and positions
+/// cannot restore it, because several vertices of a face may have the same position (a closed lid, a seam between regions). Displacement
+/// tables and landmark lists use that index, so this format is read here.
 #pragma once
 
 #include <string>

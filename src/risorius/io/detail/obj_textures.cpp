@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/io/detail/obj_textures.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Finds the colour textures of an OBJ's materials in the MTL files that it names.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds the colour textures of an OBJ's materials in the MTL files that it names.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/io/detail/scene_reader.h"
 
 #include <assimp/config.h>

@@ -1,4 +1,6 @@
-// The result of assimp as one polygon mesh in metres. See io/read_mesh.h for order, groups and units.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The result of assimp as one polygon mesh in metres. See io/read_mesh.h for order, groups and units.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,9 @@
-// Encodes pictures and their sound to one file. It does not handle temporary names.
-//
-// bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
-// milliseconds; the exact frame period stands in its DefaultDuration.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Encodes pictures and their sound to one file. It does not handle temporary names.
+///
+/// bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
+/// milliseconds; the exact frame period stands in its DefaultDuration.
 #pragma once
 
 #include <filesystem>

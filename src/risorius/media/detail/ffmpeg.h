@@ -1,4 +1,6 @@
-// Owning pointers and error messages for the C objects of the FFmpeg libraries.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Owning pointers and error messages for the C objects of the FFmpeg libraries.
 #pragma once
 
 #include <memory>

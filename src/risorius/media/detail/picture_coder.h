@@ -1,10 +1,12 @@
-// Pictures to the packets of one video stream. Settings and why:
-//
-//   no B-frames         decoding order is display order, so players that step frame by frame cannot be off by one
-//   closed groups       of a quarter of a second unless asked otherwise, without scene detection: any frame is reached
-//                       by decoding few others
-//   four threads        x264's bytes depend on the number of threads, so it is fixed rather than asked of the machine
-//   BT.709, limited     the sRGB-encoded values are carried unchanged as R'G'B', which is what video players assume
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures to the packets of one video stream. Settings and why:
+///
+///   no B-frames         decoding order is display order, so players that step frame by frame cannot be off by one
+///   closed groups       of a quarter of a second unless asked otherwise, without scene detection: any frame is reached
+///                       by decoding few others
+///   four threads        x264's bytes depend on the number of threads, so it is fixed rather than asked of the machine
+///   BT.709, limited     the sRGB-encoded values are carried unchanged as R'G'B', which is what video players assume
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/detail/png_samples.h"
 
 #include <png.h>

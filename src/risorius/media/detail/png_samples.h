@@ -1,4 +1,6 @@
-// Reads and writes PNG files as raw samples without colour conversion: grey, colour, colour with alpha; 8 or 16 bits.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads and writes PNG files as raw samples without colour conversion: grey, colour, colour with alpha; 8 or 16 bits.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/detail/rgb_pixels.h"
 
 namespace risorius::media::detail {

@@ -1,4 +1,6 @@
-// Lossless conversion between pixels of 8-bit RGB frames, packed or planar, and pictures.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Lossless conversion between pixels of 8-bit RGB frames, packed or planar, and pictures.
 #pragma once
 
 #include "risorius/core/image.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/detail/sound.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Sound in memory, read through the FFmpeg libraries: recordings for a video, or the sound of a video to be measured. The delay of decoders
-// (AAC's priming, Opus' pre-skip) is removed as the file states.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sound in memory, read through the FFmpeg libraries: recordings for a video, or the sound of a video to be measured. The delay of decoders
+/// (AAC's priming, Opus' pre-skip) is removed as the file states.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/detail/sound_coder.h"
 
 #include <algorithm>

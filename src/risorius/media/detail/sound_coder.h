@@ -1,7 +1,9 @@
-// Encodes sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
-//
-// The stream begins with the first frame and ends with the last: silence is added before and after the recording, and what lies outside is
-// cut. So the position of a sample does not depend on time stamps, which Matroska rounds to a millisecond.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Encodes sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
+///
+/// The stream begins with the first frame and ends with the last: silence is added before and after the recording, and what lies outside is
+/// cut. So the position of a sample does not depend on time stamps, which Matroska rounds to a millisecond.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Temporary names, whole-file reads and writes with every error of the operating system looked at.
 #include "risorius/media/detail/temporary_file.h"
 

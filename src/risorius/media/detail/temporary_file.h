@@ -1,4 +1,6 @@
-// Writes output under a temporary name next to its target, so that an incomplete result never has the target's name.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes output under a temporary name next to its target, so that an incomplete result never has the target's name.
 #pragma once
 
 #include <filesystem>

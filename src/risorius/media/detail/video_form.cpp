@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/media/detail/video_form.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The container and the coding of pictures that a file name's ending asks for.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The container and the coding of pictures that a file name's ending asks for.
 #pragma once
 
 #include <filesystem>

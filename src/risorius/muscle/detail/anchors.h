@@ -1,4 +1,6 @@
-// What the ends of a muscle are tied to: points of plates across them, planes, points of bones, or nothing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the ends of a muscle are tied to: points of plates across them, planes, points of bones, or nothing.
 #pragma once
 
 #include <functional>

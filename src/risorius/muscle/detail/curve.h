@@ -1,17 +1,19 @@
-// A function of one number in closed-form pieces, with its slope and its integral: what the force curves of muscle and
-// tendon are made of. The integral is exact, because the line search of a solver needs an energy that agrees with its
-// forces.
-//
-//   u = x - origin of the piece
-//   cubic         c0 + c1 u + c2 u^2 + c3 u^3
-//   exponential   c0 + c1 u + c2 (e^{k u} - 1)
-//   hyperbola     c0 + c1 u + c2 / (1 + k u)
-//   gaussian      c0 + c1 u + c2 e^{-(k u)^2}
-//   corner        C2, from one straight line into another: a Bezier curve of fifth order in a parameter s, 0..1, through
-//                 (0, c0), twice the point the ratio k of the way from there to the corner (c2, c3), twice the point the
-//                 ratio k of the way from the end (end - origin, c1) to the corner, and the end. x(s) is inverted to the
-//                 last bit by Newton's method; the integral of y dx is a polynomial in s.
-//                 Source of the corner: M. Millard et al. 2013, J. Biomech. Eng. 135(2), 021005.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A function of one number in closed-form pieces, with its slope and its integral: what the force curves of muscle and
+/// tendon are made of. The integral is exact, because the line search of a solver needs an energy that agrees with its
+/// forces.
+///
+///   u = x - origin of the piece
+///   cubic         c0 + c1 u + c2 u^2 + c3 u^3
+///   exponential   c0 + c1 u + c2 (e^{k u} - 1)
+///   hyperbola     c0 + c1 u + c2 / (1 + k u)
+///   gaussian      c0 + c1 u + c2 e^{-(k u)^2}
+///   corner        C2, from one straight line into another: a Bezier curve of fifth order in a parameter s, 0..1, through
+///                 (0, c0), twice the point the ratio k of the way from there to the corner (c2, c3), twice the point the
+///                 ratio k of the way from the end (end - origin, c1) to the corner, and the end. x(s) is inverted to the
+///                 last bit by Newton's method; the integral of y dx is a polynomial in s.
+///                 Source of the corner: M. Millard et al. 2013, J. Biomech. Eng. 135(2), 021005.
 #pragma once
 
 #include <limits>

@@ -1,8 +1,10 @@
-// A curve as a table for inner loops: its integral as cubics on equal cells, its value as their slope, so that energy and
-// force agree to rounding whatever the width of the cells.
-//
-// At the ends of cells value and integral are those of the curve; between them the value is off by less than
-// f''' w^2 / 70, w the width of a cell. Beyond the table the curve itself is asked.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A curve as a table for inner loops: its integral as cubics on equal cells, its value as their slope, so that energy and
+/// force agree to rounding whatever the width of the cells.
+///
+/// At the ends of cells value and integral are those of the curve; between them the value is off by less than
+/// f''' w^2 / 70, w the width of a cell. Beyond the table the curve itself is asked.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/detail/fill_surface.h"
 
 #include <cmath>

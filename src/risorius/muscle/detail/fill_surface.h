@@ -1,4 +1,6 @@
-// A grid of nodes that fills a closed surface, its axis a1 along the middle line of the body.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A grid of nodes that fills a closed surface, its axis a1 along the middle line of the body.
 #pragma once
 
 #include "risorius/muscle/muscle_shape.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/detail/framed_path.h"
 
 #include <algorithm>

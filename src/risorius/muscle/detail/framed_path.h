@@ -1,12 +1,14 @@
-// A smooth path through points with a frame at every place on it: what a muscle's cross-sections are set up on.
-//
-//   s   share of the length, 0..1; of a closed path 1 is 0 again
-//   t   along the path      n   outward      b = n x t   across: (t, b, n) is right-handed
-//
-// Between the points the path is a Catmull-Rom curve over knots a square root of the chord apart (centripetal), so that
-// it neither loops nor cusps where points lie unevenly. n is what is given at the points, made perpendicular; where
-// nothing is given it turns about the path as little as can be (W. Wang, B. Juettler, D. Zheng & Y. Liu, "Computation of
-// rotation minimizing frames", ACM TOG 27(1), 2008), and a closed path shares out evenly what is missing after one round.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A smooth path through points with a frame at every place on it: what a muscle's cross-sections are set up on.
+///
+///   s   share of the length, 0..1; of a closed path 1 is 0 again
+///   t   along the path      n   outward      b = n x t   across: (t, b, n) is right-handed
+///
+/// Between the points the path is a Catmull-Rom curve over knots a square root of the chord apart (centripetal), so that
+/// it neither loops nor cusps where points lie unevenly. n is what is given at the points, made perpendicular; where
+/// nothing is given it turns about the path as little as can be (W. Wang, B. Juettler, D. Zheng & Y. Liu, "Computation of
+/// rotation minimizing frames", ACM TOG 27(1), 2008), and a closed path shares out evenly what is missing after one round.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/detail/hill_branch.h"
 
 namespace risorius::muscle {

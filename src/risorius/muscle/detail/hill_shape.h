@@ -1,19 +1,21 @@
-// Active and passive force of a fibre of the face over its length, dimensionless.
-//
-//   l   fibre length / optimal fibre length              l > 0
-//   f   force / greatest isometric force
-//
-//   active    e^{-((l - 1) / width)^2}
-//   passive   (e^{k (l - 1) / e0} - 1) / (e^k - 1) from l = 1 on; straight beyond l = 1 + linear e0, so that a wild step
-//             cannot overflow
-//
-// The forms are those of D. G. Thelen 2003, J. Biomech. Eng. 125(1), 70-77, the numbers of resting facial muscle; his own
-// bell, e^{-(l - 1)^2 / 0.45}, is wider: width 0.67 (thelen_curves.h). The kink of the passive curve at l = 1 is kept: its
-// slope there is 0.11, and the strengths of rigs are calibrated with it.
-//
-// LengthCurves is what the inner loop of FibreSet takes instead of Curve. Both give the same numbers to rounding, but a
-// Curve looks for its piece and works its slope out, which the loop does not need: 84 against 30 ns for both forces and
-// their integrals.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Active and passive force of a fibre of the face over its length, dimensionless.
+///
+///   l   fibre length / optimal fibre length              l > 0
+///   f   force / greatest isometric force
+///
+///   active    e^{-((l - 1) / width)^2}
+///   passive   (e^{k (l - 1) / e0} - 1) / (e^k - 1) from l = 1 on; straight beyond l = 1 + linear e0, so that a wild step
+///             cannot overflow
+///
+/// The forms are those of D. G. Thelen 2003, J. Biomech. Eng. 125(1), 70-77, the numbers of resting facial muscle; his own
+/// bell, e^{-(l - 1)^2 / 0.45}, is wider: width 0.67 (thelen_curves.h). The kink of the passive curve at l = 1 is kept: its
+/// slope there is 0.11, and the strengths of rigs are calibrated with it.
+///
+/// LengthCurves is what the inner loop of FibreSet takes instead of Curve. Both give the same numbers to rounding, but a
+/// Curve looks for its piece and works its slope out, which the loop does not need: 84 against 30 ns for both forces and
+/// their integrals.
 #pragma once
 
 #include "risorius/muscle/detail/curve.h"

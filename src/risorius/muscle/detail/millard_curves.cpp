@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/detail/millard_curves.h"
 
 #include <algorithm>

@@ -1,10 +1,12 @@
-// The force curves of Millard's muscle, dimensionless; letters as in muscle_curves.h. Fifth-order Bezier corners joined at
-// points of given slope, C2 throughout but where they go on straight, where they are C1: nothing has to be smoothed.
-//
-// Values are those of OpenSim's Millard2012EquilibriumMuscle with a damped fibre, whose active curve falls to 0. `curviness`
-// is its measure of how round a corner is, 0 to 1.
-//
-// Source: M. Millard, T. Uchida, A. Seth, S. L. Delp 2013, Flexing computational muscle, J. Biomech. Eng. 135(2), 021005.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The force curves of Millard's muscle, dimensionless; letters as in muscle_curves.h. Fifth-order Bezier corners joined at
+/// points of given slope, C2 throughout but where they go on straight, where they are C1: nothing has to be smoothed.
+///
+/// Values are those of OpenSim's Millard2012EquilibriumMuscle with a damped fibre, whose active curve falls to 0. `curviness`
+/// is its measure of how round a corner is, 0 to 1.
+///
+/// Source: M. Millard, T. Uchida, A. Seth, S. L. Delp 2013, Flexing computational muscle, J. Biomech. Eng. 135(2), 021005.
 #pragma once
 
 #include "risorius/muscle/muscle_curves.h"

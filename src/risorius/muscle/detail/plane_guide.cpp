@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/muscle/detail/plane_guide.h"
 
 #include <cmath>

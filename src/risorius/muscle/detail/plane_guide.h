@@ -1,10 +1,12 @@
-// What keeps the end of a muscle before its plate where tendons stand square on a plane and leave it free to drift along.
-//
-//   x   nodes of the end      c, n   middle and normal of the plate       r   its points from c, without their part along n
-//   E = k/2 [ |u|^2 + p^2 w^2 ]      u  mean of x from c, along the plane       w  mean turn about n, sum (n x r).x / sum r^2
-//                                    p^2 = mean r^2                             k  stiffness, N/m
-//
-// Three linear forms of x, square to each other: narrowing and swelling about the middle stay free, and nothing acts along n.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What keeps the end of a muscle before its plate where tendons stand square on a plane and leave it free to drift along.
+///
+///   x   nodes of the end      c, n   middle and normal of the plate       r   its points from c, without their part along n
+///   E = k/2 [ |u|^2 + p^2 w^2 ]      u  mean of x from c, along the plane       w  mean turn about n, sum (n x r).x / sum r^2
+///                                    p^2 = mean r^2                             k  stiffness, N/m
+///
+/// Three linear forms of x, square to each other: narrowing and swelling about the middle stay free, and nothing acts along n.
 #pragma once
 
 #include "risorius/core/types.h"

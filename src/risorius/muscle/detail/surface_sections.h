@@ -1,4 +1,6 @@
-// Closed loops in which planes cut a closed surface.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Closed loops in which planes cut a closed surface.
 #pragma once
 
 #include <array>

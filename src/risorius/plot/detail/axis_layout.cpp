@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/plot/detail/axis_layout.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The ends of an axis and the numbers along it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The ends of an axis and the numbers along it.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/plot/detail/chart_script.h"
 
 #include <algorithm>

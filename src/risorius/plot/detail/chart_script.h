@@ -1,4 +1,6 @@
-// A chart as the two texts gnuplot draws it from.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A chart as the two texts gnuplot draws it from.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/plot/detail/run_gnuplot.h"
 
 #include <fcntl.h>

@@ -1,4 +1,6 @@
-// Runs gnuplot on a script, without a shell and without the user's own settings.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Runs gnuplot on a script, without a shell and without the user's own settings.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/activation_colour.h"
 
 #include <algorithm>

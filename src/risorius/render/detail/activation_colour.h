@@ -1,6 +1,8 @@
-// The colour of a muscle by its activation: from dark red-brown at rest through orange to yellow.
-//
-// CIE lightness is linear in activation, so a more active muscle is brighter in grey and for colour-blind viewers too.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The colour of a muscle by its activation: from dark red-brown at rest through orange to yellow.
+///
+/// CIE lightness is linear in activation, so a more active muscle is brighter in grey and for colour-blind viewers too.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,4 +1,6 @@
-// Draws on a finished picture.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Draws on a finished picture.
 #pragma once
 
 #include <cmath>

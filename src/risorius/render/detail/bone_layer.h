@@ -1,5 +1,7 @@
-// Skull and mandible under transparent skin: bone and teeth, and over them the nearest skin, clear where it faces the camera and pale at its
-// edges.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Skull and mandible under transparent skin: bone and teeth, and over them the nearest skin, clear where it faces the camera and pale at its
+/// edges.
 #pragma once
 
 #include "risorius/render/detail/gl_context.h"

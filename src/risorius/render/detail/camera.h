@@ -1,4 +1,6 @@
-// Named portrait cameras, framed by landmarks so that every head fills the picture in the same way.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Named portrait cameras, framed by landmarks so that every head fills the picture in the same way.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/cell_clear.h"
 
 #include <algorithm>

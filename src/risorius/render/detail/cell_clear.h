@@ -1,4 +1,6 @@
-// Clears only those cells of a picture that are drawn in samples: clearing memory takes as long as drawing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Clears only those cells of a picture that are drawn in samples: clearing memory takes as long as drawing.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,6 @@
-// Perceptual colours.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Perceptual colours.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/coarser_faces.h"
 
 #include <meshoptimizer.h>

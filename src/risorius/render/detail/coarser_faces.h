@@ -1,4 +1,6 @@
-// Simplified surfaces for pictures whose samples are wider than the error.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Simplified surfaces for pictures whose samples are wider than the error.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/colour_scale.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The colour scale in the upper left corner of a picture: a bar between two numbers, with its name.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The colour scale in the upper left corner of a picture: a bar between two numbers, with its name.
 #pragma once
 
 #include <functional>

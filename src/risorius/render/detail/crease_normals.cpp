@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/crease_normals.h"
 
 namespace risorius::render {

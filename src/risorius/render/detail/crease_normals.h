@@ -1,4 +1,6 @@
-// Normals of a surface with edges: smooth where neighbouring triangles turn little, separate across a crease.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Normals of a surface with edges: smooth where neighbouring triangles turn little, separate across a crease.
 #pragma once
 
 #include <vector>

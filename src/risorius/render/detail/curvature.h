@@ -1,4 +1,6 @@
-// Curvature of a surface at its vertices, for subsurface scattering.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Curvature of a surface at its vertices, for subsurface scattering.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/deep_resolve.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Converts samples of linear light in 32-bit floating point to pixels of 16 bits, and these to 8 bits.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Converts samples of linear light in 32-bit floating point to pixels of 16 bits, and these to 8 bits.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
-// Environment light for shaders: irradiance on a matt surface (spherical harmonics), and reflections of glossy ones.
-//
-// Sources: Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps; Karis 2013, Real Shading
-// in Unreal Engine 4 (surroundings blurred beforehand by the lobe of a roughness).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Environment light for shaders: irradiance on a matt surface (spherical harmonics), and reflections of glossy ones.
+///
+/// Sources: Ramamoorthi and Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps; Karis 2013, Real Shading
+/// in Unreal Engine 4 (surroundings blurred beforehand by the lobe of a roughness).
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// Order and winding of triangles that are fastest to draw.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Order and winding of triangles that are fastest to draw.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/fibre_texture.h"
 
 #include <algorithm>

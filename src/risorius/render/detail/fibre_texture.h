@@ -1,4 +1,6 @@
-// The fibres of a muscle as a repeating texture: s across them, t along them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The fibres of a muscle as a repeating texture: s across them, t along them.
 #pragma once
 
 #include "risorius/render/detail/gl.h"

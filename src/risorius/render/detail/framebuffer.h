@@ -1,4 +1,6 @@
-// Render targets: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Render targets: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,7 @@
-// OpenGL 4.5 core as pointers to the functions of whichever back end draws (gl_backend.h): two libraries that both bring gl*
-// symbols cannot both be linked. A function that is missing here is added to the list.
+// SPDX-License-Identifier: MIT
+/// \file
+/// OpenGL 4.5 core as pointers to the functions of whichever back end draws (gl_backend.h): two libraries that both bring gl*
+/// symbols cannot both be linked. A function that is missing here is added to the list.
 #pragma once
 
 #include <GL/glcorearb.h>

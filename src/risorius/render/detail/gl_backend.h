@@ -1,4 +1,6 @@
-// What differs between the libraries that bring OpenGL: contexts without a window, and where the functions are.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What differs between the libraries that bring OpenGL: contexts without a window, and where the functions are.
 #pragma once
 
 #include <memory>

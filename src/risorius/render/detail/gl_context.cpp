@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/gl_context.h"
 
 #include <cstdlib>

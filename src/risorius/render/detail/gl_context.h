@@ -1,4 +1,6 @@
-// A GL 4.5 core context without a window, and the little ownership GL objects need.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A GL 4.5 core context without a window, and the little ownership GL objects need.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OpenGL by EGL without a window or surface. The library is looked for when it is needed, so that machines without it can do
 // without.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OpenGL in memory.
 #include "risorius/render/detail/gl.h"  // the core header comes first
 // Separated, so that sorting includes keeps this order.

@@ -1,4 +1,6 @@
-// Where hair covers the skin, by the plan that paints it: brows and scalp.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Where hair covers the skin, by the plan that paints it: brows and scalp.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/lash_strands.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Places on a ribbon of eyelashes, so that single hairs can be cut out of it without texture or alpha.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Places on a ribbon of eyelashes, so that single hairs can be cut out of it without texture or alpha.
 #pragma once
 
 #include <vector>

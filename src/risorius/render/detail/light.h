@@ -1,7 +1,9 @@
-// The lighting of a picture: lamps, surroundings and exposure.
-//
-// Exposure and white balance depend only on the light: a grey card of 18 % at the face towards the camera is 18 % in linear light in every
-// picture. Below kStraightTo the picture is linear in light.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The lighting of a picture: lamps, surroundings and exposure.
+///
+/// Exposure and white balance depend only on the light: a grey card of 18 % at the face towards the camera is 18 % in linear light in every
+/// picture. Below kStraightTo the picture is linear in light.
 #pragma once
 
 #include <optional>

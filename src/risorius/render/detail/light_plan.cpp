@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Preset lights, and the exposure of any light.
 #include <algorithm>
 #include <cmath>

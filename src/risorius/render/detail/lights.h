@@ -1,4 +1,6 @@
-// The light of a view: a key lamp with shadow, fill, a rim from behind, and surroundings, exposed on a grey card.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The light of a view: a key lamp with shadow, fill, a rim from behind, and surroundings, exposed on a grey card.
 #pragma once
 
 #include "risorius/render/detail/camera.h"

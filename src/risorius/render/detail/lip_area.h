@@ -1,4 +1,6 @@
-// The red of the lips at rest, seen from the front: the inside of the polygon of the landmarks on its border.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The red of the lips at rest, seen from the front: the inside of the polygon of the landmarks on its border.
 #pragma once
 
 #include <map>

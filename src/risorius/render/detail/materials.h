@@ -1,4 +1,6 @@
-// The shader program of each material and its constants of the head.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The shader program of each material and its constants of the head.
 #pragma once
 
 #include <array>

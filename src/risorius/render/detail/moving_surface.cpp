@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/moving_surface.h"
 
 #include "risorius/core/error.h"

@@ -1,4 +1,6 @@
-// The buffer of a surface that moves: positions and smooth normals.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The buffer of a surface that moves: positions and smooth normals.
 #pragma once
 
 #include <string>

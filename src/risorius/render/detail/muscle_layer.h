@@ -1,4 +1,6 @@
-// Renders the muscles alone, colour and depth, so that they can show through the skin.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Renders the muscles alone, colour and depth, so that they can show through the skin.
 #pragma once
 
 #include <vector>

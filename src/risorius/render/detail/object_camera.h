@@ -1,4 +1,6 @@
-// One camera per object of a row, all of the same kind: same direction, distance and scale, each centred on its own.
+// SPDX-License-Identifier: MIT
+/// \file
+/// One camera per object of a row, all of the same kind: same direction, distance and scale, each centred on its own.
 #pragma once
 
 #include <Eigen/Core>

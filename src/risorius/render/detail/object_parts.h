@@ -1,7 +1,9 @@
-// Triangles, wires and balls of an object as one list of triangles from far to near, ready to be blended in that order.
-//
-// Each keeps its depth by its middle (the painter's order, Newell, Newell and Sancha 1972), which is right for the even
-// meshes of grids; wires count as half a cell nearer, so that they lie on the surface they belong to.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Triangles, wires and balls of an object as one list of triangles from far to near, ready to be blended in that order.
+///
+/// Each keeps its depth by its middle (the painter's order, Newell, Newell and Sancha 1972), which is right for the even
+/// meshes of grids; wires count as half a cell nearer, so that they lie on the surface they belong to.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
-// How much of the sky each vertex sees, from depth renders along many directions: at rest, and about eyes that shut.
+// SPDX-License-Identifier: MIT
+/// \file
+/// How much of the sky each vertex sees, from depth renders along many directions: at rest, and about eyes that shut.
 #pragma once
 
 #include <array>

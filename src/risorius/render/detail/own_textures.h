@@ -1,4 +1,6 @@
-// The mesh's own textures: baked into the paint of the skin, and sampled on eyes, teeth and tongue.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The mesh's own textures: baked into the paint of the skin, and sampled on eyes, teeth and tongue.
 #pragma once
 
 #include <map>

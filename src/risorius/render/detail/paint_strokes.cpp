@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/paint_strokes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Hairs and freckles as thin quads on the skin map.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Hairs and freckles as thin quads on the skin map.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,6 @@
-// Textures of eyes, teeth and other moist parts: their materials, drawn on their texture coordinates.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Textures of eyes, teeth and other moist parts: their materials, drawn on their texture coordinates.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,7 @@
-// Which cells of a tile need samples of their own. Where a cell shows only smooth skin, the skin layer is the picture already; where nothing
-// was drawn, the background is.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Which cells of a tile need samples of their own. Where a cell shows only smooth skin, the skin layer is the picture already; where nothing
+/// was drawn, the background is.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/posed_marks.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Landmarks that move with the skin, and the openings of mouth and eyes that their lighting depends on.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Landmarks that move with the skin, and the openings of mouth and eyes that their lighting depends on.
 #pragma once
 
 #include <array>

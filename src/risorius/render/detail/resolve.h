@@ -1,4 +1,6 @@
-// From samples to pixels: averages N x N samples in linear light over the background.
+// SPDX-License-Identifier: MIT
+/// \file
+/// From samples to pixels: averages N x N samples in linear light over the background.
 #pragma once
 
 #include <array>

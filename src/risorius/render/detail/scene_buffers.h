@@ -1,4 +1,6 @@
-// The scene in GL memory: one vertex array, and the triangles of each draw call.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The scene in GL memory: one vertex array, and the triangles of each draw call.
 #pragma once
 
 #include <Eigen/Core>

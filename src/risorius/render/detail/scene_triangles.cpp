@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/scene_triangles.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Triangles of a scene by material, each ordered front to back; for skin and eyes also simplified ones for small pictures.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Triangles of a scene by material, each ordered front to back; for skin and eyes also simplified ones for small pictures.
 #pragma once
 
 #include <Eigen/Core>

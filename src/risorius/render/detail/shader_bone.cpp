@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of bone, and of skin as clear as glass over it.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,5 +1,7 @@
-// Writes uniforms that never change into the program's source as constants. llvmpipe fetches a uniform again for every pixel, while a
-// constant is part of an instruction.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Writes uniforms that never change into the program's source as constants. llvmpipe fetches a uniform again for every pixel, while a
+/// constant is part of an instruction.
 #pragma once
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of the eye: sclera with veins, limbus, refracted iris and pupil, wet highlight, shade of the lids.
 #include "risorius/render/detail/shaders.h"
 

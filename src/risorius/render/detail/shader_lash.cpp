@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of the lashes: single hairs cut out of the lash ribbons.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL shared by all materials: lights, shadow, tone and noise.
 #include "risorius/render/detail/light.h"
 #include "risorius/render/detail/shaders.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of skin that was shaded elsewhere, once per pixel: see skin_layer.h.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of teeth, gums, tongue and mouth wall, lit through the lips, and of cards that measure the light.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of muscles seen through the skin: colour of their activation, bundles of fibres along them, pale tendons.
 #include "risorius/render/detail/shaders.h"
 

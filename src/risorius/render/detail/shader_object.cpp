@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of experiment-like objects: transparent two-sided surface, flat wires, balls; light fixed to the camera.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of colours that come from the mesh's own pictures, and of making such pictures.
 #include "risorius/render/detail/shader_paint.h"
 #include "risorius/render/detail/shaders.h"

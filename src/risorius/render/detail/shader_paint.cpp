@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/shader_paint.h"
 
 #include "risorius/render/detail/shaders.h"

@@ -1,4 +1,6 @@
-// Programs that paint the skin map once: the skin itself, and strokes over it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Programs that paint the skin map once: the skin itself, and strokes over it.
 #pragma once
 
 #include <string>

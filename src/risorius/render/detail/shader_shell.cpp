@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of hair as shells: which hair passes through a shell where, and how it is lit.
 #include "risorius/render/detail/shaders.h"
 

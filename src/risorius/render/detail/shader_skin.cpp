@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of the skin: soft scattering, two specular lobes, pores, painted albedo.
 #include "risorius/render/detail/shaders.h"
 

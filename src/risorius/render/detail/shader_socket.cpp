@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of the bowl about an eyeball: moist flesh in the dark.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of single hairs: lit all around, and with a highlight across them.
 #include "risorius/render/detail/shaders.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of the line of tears along the lower lid.
 #include "risorius/render/detail/shaders.h"
 

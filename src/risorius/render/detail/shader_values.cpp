@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // GLSL of a skin coloured by a quantity: even light, so that colours can be read off their scale, with just enough shape to
 // tell where on the face one is.
 #include "risorius/render/detail/shaders.h"

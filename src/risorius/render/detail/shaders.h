@@ -1,4 +1,6 @@
-// Sources of the shader programs, one file per material; common parts are in shader_lighting.cpp.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sources of the shader programs, one file per material; common parts are in shader_lighting.cpp.
 #pragma once
 
 #include <string>

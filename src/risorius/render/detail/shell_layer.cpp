@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/shell_layer.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
-// Hair of some length on scalp and chin: many layers over the skin, with holes wherever no hair passes through them.
-//
-// Source: Lengyel et al. 2001, Real-Time Fur over Arbitrary Surfaces.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Hair of some length on scalp and chin: many layers over the skin, with holes wherever no hair passes through them.
+///
+/// Source: Lengyel et al. 2001, Real-Time Fur over Arbitrary Surfaces.
 #pragma once
 
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/skin_layer.h"
 
 #include <algorithm>

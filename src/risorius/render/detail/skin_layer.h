@@ -1,8 +1,10 @@
-// The skin shaded once per pixel and looked up by the samples of finer surfaces: shading takes far longer than visibility, and the colour
-// inside of a face changes little within a pixel.
-//
-// Each sample takes the colour of its own pixel, or of the neighbour that lies nearest to it in depth, after Chajdas, McGuire
-// and Luebke 2011, Subpixel Reconstruction Antialiasing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The skin shaded once per pixel and looked up by the samples of finer surfaces: shading takes far longer than visibility, and the colour
+/// inside of a face changes little within a pixel.
+///
+/// Each sample takes the colour of its own pixel, or of the neighbour that lies nearest to it in depth, after Chajdas, McGuire
+/// and Luebke 2011, Subpixel Reconstruction Antialiasing.
 #pragma once
 
 #include <cstdint>

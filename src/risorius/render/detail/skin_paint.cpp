@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/skin_paint.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Skin generated for any head: a map painted once from the landmarks and sampled in every frame.
-//
-// The map is Lambert's equal-area azimuthal projection of directions from the middle of the head, straight ahead at its
-// centre: it needs no texture coordinates, has no seam on the face, and is evaluated at rest, so that paint sticks to skin.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Skin generated for any head: a map painted once from the landmarks and sampled in every frame.
+///
+/// The map is Lambert's equal-area azimuthal projection of directions from the middle of the head, straight ahead at its
+/// centre: it needs no texture coordinates, has no seam on the face, and is evaluated at rest, so that paint sticks to skin.
 #pragma once
 
 #include <vector>

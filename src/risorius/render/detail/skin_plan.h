@@ -1,4 +1,6 @@
-// Places of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are left out.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Places of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are left out.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// The painted skin on texture coordinates, for programs that do not know its map.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The painted skin on texture coordinates, for programs that do not know its map.
 #pragma once
 
 #include <cstdint>

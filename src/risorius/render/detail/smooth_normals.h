@@ -1,4 +1,6 @@
-// Normals of a deforming surface: area-weighted means over the triangles around each vertex.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Normals of a deforming surface: area-weighted means over the triangles around each vertex.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/socket_layer.h"
 
 #include <algorithm>

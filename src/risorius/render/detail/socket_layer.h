@@ -1,4 +1,6 @@
-// A bowl about each eyeball, open to the front, so that the head is not transparent beside an eye whose lids stand off it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A bowl about each eyeball, open to the front, so that the head is not transparent beside an eye whose lids stand off it.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/strand_layer.h"
 
 #include <algorithm>

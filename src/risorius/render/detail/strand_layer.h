@@ -1,4 +1,6 @@
-// Draws the hairs of a scene as ribbons that face the camera.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Draws the hairs of a scene as ribbons that face the camera.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,6 @@
-// Single hairs that grow from the skin and move with it: brows and lashes, planned from landmarks and the ends of the lids, for any head.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Single hairs that grow from the skin and move with it: brows and lashes, planned from landmarks and the ends of the lids, for any head.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/streamed_triangles.h"
 
 namespace risorius::render {

@@ -1,4 +1,6 @@
-// Triangles whose vertices are new in every picture, in a vertex array of their own.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Triangles whose vertices are new in every picture, in a vertex array of their own.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/tear_layer.h"
 
 #include <algorithm>

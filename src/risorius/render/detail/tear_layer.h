@@ -1,4 +1,6 @@
-// The tear film along the lower lids: a concave line of water between lid and eye that reflects the lamps.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The tear film along the lower lids: a concave line of water between lid and eye that reflects the lamps.
 #pragma once
 
 #include <array>

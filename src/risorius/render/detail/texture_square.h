@@ -1,4 +1,6 @@
-// Pictures on texture coordinates during their construction: alpha is 0 where nothing lies yet.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Pictures on texture coordinates during their construction: alpha is 0 where nothing lies yet.
 #pragma once
 
 #include "risorius/core/image.h"

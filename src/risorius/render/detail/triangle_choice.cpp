@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/render/detail/triangle_choice.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Chooses the triangles of a scene to be drawn in a pose: those that the camera sees, and those whose shadows it may see.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Chooses the triangles of a scene to be drawn in a pose: those that the camera sees, and those whose shadows it may see.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/head_frame.h"
 
 #include <Eigen/SVD>

@@ -1,4 +1,6 @@
-// Places a head in the frame of the atlas: origin between the tragia, x to the subject's left, y up, z forward.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Places a head in the frame of the atlas: origin between the tragia, x to the subject's left, y up, z forward.
 #pragma once
 
 #include <map>

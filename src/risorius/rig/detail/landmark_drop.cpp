@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/landmark_drop.h"
 
 #include <algorithm>

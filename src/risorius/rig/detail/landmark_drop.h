@@ -1,5 +1,7 @@
-// Estimates landmarks that were not given: the atlas is warped through those that were, and the points are projected onto the skin.
-// Points on the margin of a lip are projected onto that lip only, since the other lip touches it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Estimates landmarks that were not given: the atlas is warped through those that were, and the points are projected onto the skin.
+/// Points on the margin of a lip are projected onto that lip only, since the other lip touches it.
 #pragma once
 
 #include <map>

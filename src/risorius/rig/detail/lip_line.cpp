@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/lip_line.h"
 
 #include <algorithm>

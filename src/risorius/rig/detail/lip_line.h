@@ -1,4 +1,6 @@
-// The line between the lips as seen from the front. A scan with lips that have grown together is cut along it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The line between the lips as seen from the front. A scan with lips that have grown together is cut along it.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/scan_spikes.h"
 
 #include <algorithm>

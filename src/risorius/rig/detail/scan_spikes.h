@@ -1,4 +1,6 @@
-// Finds points that a scanner saw deep in the mouth, between the lips, on a surface that has no mouth. They form spikes behind the lips.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds points that a scanner saw deep in the mouth, between the lips, on a surface that has no mouth. They form spikes behind the lips.
 #pragma once
 
 #include "risorius/rig/detail/lip_line.h"

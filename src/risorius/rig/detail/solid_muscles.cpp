@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/solid_muscles.h"
 
 #include <cmath>

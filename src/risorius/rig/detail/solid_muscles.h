@@ -1,4 +1,6 @@
-// Which muscles of a face are volume-preserving solids instead of bundles of fibres, and their material.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Which muscles of a face are volume-preserving solids instead of bundles of fibres, and their material.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/scene/detail/texture_picture.h"
 
 #include "risorius/core/error.h"

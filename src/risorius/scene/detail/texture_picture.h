@@ -1,4 +1,6 @@
-// The pixels of a picture that a mesh's material names.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The pixels of a picture that a mesh's material names.
 #pragma once
 
 #include "risorius/core/image.h"

@@ -1,8 +1,10 @@
-// Parts of a body whose material differs: a selection of nodes and what is multiplied or set there, in full or growing
-// along one axis.
-//
-//   {"nodes": {"a1": {"from": 0.5, "to": 1}}, "factors": {"elastic": {"22": 0.1, "23": 0.1}, "damping": 0.5}}
-//   {"nodes": {"a2": {"from": 0.46, "to": 1}}, "values": {"elastic_n_per_m3": 0.5}, "graded": "a2"}
+// SPDX-License-Identifier: MIT
+/// \file
+/// Parts of a body whose material differs: a selection of nodes and what is multiplied or set there, in full or growing
+/// along one axis.
+///
+///   {"nodes": {"a1": {"from": 0.5, "to": 1}}, "factors": {"elastic": {"22": 0.1, "23": 0.1}, "damping": 0.5}}
+///   {"nodes": {"a2": {"from": 0.46, "to": 1}}, "values": {"elastic_n_per_m3": 0.5}, "graded": "a2"}
 #pragma once
 
 #include <array>

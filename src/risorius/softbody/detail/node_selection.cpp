@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/detail/node_selection.h"
 
 #include <algorithm>

@@ -1,10 +1,12 @@
-// Nodes of a grid picked by planes, ranges and corners, as experiment files write them. The same words pick the same part
-// of a body at any resolution when they are ends or material coordinates.
-//
-//   {"a3": "last"}                                  the plane of nodes where a3 is greatest
-//   {"a1": [0, 1], "a2": -1}                        indices, both ends included; negative ones count from the end
-//   {"a1": {"from": 0.4, "to": 0.6}}                material coordinates, 0..1
-//   {"corners": [[0, 0], [1, 0]], "reach": 1}       corner nodes and their next `reach` nodes along each axis
+// SPDX-License-Identifier: MIT
+/// \file
+/// Nodes of a grid picked by planes, ranges and corners, as experiment files write them. The same words pick the same part
+/// of a body at any resolution when they are ends or material coordinates.
+///
+///   {"a3": "last"}                                  the plane of nodes where a3 is greatest
+///   {"a1": [0, 1], "a2": -1}                        indices, both ends included; negative ones count from the end
+///   {"a1": {"from": 0.4, "to": 0.6}}                material coordinates, 0..1
+///   {"corners": [[0, 0], [1, 0]], "reach": 1}       corner nodes and their next `reach` nodes along each axis
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// Numbers of a description that have to lie in a half-open range, and how many nodes it may have.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Numbers of a description that have to lie in a half-open range, and how many nodes it may have.
 #pragma once
 
 #include "risorius/core/json_cursor.h"

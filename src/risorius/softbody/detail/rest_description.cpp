@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/softbody/detail/rest_description.h"
 
 #include <numbers>

@@ -1,13 +1,15 @@
-// The undeformed shape of a body as written: a block, a cylinder, a sheet, a tube, or every node by itself.
-//
-//   {"block_m": [3, 3, 3]}                              solid; edges along x, y, z, which are a1, a2, a3
-//   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x, a square of a2, a3 pressed into the disc
-//   {"sheet_m": [3, 3]}                                 surface; edges along x, y, which are a1, a2
-//   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, nodes evenly along it
-//   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
-//   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; holds for one grid only
-//
-// each with "turn": {"axis": [0, 1, 0], "angle_deg": 90} about the shape's own origin and then "at_m": [0, 0, 1].
+// SPDX-License-Identifier: MIT
+/// \file
+/// The undeformed shape of a body as written: a block, a cylinder, a sheet, a tube, or every node by itself.
+///
+///   {"block_m": [3, 3, 3]}                              solid; edges along x, y, z, which are a1, a2, a3
+///   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x, a square of a2, a3 pressed into the disc
+///   {"sheet_m": [3, 3]}                                 surface; edges along x, y, which are a1, a2
+///   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, nodes evenly along it
+///   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
+///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; holds for one grid only
+///
+/// each with "turn": {"axis": [0, 1, 0], "angle_deg": 90} about the shape's own origin and then "at_m": [0, 0, 1].
 #pragma once
 
 #include <string>

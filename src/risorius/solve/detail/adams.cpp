@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adams-Bashforth of order 4, and Adams-Moulton of order 4 with it as predictor (predict, evaluate, correct, evaluate).
 // Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, III.1.
 #include <algorithm>

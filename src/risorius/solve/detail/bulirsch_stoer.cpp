@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bulirsch & Stoer: Gragg's modified midpoint rule with 2, 4, 6 ... substeps, extrapolated to substep 0 by polynomials in
 // its square; order and step are chosen for the least work per second of motion.
 // Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.9.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cash & Karp 1990, ACM TOMS 16(3), 201-222: six evaluations, order 5, with an embedded order 4.
 #include <algorithm>
 #include <array>

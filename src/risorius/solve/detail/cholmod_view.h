@@ -1,4 +1,6 @@
-// Eigen matrices as CHOLMOD sees them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Eigen matrices as CHOLMOD sees them.
 #pragma once
 
 #include <suitesparse/cholmod.h>

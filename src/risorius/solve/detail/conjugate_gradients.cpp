@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hestenes & Stiefel's iteration with a block Jacobi preconditioner.
 #include "risorius/solve/detail/conjugate_gradients.h"
 

@@ -1,6 +1,8 @@
-// Conjugate gradients on a symmetric matrix of 3 x 3 blocks, preconditioned by the inverses of its diagonal blocks.
-//
-//   A   3n x 3n, positive definite if all is well      b, x   n x 3
+// SPDX-License-Identifier: MIT
+/// \file
+/// Conjugate gradients on a symmetric matrix of 3 x 3 blocks, preconditioned by the inverses of its diagonal blocks.
+///
+///   A   3n x 3n, positive definite if all is well      b, x   n x 3
 #pragma once
 
 #include <vector>

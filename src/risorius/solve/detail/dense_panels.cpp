@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/detail/dense_panels.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Dense work on the panels of a supernodal factor: column-major, `tall` rows of which the first `width` are the panel's own
-// columns. Sums run in a fixed order on every machine.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Dense work on the panels of a supernodal factor: column-major, `tall` rows of which the first `width` are the panel's own
+/// columns. Sums run in a fixed order on every machine.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Implicit Euler with one linear solve or by Newton to the end, and equilibrium.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,6 @@
-// One maker per family of methods; the options were checked by make_integrator.
+// SPDX-License-Identifier: MIT
+/// \file
+/// One maker per family of methods; the options were checked by make_integrator.
 #pragma once
 
 #include <memory>

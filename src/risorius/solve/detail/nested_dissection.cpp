@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/solve/detail/nested_dissection.h"
 
 #include <suitesparse/cholmod.h>

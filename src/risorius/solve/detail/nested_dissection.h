@@ -1,4 +1,6 @@
-// Ordering and symbolic analysis of a sparse symmetric matrix over nodes, by CHOLMOD.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Ordering and symbolic analysis of a sparse symmetric matrix over nodes, by CHOLMOD.
 #pragma once
 
 #include <suitesparse/cholmod.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One-step explicit methods of fixed step: Euler, Verlet, Runge-Kutta 2 and 4. Press et al., Numerical Recipes, ch. 17.
 #include "risorius/solve/detail/runge_kutta.h"
 

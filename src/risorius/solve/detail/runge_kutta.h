@@ -1,4 +1,6 @@
-// The classic Runge-Kutta step of order 4, also the start of the multi-step methods.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The classic Runge-Kutta step of order 4, also the start of the multi-step methods.
 #pragma once
 
 #include "risorius/solve/motion_system.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The loops over fixed and over controlled steps.
 #include "risorius/solve/detail/stepper.h"
 

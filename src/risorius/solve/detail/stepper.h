@@ -1,4 +1,6 @@
-// What all methods share: the clock of whole steps, the start of the history, and the watch for divergence.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What all methods share: the clock of whole steps, the start of the history, and the watch for divergence.
 #pragma once
 
 #include "risorius/solve/integrator.h"

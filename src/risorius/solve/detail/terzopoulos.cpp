@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Semi-implicit step of Terzopoulos, Platt, Barr & Fleischer 1987, "Elastically deformable models", section 6:
 //
 //   (M/h^2 + C/2h + K(r_t)) r_{t+h} = f + (M/h^2 + C/2h) r_t + (M/h - C/2) v_t,    v_t = (r_t - r_{t-h}) / h

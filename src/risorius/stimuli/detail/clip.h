@@ -1,12 +1,14 @@
-// One clip of a stimulus set: rendered, shown as its control wants it, and written with its ground truth.
-//
-//   stimuli/stim-NAME_video.mp4                  the pictures; with a recording it is stim-NAME_audiovideo.mp4
-//   stimuli/stim-NAME_audio.wav                  the recording alone, as loud and as long as in the clip
-//   stimuli/stim-NAME_annot-frames_events.tsv    a row for each frame as shown: onset and duration in s, source_frame, and the
-//                                                columns of frame_table.h
-//   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
-//   overview/NAME.png                            five of its frames side by side
-//   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
+// SPDX-License-Identifier: MIT
+/// \file
+/// One clip of a stimulus set: rendered, shown as its control wants it, and written with its ground truth.
+///
+///   stimuli/stim-NAME_video.mp4                  the pictures; with a recording it is stim-NAME_audiovideo.mp4
+///   stimuli/stim-NAME_audio.wav                  the recording alone, as loud and as long as in the clip
+///   stimuli/stim-NAME_annot-frames_events.tsv    a row for each frame as shown: onset and duration in s, source_frame, and the
+///                                                columns of frame_table.h
+///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
+///   overview/NAME.png                            five of its frames side by side
+///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
-// Turns rendered pictures into those of a clip: matches luminance, applies the control, measures and marks.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Turns rendered pictures into those of a clip: matches luminance, applies the control, measures and marks.
 #pragma once
 
 #include <optional>

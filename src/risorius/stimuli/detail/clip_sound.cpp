@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/clip_sound.h"
 
 #include <cmath>

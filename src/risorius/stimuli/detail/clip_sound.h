@@ -1,4 +1,6 @@
-// The recording of a clip: its offset in the clip, its loudness and its gain.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The recording of a clip: its offset in the clip, its loudness and its gain.
 #pragma once
 
 #include <cstdint>

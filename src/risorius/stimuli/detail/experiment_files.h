@@ -1,9 +1,11 @@
-// An example experiment with a set of clips: clips are shown in random order, and the participant answers a question by a key.
-//
-//   experiment/conditions.csv    a row for each clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
-//   experiment/settings.json     question, keys, times
-//   experiment/experiment.py     for PsychoPy
-//   experiment/index.html        for jsPsych, in a browser
+// SPDX-License-Identifier: MIT
+/// \file
+/// An example experiment with a set of clips: clips are shown in random order, and the participant answers a question by a key.
+///
+///   experiment/conditions.csv    a row for each clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
+///   experiment/settings.json     question, keys, times
+///   experiment/experiment.py     for PsychoPy
+///   experiment/index.html        for jsPsych, in a browser
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 #include <array>

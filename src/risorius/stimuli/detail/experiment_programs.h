@@ -1,4 +1,6 @@
-// The programs of the example experiment, which write_experiment() puts beside the clips.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The programs of the example experiment, which write_experiment() puts beside the clips.
 #pragma once
 
 #include <string>

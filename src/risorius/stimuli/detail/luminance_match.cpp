@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/luminance_match.h"
 
 #include <algorithm>

@@ -1,11 +1,13 @@
-// Matches luminance and contrast over a set: all conditions are rendered and measured first, then clips are shown through one map of
-// linear light, or each through its own. The report is
-//
-//   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and what it clips
-//   luminance/luminance.json    for all conditions together, and the target
-//   luminance/mean.svg, sd.svg  the clips in their order, before and after (and as .png, with what they are drawn from)
-//
-// Means and deviations are over all pixels of all frames that count: the picture, or the oval of the face.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Matches luminance and contrast over a set: all conditions are rendered and measured first, then clips are shown through one map of
+/// linear light, or each through its own. The report is
+///
+///   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and what it clips
+///   luminance/luminance.json    for all conditions together, and the target
+///   luminance/mean.svg, sd.svg  the clips in their order, before and after (and as .png, with what they are drawn from)
+///
+/// Means and deviations are over all pixels of all frames that count: the picture, or the oval of the face.
 #pragma once
 
 #include <filesystem>

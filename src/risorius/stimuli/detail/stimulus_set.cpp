@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/stimulus_set.h"
 
 #include <algorithm>

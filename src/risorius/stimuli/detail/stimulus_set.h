@@ -1,11 +1,13 @@
-// The files of a whole set, in the layout of BIDS (bids-specification.readthedocs.io; stimuli as in BEP044):
-//
-//   dataset_description.json
-//   stimuli/stimuli.tsv, stimuli.json    a row for each clip: set, control, values of the design, frames, onset and apex
-//   triggers.tsv                         event, code, clip, frame, time_s: for the device that sends triggers
-//   code/design.json                     the design
-//   index.html                           five frames of every clip, with its values
-//   SHA256SUMS                           of every file above and below, for sha256sum -c
+// SPDX-License-Identifier: MIT
+/// \file
+/// The files of a whole set, in the layout of BIDS (bids-specification.readthedocs.io; stimuli as in BEP044):
+///
+///   dataset_description.json
+///   stimuli/stimuli.tsv, stimuli.json    a row for each clip: set, control, values of the design, frames, onset and apex
+///   triggers.tsv                         event, code, clip, frame, time_s: for the device that sends triggers
+///   code/design.json                     the design
+///   index.html                           five frames of every clip, with its values
+///   SHA256SUMS                           of every file above and below, for sha256sum -c
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 #include <algorithm>

@@ -1,12 +1,14 @@
-// A condition as it was rendered, before its pictures are matched in luminance with those of the set. It is kept, losslessly, until
-// all conditions are measured and the clips that show it are made:
-//
-//   intermediate/NAME.mkv     the pictures
-//   intermediate/NAME.tsv     the table of frames, frame_table.h
-//   intermediate/NAME.json    what it depends on, how it was made and its luminance; it exists only when the others are complete
-//
-// A control that shows the same pictures uses the render of its condition. Earlier versions wrote these files into the folder
-// "takes": they are still found there, and removed with the others.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A condition as it was rendered, before its pictures are matched in luminance with those of the set. It is kept, losslessly, until
+/// all conditions are measured and the clips that show it are made:
+///
+///   intermediate/NAME.mkv     the pictures
+///   intermediate/NAME.tsv     the table of frames, frame_table.h
+///   intermediate/NAME.json    what it depends on, how it was made and its luminance; it exists only when the others are complete
+///
+/// A control that shows the same pictures uses the render of its condition. Earlier versions wrote these files into the folder
+/// "takes": they are still found there, and removed with the others.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,7 @@
-// Energy and gradient of all cells, four at a time: the fast path where the law is constant in a cell (cell_lanes.h), Gauss
-// point by Gauss point where moduli meet a curved rest shape.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Energy and gradient of all cells, four at a time: the fast path where the law is constant in a cell (cell_lanes.h), Gauss
+/// point by Gauss point where moduli meet a curved rest shape.
 #pragma once
 
 #include <vector>

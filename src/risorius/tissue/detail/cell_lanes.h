@@ -1,15 +1,17 @@
-// The inner loop of a solid of trilinear cells, four cells at a time, without a loop over Gauss points.
-//
-// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3,
-// s = +-1, are
-//   t1 = a + s2 d + s3 e + s2 s3 k     t2 = b + s1 d + s3 f + s1 s3 k     t3 = c + s1 e + s2 f + s1 s2 k
-// (a, b, c: the linear modes; d, e, f / k: the others times 1/sqrt 3 and 1/3; all times 8). At fixed s3, t1 = p + s2 q and
-// t2 = u + s1 q, hence
-//   t1.t1 = (p.p + q.q) + s2 2 p.q      t1.t2 = p.u + s1 p.q + s2 q.u + s1 s2 q.q
-// and, lambda being constant in the cell, the sum of squares over the four points is four times that of these
-// coefficients: 36 numbers ("strains") instead of 48 metric entries, and no transform back. The volume is
-//   64 V = a.(b x c) + a.(d x e) + b.(f x d) + c.(e x f)
-// exactly, since 1/3, the mean of xi^2, is the square of the scale of d, e, f.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The inner loop of a solid of trilinear cells, four cells at a time, without a loop over Gauss points.
+///
+/// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3,
+/// s = +-1, are
+///   t1 = a + s2 d + s3 e + s2 s3 k     t2 = b + s1 d + s3 f + s1 s3 k     t3 = c + s1 e + s2 f + s1 s2 k
+/// (a, b, c: the linear modes; d, e, f / k: the others times 1/sqrt 3 and 1/3; all times 8). At fixed s3, t1 = p + s2 q and
+/// t2 = u + s1 q, hence
+///   t1.t1 = (p.p + q.q) + s2 2 p.q      t1.t2 = p.u + s1 p.q + s2 q.u + s1 s2 q.q
+/// and, lambda being constant in the cell, the sum of squares over the four points is four times that of these
+/// coefficients: 36 numbers ("strains") instead of 48 metric entries, and no transform back. The volume is
+///   64 V = a.(b x c) + a.(d x e) + b.(f x d) + c.(e x f)
+/// exactly, since 1/3, the mean of xi^2, is the square of the scale of d, e, f.
 #pragma once
 
 #include <cstdint>

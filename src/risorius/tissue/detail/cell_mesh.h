@@ -1,13 +1,15 @@
-// Trilinear cells over material coordinates a in [0,1]^3: a grid of root cells, each perhaps split into eight, those
-// again, and so on. Neighbours differ by one level at most, across faces, edges and corners alike.
-//
-//   vertex   a corner of a cell. The first node_count() vertices are nodes; the others hang:
-//   hanging  in the middle of a bigger neighbour's edge or face, hence the mean of 2 or 4 nodes, so that the body has no gap
-//   x_full = P x,  gradient = P^T gradient_full,  P = identity on nodes, 1/2 or 1/4 on hanging vertices
-//
-// A closed grid's cells go round along a1: its last cells lie between the last nodes and the first.
-//
-// Hanging vertices as constraints: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Trilinear cells over material coordinates a in [0,1]^3: a grid of root cells, each perhaps split into eight, those
+/// again, and so on. Neighbours differ by one level at most, across faces, edges and corners alike.
+///
+///   vertex   a corner of a cell. The first node_count() vertices are nodes; the others hang:
+///   hanging  in the middle of a bigger neighbour's edge or face, hence the mean of 2 or 4 nodes, so that the body has no gap
+///   x_full = P x,  gradient = P^T gradient_full,  P = identity on nodes, 1/2 or 1/4 on hanging vertices
+///
+/// A closed grid's cells go round along a1: its last cells lie between the last nodes and the first.
+///
+/// Hanging vertices as constraints: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
 
 #include <array>

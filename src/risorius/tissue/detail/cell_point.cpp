@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/cell_point.h"
 
 #include <Eigen/Eigenvalues>

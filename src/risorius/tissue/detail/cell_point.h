@@ -1,6 +1,8 @@
-// One cell at its Gauss points, in plain numbers: what is not an inner loop (stiffness, secant, metric, strain).
-//
-//   s_ij  stress on material coordinates: dE/dr_i = sum_j s_ij r_j at a point, weighed with it
+// SPDX-License-Identifier: MIT
+/// \file
+/// One cell at its Gauss points, in plain numbers: what is not an inner loop (stiffness, secant, metric, strain).
+///
+///   s_ij  stress on material coordinates: dE/dr_i = sum_j s_ij r_j at a point, weighed with it
 #pragma once
 
 #include "risorius/solve/energy_term.h"

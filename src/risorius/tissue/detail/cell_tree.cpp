@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/cell_tree.h"
 
 #include <stdexcept>

@@ -1,7 +1,9 @@
-// Which cells of a root grid are split: an octree over every root cell, balanced so that neighbours, across edges and
-// corners too, differ by one level at most.
-//
-// 2:1 balance as in Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Which cells of a root grid are split: an octree over every root cell, balanced so that neighbours, across edges and
+/// corners too, differ by one level at most.
+///
+/// 2:1 balance as in Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
 
 #include <set>

@@ -1,12 +1,14 @@
-// The angle by which two triangles with a common edge are folded, and its derivatives.
-//
-//   x0, x1  ends of the edge, e = x1 - x0      xa, xb  the opposite corners      n1 = e x (xa - x0), n2 = (xb - x0) x e
-//   theta = atan2((n1 x n2) . e / |e|, n1 . n2)   in (-pi, pi], 0 when flat, negative towards n1, n2
-//
-// Exchanging x0 with x1 and xa with xb leaves theta alone; exchanging only xa and xb turns its sign.
-//
-// Sources: Grinspun, Hirani, Desbrun & Schroeder 2003, Discrete shells; Tamstorf & Grinspun 2013, Discrete bending forces
-// and their Jacobians (the derivatives here were worked out anew).
+// SPDX-License-Identifier: MIT
+/// \file
+/// The angle by which two triangles with a common edge are folded, and its derivatives.
+///
+///   x0, x1  ends of the edge, e = x1 - x0      xa, xb  the opposite corners      n1 = e x (xa - x0), n2 = (xb - x0) x e
+///   theta = atan2((n1 x n2) . e / |e|, n1 . n2)   in (-pi, pi], 0 when flat, negative towards n1, n2
+///
+/// Exchanging x0 with x1 and xa with xb leaves theta alone; exchanging only xa and xb turns its sign.
+///
+/// Sources: Grinspun, Hirani, Desbrun & Schroeder 2003, Discrete shells; Tamstorf & Grinspun 2013, Discrete bending forces
+/// and their Jacobians (the derivatives here were worked out anew).
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/material_checks.h"
 
 #include <cmath>

@@ -1,4 +1,6 @@
-// What the checks of solids, surfaces and curves share: numbers in range and tensors that are symmetric.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the checks of solids, surfaces and curves share: numbers in range and tensors that are symmetric.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/metric_elements.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,9 +1,11 @@
-// Stretch and shear of curves and surfaces: elements in which the tangents r_i are fixed differences of at most three
-// nodes. A grid's forward differences are such elements, and so is a triangle.
-//
-//   r_i = sum_k d_ik x_k      G_ij = r_i . r_j
-//   E = 1/4 sum eta_ij (G_ij - G0_ij)^2        R = 1/4 sum phi_ij (dG_ij/dt)^2
-//   force = - sum_i d_i sum_j (eta_ij (G_ij - G0_ij) + phi_ij dG_ij/dt) r_j
+// SPDX-License-Identifier: MIT
+/// \file
+/// Stretch and shear of curves and surfaces: elements in which the tangents r_i are fixed differences of at most three
+/// nodes. A grid's forward differences are such elements, and so is a triangle.
+///
+///   r_i = sum_k d_ik x_k      G_ij = r_i . r_j
+///   E = 1/4 sum eta_ij (G_ij - G0_ij)^2        R = 1/4 sum phi_ij (dG_ij/dt)^2
+///   force = - sum_i d_i sum_j (eta_ij (G_ij - G0_ij) + phi_ij dG_ij/dt) r_j
 #pragma once
 
 #include <vector>

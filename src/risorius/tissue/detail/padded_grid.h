@@ -1,6 +1,8 @@
-// Fields over a grid in one flat array of floats, worked on eight at a time: a neighbour is a fixed distance away, since
-// cells are numbered as the nodes at their lowest corners and zeros lie before and behind. The last layer of cells along
-// each axis does not exist; its values are zero.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Fields over a grid in one flat array of floats, worked on eight at a time: a neighbour is a fixed distance away, since
+/// cells are numbered as the nodes at their lowest corners and zeros lie before and behind. The last layer of cells along
+/// each axis does not exist; its values are zero.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/pressure_multigrid.h"
 
 #include <algorithm>

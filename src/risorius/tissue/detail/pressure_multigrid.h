@@ -1,13 +1,15 @@
-// Multigrid for the pressures of a uniform grid of cells: S q = t, a positive matrix that acts like Poisson's equation.
-//
-//   S          over cells; neighbours are the 26 cells with a node in common
-//   coarser    eight cells as one. Sums over them make pressures jump where they should slope, which is twice as stiff;
-//              hence half of the sum, but for the compliance and for what holds the border
-//   transfer   trilinear between the centres of cells, the same up and down
-//   smoother   Chebyshev polynomials of the fourth kind in D^-1 S, before and after alike: a cycle is symmetric, and
-//              nothing in it waits for its neighbour as Gauss-Seidel does
-//
-// Lottes 2023, Numer. Linear Algebra Appl. 30(6), section 4; the factor of two: Braess 1995, Computing 55.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Multigrid for the pressures of a uniform grid of cells: S q = t, a positive matrix that acts like Poisson's equation.
+///
+///   S          over cells; neighbours are the 26 cells with a node in common
+///   coarser    eight cells as one. Sums over them make pressures jump where they should slope, which is twice as stiff;
+///              hence half of the sum, but for the compliance and for what holds the border
+///   transfer   trilinear between the centres of cells, the same up and down
+///   smoother   Chebyshev polynomials of the fourth kind in D^-1 S, before and after alike: a cycle is symmetric, and
+///              nothing in it waits for its neighbour as Gauss-Seidel does
+///
+/// Lottes 2023, Numer. Linear Algebra Appl. 30(6), section 4; the factor of two: Braess 1995, Computing 55.
 #pragma once
 
 #include <Eigen/Cholesky>

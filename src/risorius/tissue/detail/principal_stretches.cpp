@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One-sided Jacobi rotations: accurate also where stretches are equal, as they are at rest.
 #include "risorius/tissue/detail/principal_stretches.h"
 

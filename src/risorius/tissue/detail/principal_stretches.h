@@ -1,12 +1,14 @@
-// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy in their frame.
-//
-//   F = U diag(sigma) V^T,  U and V rotations; where F is inverted one sigma is negative
-//
-// In that frame the second derivative of psi(sigma) falls apart: a 3 x 3 block A_ij of the stretches and, for each pair
-// (i, j), one number for their symmetric and one for their antisymmetric off-diagonal change:
-//   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
-// (Smith, De Goes & Kim 2019, "Analytic eigensystems for isotropic distortion energies", ACM TOG 38(1).) Clamping those at
-// zero takes away exactly the negative part.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy in their frame.
+///
+///   F = U diag(sigma) V^T,  U and V rotations; where F is inverted one sigma is negative
+///
+/// In that frame the second derivative of psi(sigma) falls apart: a 3 x 3 block A_ij of the stretches and, for each pair
+/// (i, j), one number for their symmetric and one for their antisymmetric off-diagonal change:
+///   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
+/// (Smith, De Goes & Kim 2019, "Analytic eigensystems for isotropic distortion energies", ACM TOG 38(1).) Clamping those at
+/// zero takes away exactly the negative part.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/refine_surface.h"
 
 #include <algorithm>

@@ -1,13 +1,15 @@
-// Adaptive resolution of surfaces on any triangle mesh: triangles are bisected where strain and curvature ask for it, with
-// the material and the rest shape, facets included, unchanged.
-//
-//   dG   metric strain of a triangle, constant      b - b0   its change of curvature (triangle_sheet.h)
-//   dG*, b*   continuous: means over the triangles round a node, interpolated
-//   eta_t^2 = A (1/4 sum lambda_ij (dG_ij - dG*_ij)^2 + 1/2 sum zeta_ij (b_ij - b*_ij)^2), means over the triangle, J
-//
-// Means are of numbers by a: neighbours' coordinates have to run the same way, as a grid's and those along a fibre do.
-// Bisection at longest edges: Rivara 1984, Int. J. Numer. Meth. Eng. 20(4); no angle becomes smaller than half the
-// smallest. Estimate: Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2).
+// SPDX-License-Identifier: MIT
+/// \file
+/// Adaptive resolution of surfaces on any triangle mesh: triangles are bisected where strain and curvature ask for it, with
+/// the material and the rest shape, facets included, unchanged.
+///
+///   dG   metric strain of a triangle, constant      b - b0   its change of curvature (triangle_sheet.h)
+///   dG*, b*   continuous: means over the triangles round a node, interpolated
+///   eta_t^2 = A (1/4 sum lambda_ij (dG_ij - dG*_ij)^2 + 1/2 sum zeta_ij (b_ij - b*_ij)^2), means over the triangle, J
+///
+/// Means are of numbers by a: neighbours' coordinates have to run the same way, as a grid's and those along a fibre do.
+/// Bisection at longest edges: Rivara 1984, Int. J. Numer. Meth. Eng. 20(4); no angle becomes smaller than half the
+/// smallest. Estimate: Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2).
 #pragma once
 
 #include <array>

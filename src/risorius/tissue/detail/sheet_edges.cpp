@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/tissue/detail/sheet_edges.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The edges along which a triangulated sheet folds.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The edges along which a triangulated sheet folds.
 #pragma once
 
 #include <array>

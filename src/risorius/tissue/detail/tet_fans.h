@@ -1,6 +1,8 @@
-// Tetrahedra about a common edge, three by three: six nodes where they would have twelve one by one.
-//
-// A fan has nodes a, b (the edge), then r_0 .. r_k around it; its tets are (a, b, r_i, r_i+1). The three of a cut prism are one.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Tetrahedra about a common edge, three by three: six nodes where they would have twelve one by one.
+///
+/// A fan has nodes a, b (the edge), then r_0 .. r_k around it; its tets are (a, b, r_i, r_i+1). The three of a cut prism are one.
 #pragma once
 
 #include <array>

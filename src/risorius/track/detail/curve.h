@@ -1,7 +1,9 @@
-// A value over time given by keys. Before the first and after the last key it is constant; between keys it is stepped, linear or smooth.
-//
-// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, without overshoot between
-// two keys. Its slope is 0 at both ends, where it joins the constant parts.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A value over time given by keys. Before the first and after the last key it is constant; between keys it is stepped, linear or smooth.
+///
+/// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, without overshoot between
+/// two keys. Its slope is 0 at both ends, where it joins the constant parts.
 #pragma once
 
 #include <vector>

@@ -1,13 +1,15 @@
-// Electromyograms as a source of excitation: the "emg" of a script.
-//
-//   {"file": "emg.csv", "rate_hz": 1000, "channels": {"zygomaticus_major.l": "ZYG_L"}}
-//
-// Each channel is filtered (signal/emg_envelope.h), its value at rest is subtracted, and it is divided by its maximum and clamped to 0..1:
-//
-//   e = (envelope - rest) / (maximum - rest)      u = e; of a muscle with resting tone that can be taken away, which is
-//                                                 silent at u = min: min + (1 - min) e
-//
-// Several channels, or other sources of the script, that drive one muscle are added.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Electromyograms as a source of excitation: the "emg" of a script.
+///
+///   {"file": "emg.csv", "rate_hz": 1000, "channels": {"zygomaticus_major.l": "ZYG_L"}}
+///
+/// Each channel is filtered (signal/emg_envelope.h), its value at rest is subtracted, and it is divided by its maximum and clamped to 0..1:
+///
+///   e = (envelope - rest) / (maximum - rest)      u = e; of a muscle with resting tone that can be taken away, which is
+///                                                 silent at u = min: min + (1 - min) e
+///
+/// Several channels, or other sources of the script, that drive one muscle are added.
 #pragma once
 
 #include <vector>

@@ -1,11 +1,13 @@
-// Spontaneous movement of a face: blinks, small saccades, sway of the head, and breathing. Reproducible from a seed.
-//
-// Blinks come at intervals drawn from a lognormal law, SD 0.6 of the mean, never within 0.3 s. Between saccades the gaze rests;
-// a saccade takes 22 ms + 2.3 ms per degree along a minimum-jerk curve, its size is exponential, its direction that of
-// conversation, horizontal and vertical before oblique; both eyes turn alike. The head's sway is a sum of sines between 0.05
-// and 1.5 Hz whose power falls as f^-1.5. Sway and breathing fade in and out over a second.
-// Sources: Doughty 2002 and Bentivoglio et al. 1997 (rates and intervals of blinks); Bahill, Clark & Stark 1975 (main sequence); Lee,
-// Badler & Badler 2002, ACM Trans. Graph. 21(3) (sizes and directions of saccades). Sizes of the sway are estimates.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Spontaneous movement of a face: blinks, small saccades, sway of the head, and breathing. Reproducible from a seed.
+///
+/// Blinks come at intervals drawn from a lognormal law, SD 0.6 of the mean, never within 0.3 s. Between saccades the gaze rests;
+/// a saccade takes 22 ms + 2.3 ms per degree along a minimum-jerk curve, its size is exponential, its direction that of
+/// conversation, horizontal and vertical before oblique; both eyes turn alike. The head's sway is a sum of sines between 0.05
+/// and 1.5 Hz whose power falls as f^-1.5. Sway and breathing fade in and out over a second.
+/// Sources: Doughty 2002 and Bentivoglio et al. 1997 (rates and intervals of blinks); Bahill, Clark & Stark 1975 (main sequence); Lee,
+/// Badler & Badler 2002, ACM Trans. Graph. 21(3) (sizes and directions of saccades). Sizes of the sway are estimates.
 #pragma once
 
 #include <vector>

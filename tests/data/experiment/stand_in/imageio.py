@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """As many frames as the clip's sidecar says."""
 import contextlib
 import json

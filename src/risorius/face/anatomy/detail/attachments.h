@@ -1,5 +1,7 @@
-// Attachment of the deep tissue to bone: stiffness against sliding and lifting, interpolated from landmarks. The bone moves with skull or
-// mandible.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Attachment of the deep tissue to bone: stiffness against sliding and lifting, interpolated from landmarks. The bone moves with skull or
+/// mandible.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,9 @@
-// The cheek beside the nasolabial fold: soft skin along a crease, and the malar fat pad that it folds against.
-//
-// Muscles that lift the lip attach in front of the fold and pass under the fat, which ligaments hold over the cheekbone. So skin shortens
-// across the crease, by a third in a measured smile, while the cheek behind it moves as one piece.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The cheek beside the nasolabial fold: soft skin along a crease, and the malar fat pad that it folds against.
+///
+/// Muscles that lift the lip attach in front of the fold and pass under the fat, which ligaments hold over the cheekbone. So skin shortens
+/// across the crease, by a third in a measured smile, while the cheek behind it moves as one piece.
 #pragma once
 
 #include <array>

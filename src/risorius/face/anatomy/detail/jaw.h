@@ -1,4 +1,6 @@
-// The mandible: its rigid motion, and the fraction of it that each point of the face follows.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The mandible: its rigid motion, and the fraction of it that each point of the face follows.
 #pragma once
 
 #include <string>

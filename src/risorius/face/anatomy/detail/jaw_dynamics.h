@@ -1,17 +1,19 @@
-// The dynamic jaw: the mandible as a rigid body on two condyles, and the hyoid bone, both moved by their muscles.
-//
-//   q     coordinates (jaw_joint.h)     p_i  six points that carry the mass and inertia of the mandible, and the hyoid
-// A step of length h minimises over q
-//   E = sum m_i |p_i(q) - a_i|^2 / (2 h^2) + |q - q_n|^2_D / (2 h) + muscles + limits + hyoid sling + weight + tone,
-//   a_i = p_i(q_n) + h v_i                                      (implicit Euler, as the tissue's: face_tissue.h)
-// It uses Newton's method with a positive second derivative and a line search. The tissue acts through `JawLoad`.
-//
-// At rest the closing muscles have a constant tone (activation 0.012). It carries the weight of the jaw and presses the molars lightly
-// together. Its pull along the slides and the passive tension at rest are assumed to be in balance with the capsules. So rest is an exact
-// equilibrium, and a jaw that is released closes.
-// The hyoid must be held against geniohyoid, mylohyoid and digastric. The infrahyoid muscles are not in the muscle table; a spring takes
-// their place. It pulls towards a place that depends on the opening of the jaw at the start of the step: 14 mm back and 10 mm down at 32
-// degrees.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The dynamic jaw: the mandible as a rigid body on two condyles, and the hyoid bone, both moved by their muscles.
+///
+///   q     coordinates (jaw_joint.h)     p_i  six points that carry the mass and inertia of the mandible, and the hyoid
+/// A step of length h minimises over q
+///   E = sum m_i |p_i(q) - a_i|^2 / (2 h^2) + |q - q_n|^2_D / (2 h) + muscles + limits + hyoid sling + weight + tone,
+///   a_i = p_i(q_n) + h v_i                                      (implicit Euler, as the tissue's: face_tissue.h)
+/// It uses Newton's method with a positive second derivative and a line search. The tissue acts through `JawLoad`.
+///
+/// At rest the closing muscles have a constant tone (activation 0.012). It carries the weight of the jaw and presses the molars lightly
+/// together. Its pull along the slides and the passive tension at rest are assumed to be in balance with the capsules. So rest is an exact
+/// equilibrium, and a jaw that is released closes.
+/// The hyoid must be held against geniohyoid, mylohyoid and digastric. The infrahyoid muscles are not in the muscle table; a spring takes
+/// their place. It pulls towards a place that depends on the opening of the jaw at the start of the step: 14 mm back and 10 mm down at 32
+/// degrees.
 #pragma once
 
 #include <array>

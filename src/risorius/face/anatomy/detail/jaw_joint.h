@@ -1,16 +1,18 @@
-// The joint of mandible and skull: two condyles that slide on the articular eminences and rotate, ligaments that limit them, and the
-// teeth, on which the closed jaw rests.
-//
-//   q   open, slide left, slide right, side, hyoid x, y, z, all in m:
-//       open   turn about the line through both condyles x distance of the incisors from it
-//       slide  forward travel of a condyle; its height follows the eminence
-//       side   both condyles to the subject's left
-//       hyoid  displacement of the hyoid bone
-//   E_stop = sum k/2 max(0, c(q))^2 over the limits c
-//
-// Condyles stay on their eminences: disc and capsule are assumed rigid across the path, so that the remaining problem is not stiff.
-// Sources of ranges and path: Hannam et al. 2008; Travers 2000; Ferrario 2005. The stiffness of the limits is chosen so that the largest
-// muscle forces exceed them by less than a millimetre.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The joint of mandible and skull: two condyles that slide on the articular eminences and rotate, ligaments that limit them, and the
+/// teeth, on which the closed jaw rests.
+///
+///   q   open, slide left, slide right, side, hyoid x, y, z, all in m:
+///       open   turn about the line through both condyles x distance of the incisors from it
+///       slide  forward travel of a condyle; its height follows the eminence
+///       side   both condyles to the subject's left
+///       hyoid  displacement of the hyoid bone
+///   E_stop = sum k/2 max(0, c(q))^2 over the limits c
+///
+/// Condyles stay on their eminences: disc and capsule are assumed rigid across the path, so that the remaining problem is not stiff.
+/// Sources of ranges and path: Hannam et al. 2008; Travers 2000; Ferrario 2005. The stiffness of the limits is chosen so that the largest
+/// muscle forces exceed them by less than a millimetre.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/detail/jaw_muscles.h"
 
 #include <array>

@@ -1,8 +1,10 @@
-// The muscles of jaw and hyoid: Hill-type muscles along lines of action between skull, mandible and hyoid.
-//
-//   L   length of the path, m        tendons rigid: fibre along the path L - slack, l = sqrt((L - slack)^2 + (l0 sin alpha)^2)
-//   T = F0 [ a fl(l_n) fv(l') + fp(l) + b l' ],  l' = (l - l_n) / (h vmax l0)   (l_n: start of the step; see musculotendon.h)
-// l0 and slack of the table are scaled together, so that the fibres of every head have the table's relative length at rest.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The muscles of jaw and hyoid: Hill-type muscles along lines of action between skull, mandible and hyoid.
+///
+///   L   length of the path, m        tendons rigid: fibre along the path L - slack, l = sqrt((L - slack)^2 + (l0 sin alpha)^2)
+///   T = F0 [ a fl(l_n) fv(l') + fp(l) + b l' ],  l' = (l - l_n) / (h vmax l0)   (l_n: start of the step; see musculotendon.h)
+/// l0 and slack of the table are scaled together, so that the fibres of every head have the table's relative length at rest.
 #pragma once
 
 #include <set>

@@ -1,12 +1,14 @@
-// Muscle excitations for the channels jaw_open, jaw_forward and jaw_side when muscles move the jaw. Groups of muscles pull together, as
-// hard as is needed for the jaw to come to rest about where the kinematic channels would put it.
-//
-//   opening    lateral pterygoid (inferior), digastric, geniohyoid, mylohyoid
-//   forwards   lateral pterygoid (both heads), a little masseter and medial pterygoid to keep the teeth near
-//   backwards  temporalis (posterior, middle)
-//   sideways   lateral and a little medial pterygoid of the other side, temporalis (posterior, middle) of this side
-// Each group is tried at rising levels on the jaw of this head, with the tissue around it as a spring. The level for a movement is
-// interpolated between them. Groups are added.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Muscle excitations for the channels jaw_open, jaw_forward and jaw_side when muscles move the jaw. Groups of muscles pull together, as
+/// hard as is needed for the jaw to come to rest about where the kinematic channels would put it.
+///
+///   opening    lateral pterygoid (inferior), digastric, geniohyoid, mylohyoid
+///   forwards   lateral pterygoid (both heads), a little masseter and medial pterygoid to keep the teeth near
+///   backwards  temporalis (posterior, middle)
+///   sideways   lateral and a little medial pterygoid of the other side, temporalis (posterior, middle) of this side
+/// Each group is tried at rising levels on the jaw of this head, with the tissue around it as a spring. The level for a movement is
+/// interpolated between them. Groups are added.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/detail/tissue_locator.h"
 
 #include <Eigen/LU>

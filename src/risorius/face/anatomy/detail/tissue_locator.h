@@ -1,4 +1,6 @@
-// Locates points in the tissue: the skin above a point, and the tetrahedron that holds it.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Locates points in the tissue: the skin above a point, and the tetrahedron that holds it.
 #pragma once
 
 #include "risorius/core/types.h"

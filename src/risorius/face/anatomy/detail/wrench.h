@@ -1,4 +1,6 @@
-// Sums forces on a rigid body.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Sums forces on a rigid body.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/lip_drive.h"
 
 #include <algorithm>

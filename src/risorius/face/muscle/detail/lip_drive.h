@@ -1,14 +1,16 @@
-// The volume effect of orbicularis oris on the lips, in addition to the pull of its fibres. Its inner and marginal parts lie in the inner
-// lip, which the tissue mesh leaves out (shell.h).
-//
-//   r = max(0, marginal - peripheral)   the J-shaped marginal part curls the red lip inwards over the teeth
-//   p = max(0, peripheral - marginal)   the deep peripheral part thickens between teeth and lip and pushes it forwards
-//
-// Each lip has its own activations. In the plane across the lip, X is turned by r w theta about an axis on the teeth and projected onto
-// the teeth, which gives the target t. n points outwards, and d is the distance that the thickened muscle fills:
-//   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - (1 - (1 - p)^3) d)^2
-// Targets move with the mandible as far as the tissue there does. Sources: Blair & Smith 1986 (marginal against peripheral part);
-// angles and distances from measured expression scans.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The volume effect of orbicularis oris on the lips, in addition to the pull of its fibres. Its inner and marginal parts lie in the inner
+/// lip, which the tissue mesh leaves out (shell.h).
+///
+///   r = max(0, marginal - peripheral)   the J-shaped marginal part curls the red lip inwards over the teeth
+///   p = max(0, peripheral - marginal)   the deep peripheral part thickens between teeth and lip and pushes it forwards
+///
+/// Each lip has its own activations. In the plane across the lip, X is turned by r w theta about an axis on the teeth and projected onto
+/// the teeth, which gives the target t. n points outwards, and d is the distance that the thickened muscle fills:
+///   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - (1 - (1 - p)^3) d)^2
+/// Targets move with the mandible as far as the tissue there does. Sources: Blair & Smith 1986 (marginal against peripheral part);
+/// angles and distances from measured expression scans.
 #pragma once
 
 #include <array>

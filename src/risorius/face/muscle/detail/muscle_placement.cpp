@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/muscle_placement.h"
 
 #include <algorithm>

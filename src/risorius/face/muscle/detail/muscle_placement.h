@@ -1,4 +1,6 @@
-// Muscles of expression as bundles of fibres in the tissue, placed from the bands of the atlas.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Muscles of expression as bundles of fibres in the tissue, placed from the bands of the atlas.
 #pragma once
 
 #include <optional>

@@ -1,14 +1,16 @@
-// Volume muscles of a face: grid solids with fibres and tendons under the skin, part of the same implicit solve.
-//
-//   unknowns  x = [tissue nodes; nodes of all solids]           one row each
-//   E = cells (tissue/cell_solid.h) + chains (muscle/chain_set.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
-//
-// Nodes on bone ride on it. A node in the tissue is bound to the point of the tissue it lies in, and deep tissue on a
-// muscle to the point of the muscle it lies on, so that they move each other. Deep nodes of jaw muscles rest on their bone.
-// The tissue a muscle lies in keeps its own, much smaller, stiffness: that part of space is counted twice.
-//
-// Preconditioner: with H the solids' second derivative (blocks of the muscles, bindings included), B the binding between
-// solids and tissue and S a scalar matrix over the tissue alone, the inverse of [H B; B^T S + B^T H^-1 B].
+// SPDX-License-Identifier: MIT
+/// \file
+/// Volume muscles of a face: grid solids with fibres and tendons under the skin, part of the same implicit solve.
+///
+///   unknowns  x = [tissue nodes; nodes of all solids]           one row each
+///   E = cells (tissue/cell_solid.h) + chains (muscle/chain_set.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
+///
+/// Nodes on bone ride on it. A node in the tissue is bound to the point of the tissue it lies in, and deep tissue on a
+/// muscle to the point of the muscle it lies on, so that they move each other. Deep nodes of jaw muscles rest on their bone.
+/// The tissue a muscle lies in keeps its own, much smaller, stiffness: that part of space is counted twice.
+///
+/// Preconditioner: with H the solids' second derivative (blocks of the muscles, bindings included), B the binding between
+/// solids and tissue and S a scalar matrix over the tissue alone, the inverse of [H B; B^T S + B^T H^-1 B].
 #pragma once
 
 #include <array>

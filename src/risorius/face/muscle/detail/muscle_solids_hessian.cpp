@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Static energies of the volume muscles: their second derivative over all unknowns of a face.
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What volume muscles look like: smooth closed surfaces over their grids.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/muscle_surface.h"
 
 namespace risorius::face {

@@ -1,6 +1,8 @@
-// The muscles as closed surfaces for drawing. Each follows its fibres, or the bones that it spans.
-//
-// Frame: the head frame, m. All muscles share one vertex array.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The muscles as closed surfaces for drawing. Each follows its fibres, or the bones that it spans.
+///
+/// Frame: the head frame, m. All muscles share one vertex array.
 #pragma once
 
 #include <optional>

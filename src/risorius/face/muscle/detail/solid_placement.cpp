@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/solid_placement.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// Places volume muscles in a head: grids of nodes along the paths of the muscle table, and what they are attached to.
-//
-// The m axis of a grid runs along the fibres from origin to insertion, n across, o from bone to skin. Several paths form one sheet. The
-// upper and the lower half of orbicularis oris share their nodes at the corners of the mouth and form one ring.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Places volume muscles in a head: grids of nodes along the paths of the muscle table, and what they are attached to.
+///
+/// The m axis of a grid runs along the fibres from origin to insertion, n across, o from bone to skin. Several paths form one sheet. The
+/// upper and the lower half of orbicularis oris share their nodes at the corners of the mouth and form one ring.
 #pragma once
 
 #include <string>

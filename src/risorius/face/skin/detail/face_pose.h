@@ -1,4 +1,6 @@
-// The visible state of a face at one moment.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The visible state of a face at one moment.
 #pragma once
 
 #include <array>

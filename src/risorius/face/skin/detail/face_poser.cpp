@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/skin/detail/face_poser.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
-// Computes the visible face from the positions of the tissue: the tissue carries the skin, the skin folds where it is compressed, and
-// lids, eyes, teeth, tongue, lashes and neck follow.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Computes the visible face from the positions of the tissue: the tissue carries the skin, the skin folds where it is compressed, and
+/// lids, eyes, teeth, tongue, lashes and neck follow.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/skin/detail/head_motion.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Motion of the head, and how it fades down the neck: full above the jaw line, zero at the base of the neck.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Motion of the head, and how it fades down the neck: full above the jaw line, zero at the base of the neck.
 #pragma once
 
 #include "risorius/core/types.h"

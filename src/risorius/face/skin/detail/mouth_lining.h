@@ -1,8 +1,10 @@
-// Keeps the lining of the mouth behind the skin in front of it. Skin and lining move independently: the tissue moves the skin, and
-// skin_binding.h moves the lining. Where lips turn outwards, the lining would come through the skin.
-//
-//   x   a point of the lining      q   the point of the skin nearest to it at rest     n   outwards there     d = |q - x|
-//   x moves by -n max(0, c - (q - x) . n),  c = min(d / 2, 1.5 mm):  nothing at rest
+// SPDX-License-Identifier: MIT
+/// \file
+/// Keeps the lining of the mouth behind the skin in front of it. Skin and lining move independently: the tissue moves the skin, and
+/// skin_binding.h moves the lining. Where lips turn outwards, the lining would come through the skin.
+///
+///   x   a point of the lining      q   the point of the skin nearest to it at rest     n   outwards there     d = |q - x|
+///   x moves by -n max(0, c - (q - x) . n),  c = min(d / 2, 1.5 mm):  nothing at rest
 #pragma once
 
 #include <array>

@@ -1,15 +1,17 @@
-// The cords of the neck: where platysma spans the hollow under the jaw, its borders lift from the throat as they contract.
-//
-//   p(s)   a border on the skin, from collar bone to jaw     n   outwards      T = a F_b   tension, a the activation
-//   h(s)   height of the border over the throat: a string on an elastic bed of fat and fascia of stiffness k per length,
-//
-//     T h'' - k h = -T max(0, p'' . n),    h = 0 at both ends
-//
-// The border rises where it spans a hollow and stays where it curves round the jaw. Across the border the height falls off as
-// 1 / cosh(y / w), the shape of a stretched sheet with bending stiffness. The part of the ridge that is finer than the mesh goes to the
-// renderer as a wrinkle line of negative depth. At a = 0 nothing moves.
-//
-// The medial borders are the most prominent, posterior bands less: de Castro 1980, Plast. Reconstr. Surg. 66(6), 833-841.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The cords of the neck: where platysma spans the hollow under the jaw, its borders lift from the throat as they contract.
+///
+///   p(s)   a border on the skin, from collar bone to jaw     n   outwards      T = a F_b   tension, a the activation
+///   h(s)   height of the border over the throat: a string on an elastic bed of fat and fascia of stiffness k per length,
+///
+///     T h'' - k h = -T max(0, p'' . n),    h = 0 at both ends
+///
+/// The border rises where it spans a hollow and stays where it curves round the jaw. Across the border the height falls off as
+/// 1 / cosh(y / w), the shape of a stretched sheet with bending stiffness. The part of the ridge that is finer than the mesh goes to the
+/// renderer as a wrinkle line of negative depth. At a = 0 nothing moves.
+///
+/// The medial borders are the most prominent, posterior bands less: de Castro 1980, Plast. Reconstr. Surg. 66(6), 833-841.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
-// Moves the parts of the mesh that are not simulated tissue: lids on their tarsal plates over the moving cornea, eyes, teeth, tongue,
-// lashes, and the neck between the moving head and the shoulders.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Moves the parts of the mesh that are not simulated tissue: lids on their tarsal plates over the moving cornea, eyes, teeth, tongue,
+/// lashes, and the neck between the moving head and the shoulders.
 #pragma once
 
 #include <array>

@@ -1,10 +1,12 @@
-// Transfers the motion of the simulated shell to every vertex of the imported skin.
-//
-//   u_v = sum_i w_vi u_i + (T - I) sum_j m_vj X_j        u_i  skin node displacements, T  motion of the mandible
-//
-// On the shell, the weights are barycentric in the coarse triangles and smoothed over the mesh, so that no facets show. Off the shell
-// (inner lips, nostrils, mouth lining) they are the harmonic extension. The back of the mouth is fixed to skull and mandible; everything
-// outside of the face is fixed at rest.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Transfers the motion of the simulated shell to every vertex of the imported skin.
+///
+///   u_v = sum_i w_vi u_i + (T - I) sum_j m_vj X_j        u_i  skin node displacements, T  motion of the mandible
+///
+/// On the shell, the weights are barycentric in the coarse triangles and smoothed over the mesh, so that no facets show. Off the shell
+/// (inner lips, nostrils, mouth lining) they are the harmonic extension. The back of the mouth is fixed to skull and mandible; everything
+/// outside of the face is fixed at rest.
 #pragma once
 
 #include <utility>

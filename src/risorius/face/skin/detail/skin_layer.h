@@ -1,5 +1,7 @@
-// What the skin does in addition to the tissue: it evens out the motion of the coarse tissue (skin_surface.h), folds where it is
-// compressed (wrinkles.h), and forms cords on the neck (platysma_cords.h). At rest it does nothing.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the skin does in addition to the tissue: it evens out the motion of the coarse tissue (skin_surface.h), folds where it is
+/// compressed (wrinkles.h), and forms cords on the neck (platysma_cords.h). At rest it does nothing.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/skin/detail/skin_surface.h"
 
 #include "risorius/geom/surface_topology.h"

@@ -1,12 +1,14 @@
-// The skin at the resolution of the mesh: a membrane with bending stiffness on an elastic bed of fat and ligaments, which the tissue moves.
-//
-//   p   where the tissue carries a vertex      X   rest      K   stiffness of the bed per area, Pa/m      A   area
-//
-//   E(x) = sum K A/2 |x - p|^2 + membrane and bending of tissue/skin_sheet.h about the rest shape of the mesh
-//
-// The bed is felt from afar: what the coarse tissue does within (B/K)^(1/4), some 2 mm, the skin evens out, turning with
-// it (E does not change when the face turns), so that features of the rest shape stay. x starts at p and takes a fixed
-// number of steps with one prefactored matrix; at p = X it stays there.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The skin at the resolution of the mesh: a membrane with bending stiffness on an elastic bed of fat and ligaments, which the tissue moves.
+///
+///   p   where the tissue carries a vertex      X   rest      K   stiffness of the bed per area, Pa/m      A   area
+///
+///   E(x) = sum K A/2 |x - p|^2 + membrane and bending of tissue/skin_sheet.h about the rest shape of the mesh
+///
+/// The bed is felt from afar: what the coarse tissue does within (B/K)^(1/4), some 2 mm, the skin evens out, turning with
+/// it (E does not change when the face turns), so that features of the rest shape stay. x starts at p and takes a fixed
+/// number of steps with one prefactored matrix; at p = X it stays there.
 #pragma once
 
 #include <optional>

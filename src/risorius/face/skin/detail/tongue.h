@@ -1,5 +1,7 @@
-// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
-// raises or lowers its tip, and passes between teeth and lips, where it is flattened if there is little room.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
+/// raises or lowers its tip, and passes between teeth and lips, where it is flattened if there is little room.
 #pragma once
 
 #include <vector>

@@ -1,15 +1,17 @@
-// Where skin folds and in which direction: the usual lines of expression of a face, across the muscles that fold them.
-//
-//   f   phase over the rest surface, valleys at whole numbers        m   direction of the fibres, unit
-//   l   distance of the lines (wavelength)            w   window: 1 where the lines belong, 0 elsewhere
-//
-//   f = argmin of the integral of |grad f - m / l|^2 over where w > 0, plus a slow random jitter
-//
-// Lines are perpendicular to the fibres, evenly spaced where fibres are parallel, fanned where they turn about eye or mouth. For a crease
-// that is always one line (nasolabial), f is the distance from its curve. Everything is fixed in the rest shape, so lines move with the
-// skin and do not flicker. Patterns that overlap have different slots. The patterns are a table of the rig (rig/wrinkle_table.h).
-//
-// Lines of expression lie across the pull of the muscles: Kraissl 1951, Plast. Reconstr. Surg. 8(1), 1-28.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Where skin folds and in which direction: the usual lines of expression of a face, across the muscles that fold them.
+///
+///   f   phase over the rest surface, valleys at whole numbers        m   direction of the fibres, unit
+///   l   distance of the lines (wavelength)            w   window: 1 where the lines belong, 0 elsewhere
+///
+///   f = argmin of the integral of |grad f - m / l|^2 over where w > 0, plus a slow random jitter
+///
+/// Lines are perpendicular to the fibres, evenly spaced where fibres are parallel, fanned where they turn about eye or mouth. For a crease
+/// that is always one line (nasolabial), f is the distance from its curve. Everything is fixed in the rest shape, so lines move with the
+/// skin and do not flicker. Patterns that overlap have different slots. The patterns are a table of the rig (rig/wrinkle_table.h).
+///
+/// Lines of expression lie across the pull of the muscles: Kraissl 1951, Plast. Reconstr. Surg. 8(1), 1-28.
 #pragma once
 
 #include <vector>

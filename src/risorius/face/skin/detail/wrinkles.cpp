@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/skin/detail/wrinkles.h"
 
 #include <algorithm>

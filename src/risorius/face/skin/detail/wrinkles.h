@@ -1,16 +1,18 @@
-// Depth of the skin's folds along its wrinkle lines, from the skin's strain.
-//
-//   n   across the lines, in the rest surface        s = |F n|   stretch of the skin across them        c = 1 - s
-//   l   distance of the lines at rest, (1 - c) l now               f   phase, see wrinkle_lines.h
-//   A   depth          h = A d_k P(f),  P = sqrt(sin^2(pi f) + 0.2^2)   profile: narrow valleys, round ridges
-//   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f), the valley, so that d_k changes on ridges
-//
-// Skin hardly shortens. Beyond an onset, its compression goes into the length of the folded profile:
-//   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
-// c is averaged over about 3 mm (by a screened Poisson equation on the surface), so that it does not depend on the mesh. A crease folds
-// as a whole: its c is averaged over 9 mm along it and over the strip beside it, and its onset is lower, since the line exists at rest.
-// Where the mesh is fine enough, folds displace its vertices; the renderer shows the rest of their depth. Permanent lines of old skin are
-// as deep as under additional compression; they are shown only by the renderer and disappear when the skin is stretched.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Depth of the skin's folds along its wrinkle lines, from the skin's strain.
+///
+///   n   across the lines, in the rest surface        s = |F n|   stretch of the skin across them        c = 1 - s
+///   l   distance of the lines at rest, (1 - c) l now               f   phase, see wrinkle_lines.h
+///   A   depth          h = A d_k P(f),  P = sqrt(sin^2(pi f) + 0.2^2)   profile: narrow valleys, round ridges
+///   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f), the valley, so that d_k changes on ridges
+///
+/// Skin hardly shortens. Beyond an onset, its compression goes into the length of the folded profile:
+///   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
+/// c is averaged over about 3 mm (by a screened Poisson equation on the surface), so that it does not depend on the mesh. A crease folds
+/// as a whole: its c is averaged over 9 mm along it and over the strip beside it, and its onset is lower, since the line exists at rest.
+/// Where the mesh is fine enough, folds displace its vertices; the renderer shows the rest of their depth. Permanent lines of old skin are
+/// as deep as under additional compression; they are shown only by the renderer and disappear when the skin is stretched.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/contact_search.h"
 
 #include <algorithm>

@@ -1,10 +1,12 @@
-// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue and lips against bone and teeth
-// (skull and mandible apart), upper lip against lower, lids against the eyeball.
-//
-// The penetration every pair has at rest is subtracted, so that rest is free of force. Planes are blended from the points
-// around, so that they move smoothly as tissue slides over them: taking the nearest alone makes held poses tremble.
-// The lips' planes turn with the lips: a rim faces the other rim, red lip faces forward. A plane stands for what lies in
-// front of it only, so that a lip may tuck in behind the other.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue and lips against bone and teeth
+/// (skull and mandible apart), upper lip against lower, lids against the eyeball.
+///
+/// The penetration every pair has at rest is subtracted, so that rest is free of force. Planes are blended from the points
+/// around, so that they move smoothly as tissue slides over them: taking the nearest alone makes held poses tremble.
+/// The lips' planes turn with the lips: a rim faces the other rim, red lip faces forward. A plane stands for what lies in
+/// front of it only, so that a lip may tuck in behind the other.
 #pragma once
 
 #include <array>

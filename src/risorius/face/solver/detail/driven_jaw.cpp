@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/driven_jaw.h"
 
 #include <algorithm>

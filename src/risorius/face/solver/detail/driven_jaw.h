@@ -1,5 +1,7 @@
-// The mandible of a face: placed by channels, or moved by its muscles within the steps of the tissue, which it then carries and is
-// held by.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The mandible of a face: placed by channels, or moved by its muscles within the steps of the tissue, which it then carries and is
+/// held by.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,11 +1,13 @@
-// A face at rest under what drives it, and how that equilibrium answers to its drive.
-//
-//   g(x, p) = 0   at the nodes x in equilibrium with a drive p; H = dg/dx
-//   dx/dp = - H^-1 dg/dp          v(x, p) vertices of the mesh, dv/dp = v_x dx/dp + v_p
-//   of a number L(x) with slope b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp, whatever p is
-//
-// One factor of H serves them all. In H contact planes are those of the pose; that they turn as tissue slides over them is put
-// right in dx/dp by a few more solves with the same factor.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A face at rest under what drives it, and how that equilibrium answers to its drive.
+///
+///   g(x, p) = 0   at the nodes x in equilibrium with a drive p; H = dg/dx
+///   dx/dp = - H^-1 dg/dp          v(x, p) vertices of the mesh, dv/dp = v_x dx/dp + v_p
+///   of a number L(x) with slope b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp, whatever p is
+///
+/// One factor of H serves them all. In H contact planes are those of the pose; that they turn as tissue slides over them is put
+/// right in dx/dp by a few more solves with the same factor.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The energies of a face as one list of terms. Each sum over the face's energies (energy and gradient, second derivative,
 /// metric, start of a step) runs over this list; FaceTissue::build_terms() is the one place that fills it.

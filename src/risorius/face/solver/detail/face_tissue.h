@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// \file
 /// The deformable part of a face as one system of equations over its nodes.
 ///

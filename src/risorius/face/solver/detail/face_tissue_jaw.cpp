@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tissue and jaw in one solve. Unknowns are the nodes relative to a face that rides on the mandible, and the jaw's coordinates:
 //   x_i = d_i + w_i (T(q) - T(q_n)) X_i,   min over d, q of E_tissue(x, T(q)) + E_jaw(q)
 // by L-BFGS; its metric has a block for the tissue and one for the jaw, second derivatives of the jaw's own energy and of riding

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A face at rest in what it is driven by: energy, gradient and second derivative without inertia and damping.
 #include <limits>
 

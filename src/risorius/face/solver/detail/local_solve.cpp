@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/local_solve.h"
 
 #include <algorithm>

@@ -1,8 +1,10 @@
-// A part of a face's tissue that moves while all else is held: what is slow to converge gets more iterations of a step, each
-// at the price of the part alone.
-//
-// The energy is that of the whole step (face_tissue.h) but for what no moving node takes part in, over nodes of its own:
-// those that move, then those held beside them.
+// SPDX-License-Identifier: MIT
+/// \file
+/// A part of a face's tissue that moves while all else is held: what is slow to converge gets more iterations of a step, each
+/// at the price of the part alone.
+///
+/// The energy is that of the whole step (face_tissue.h) but for what no moving node takes part in, over nodes of its own:
+/// those that move, then those held beside them.
 #pragma once
 
 #include <optional>

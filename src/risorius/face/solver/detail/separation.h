@@ -1,8 +1,10 @@
-// What is shown of tissue whose steps, of a few iterations, leave surfaces in each other: the same nodes moved out of lips,
-// bone, teeth and eyeballs.
-//
-// Forces have no part in it and nothing of it goes back into the state: fed back it would make held poses tremble. A pose that
-// has come to rest is hardly changed, one without contact not at all.
+// SPDX-License-Identifier: MIT
+/// \file
+/// What is shown of tissue whose steps, of a few iterations, leave surfaces in each other: the same nodes moved out of lips,
+/// bone, teeth and eyeballs.
+///
+/// Forces have no part in it and nothing of it goes back into the state: fed back it would make held poses tremble. A pose that
+/// has come to rest is hardly changed, one without contact not at all.
 #pragma once
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/static_solver.h"
 
 #include <algorithm>

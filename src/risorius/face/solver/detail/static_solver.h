@@ -1,11 +1,13 @@
-// Equilibria of a face whose bones, lids and air are held: positions at which the static energy of FaceTissue has no slope,
-// and what is linear around them.
-//
-//   g(x) = dE/dx      H = d2E/dx2      B = H^-1 as last factored, there or nearby, without negative curvature
-//
-// L-BFGS with B as its metric: its first iteration is Newton's, the next ones correct B for where they are. Contact pairs are
-// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little. Nodes that
-// keep snapping between the planes of two rounds are held by springs to where the round began: without force at rest.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Equilibria of a face whose bones, lids and air are held: positions at which the static energy of FaceTissue has no slope,
+/// and what is linear around them.
+///
+///   g(x) = dE/dx      H = d2E/dx2      B = H^-1 as last factored, there or nearby, without negative curvature
+///
+/// L-BFGS with B as its metric: its first iteration is Newton's, the next ones correct B for where they are. Contact pairs are
+/// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little. Nodes that
+/// keep snapping between the planes of two rounds are held by springs to where the round began: without force at rest.
 #pragma once
 
 #include <Eigen/Core>

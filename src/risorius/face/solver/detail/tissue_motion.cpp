@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/tissue_motion.h"
 
 #include <algorithm>

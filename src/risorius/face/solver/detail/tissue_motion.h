@@ -1,12 +1,14 @@
-// The nodes' own motion through space while the head moves: what a step in the frame of the head aims at.
-//
-//   H_n   head at step n, world from head          M = H_{n+1}^-1 H_n   what was at rest in space, seen from the next step
-//   x     positions, v velocities through space, both in the frame of the head of their step
-// By the second backward difference (BDF2), with h' = 2h/3 and everything of former steps carried by M into the new frame,
-//   x_{n+1} = b_x + h' v_{n+1},  v_{n+1} = b_v + h' a_{n+1},    b = (4 (.)_n - (.)_{n-1}) / 3
-// which is a step of implicit Euler of length h' from b_x that aims at b_x + h' b_v. Inertial forces of a head that turns or
-// shakes (linear, angular, centrifugal, Coriolis) are in M, to the same order; none has to be written down.
-// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, V.1.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The nodes' own motion through space while the head moves: what a step in the frame of the head aims at.
+///
+///   H_n   head at step n, world from head          M = H_{n+1}^-1 H_n   what was at rest in space, seen from the next step
+///   x     positions, v velocities through space, both in the frame of the head of their step
+/// By the second backward difference (BDF2), with h' = 2h/3 and everything of former steps carried by M into the new frame,
+///   x_{n+1} = b_x + h' v_{n+1},  v_{n+1} = b_v + h' a_{n+1},    b = (4 (.)_n - (.)_{n-1}) / 3
+/// which is a step of implicit Euler of length h' from b_x that aims at b_x + h' b_v. Inertial forces of a head that turns or
+/// shakes (linear, angular, centrifugal, Coriolis) are in M, to the same order; none has to be written down.
+/// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, V.1.
 #pragma once
 
 #include <vector>

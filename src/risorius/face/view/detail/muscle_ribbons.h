@@ -1,5 +1,7 @@
-// Drawn surfaces of muscles without volume in the simulation (bundles of fibres, and muscles attached to bones only): ribbons with a
-// middle surface and thickness on both sides. Where a muscle shortens, it becomes thicker so that its volume is constant.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Drawn surfaces of muscles without volume in the simulation (bundles of fibres, and muscles attached to bones only): ribbons with a
+/// middle surface and thickness on both sides. Where a muscle shortens, it becomes thicker so that its volume is constant.
 #pragma once
 
 #include <variant>

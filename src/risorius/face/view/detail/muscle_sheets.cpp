@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/view/detail/muscle_sheets.h"
 
 #include <algorithm>

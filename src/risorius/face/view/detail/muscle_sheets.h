@@ -1,6 +1,8 @@
-// Middle surfaces of flat muscles: grids of points, rows along the fibres from origin to insertion, columns across.
-//
-// Point of row i and column j: i * columns + j. Frame: the head frame, m.
+// SPDX-License-Identifier: MIT
+/// \file
+/// Middle surfaces of flat muscles: grids of points, rows along the fibres from origin to insertion, columns across.
+///
+/// Point of row i and column j: i * columns + j. Frame: the head frame, m.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "risorius/face/view/detail/skull_shapes.h"
 
 #include <algorithm>

@@ -1,7 +1,9 @@
-// The bones of the head as signed distance fields in the standard head. They say what a bone is where the skin says nothing of it.
-//
-// Frame: the head frame of the standard head, mm (rigs/standard/landmarks.json). Left and right are symmetric.
-// Numbers: rigs/standard/skull_shapes.json.
+// SPDX-License-Identifier: MIT
+/// \file
+/// The bones of the head as signed distance fields in the standard head. They say what a bone is where the skin says nothing of it.
+///
+/// Frame: the head frame of the standard head, mm (rigs/standard/landmarks.json). Left and right are symmetric.
+/// Numbers: rigs/standard/skull_shapes.json.
 #pragma once
 
 #include <vector>

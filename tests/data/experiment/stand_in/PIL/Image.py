@@ -1,2 +1,3 @@
+# SPDX-License-Identifier: MIT
 def fromarray(frame):
     return frame

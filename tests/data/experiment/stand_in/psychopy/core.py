@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 now_s = 0.0
 
 

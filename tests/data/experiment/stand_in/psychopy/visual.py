@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 from . import core
 
 REFRESH_S = 1 / 60
