@@ -120,7 +120,7 @@ void add_evaluate(CLI::App& app) {
     command->add_option("RIG", options.rig, "The rig whose expressions are evaluated")->required();
     command->add_option("--shapes", options.shapes,
                         "Measured displacements of the vertices of the rig's mesh: JSON with a "
-                        "file of raw numbers, see \"Measured shapes\" in README.md");
+                        "file of raw numbers, see docs/formats/measured-shapes.md");
     command->add_option(
         "--like", arguments->like,
         "Instead of --shapes: another rig, whose expressions are compared with those of RIG");

@@ -68,8 +68,8 @@ void add_solve(CLI::App& app) {
                      "The folder to write: script.json, which render plays, and results.json")
         ->required();
     command->add_option("--shapes", options.shapes,
-                        "Blend shapes on the rig's mesh: a table as under \"Measured shapes\" in "
-                        "README.md (.json), or shapes.glb of risorius shapes");
+                        "Blend shapes on the rig's mesh: a table (.json, see "
+                        "docs/formats/measured-shapes.md), or shapes.glb of risorius shapes");
     command
         ->add_option("--mesh", options.meshes,
                      "Instead of --shapes: the rig's mesh with displaced vertices, OBJ; separate "

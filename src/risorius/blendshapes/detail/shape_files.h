@@ -29,7 +29,7 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder);
 
-/// folder/shapes.json and shapes.f32, "Measured shapes" in README.md, with the activations that made each shape: mesh units,
+/// folder/shapes.json and shapes.f32, see docs/formats/measured-shapes.md, with the activations that made each shape: mesh units,
 /// vertices in the mesh file's order. Returns the names of the files.
 std::vector<std::string> write_shape_table(const scene::RigFiles& files, const rig::Head& head,
                                            const MadeShapes& shapes,
