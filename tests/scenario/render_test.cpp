@@ -91,7 +91,7 @@ TEST(Render, LeavesAVideoARecordAndATable) {
     EXPECT_EQ(json["script"]["sha256"], media::sha256_of_file(options.script));
     EXPECT_EQ(json["rig"]["sha256"], media::sha256_of_file(kRoot / "rigs/adult/rig.json"));
     EXPECT_EQ(json["mesh"]["sha256"], media::sha256_of_file(kRoot / "models/adult/head.obj"));
-    ASSERT_EQ(json["tables"].size(), 8u);  // what the adult rig names
+    ASSERT_EQ(json["tables"].size(), 9u);  // what the adult rig names
     std::set<std::string> tables;
     for (const Json& table : json["tables"]) {
         const fs::path file = table["file"].get<std::string>();
