@@ -60,7 +60,7 @@ check_select=()
 case $sanitizers in
     some)
         # Programs that are no tests, then the tests of each folder in the one build or the other
-        release_targets=(programs)
+        release_targets=(programs calibrate)
         kept=()
         for folder in $(folders); do
             if [[ " ${sanitized[*]} " == *" $folder "* ]]; then

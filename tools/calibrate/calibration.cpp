@@ -82,22 +82,22 @@ class Calibration {
             z_.segment(one.first, one.table.size()) = one.table;
     }
 
-    Result run(const std::function<void(const std::string&)>& tell) {
+    Result run(const std::function<void(const std::string&)>& report) {
         Trial now = attempt(z_);
         Result result;
         for (std::size_t e = 0; e < expressions_.size(); ++e)
             result.relative_before.push_back(relative(now, e));
-        say(tell, "begins", now);
+        say(report, "begins", now);
         double reach = 1;
         for (int round = 0; round < options_.rounds && reach > 0.05; ++round) {
-            solve::BoxQuadratic problem = linearised(now, tell);
+            solve::BoxQuadratic problem = linearised(now, report);
             bool better = false;
             while (!better && reach > 0.05) {
                 limit(reach, problem);
                 Eigen::VectorXd next = z_;
                 solve::minimise(problem, next, 1e-6, 400);
                 Trial trial = attempt(next);
-                say(tell, "reach " + std::to_string(reach), trial);
+                say(report, "reach " + std::to_string(reach), trial);
                 better = trial.cost < now.cost;
                 if (better) {
                     z_ = next;
@@ -173,7 +173,7 @@ class Calibration {
 
     // The quadratic model about the present unknowns, without its limits.
     solve::BoxQuadratic linearised(const Trial& now,
-                                   const std::function<void(const std::string&)>& tell) const {
+                                   const std::function<void(const std::string&)>& report) const {
         const long parameters = static_cast<long>(parameters_.size());
         const Eigen::VectorXd p = z_.head(parameters);
         // What each parameter adds to the forces of every expression
@@ -271,7 +271,7 @@ class Calibration {
             }
     }
 
-    void say(const std::function<void(const std::string&)>& tell, const std::string& what,
+    void say(const std::function<void(const std::string&)>& report, const std::string& what,
              const Trial& trial) const {
         double sum = 0;
         for (std::size_t e = 0; e < expressions_.size(); ++e)
@@ -293,8 +293,8 @@ class Calibration {
 
 Result calibrate(const scene::RigFiles& files, const std::vector<inverse::MeasuredShape>& shapes,
                  const std::vector<Parameter>& parameters, const Options& options,
-                 const std::function<void(const std::string&)>& tell) {
-    return Calibration(files, shapes, parameters, options).run(tell);
+                 const std::function<void(const std::string&)>& report) {
+    return Calibration(files, shapes, parameters, options).run(report);
 }
 
 }  // namespace risorius::calibrate
