@@ -22,7 +22,7 @@ Eigen::MatrixXd dense_second(long nodes, auto&& add) {
 }
 
 /// Least and greatest u^T part u / u^T whole u and those between, ascending; `whole` is positive definite.
-inline Eigen::VectorXd shares(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whole) {
+inline Eigen::VectorXd fractions(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whole) {
     const SymmetricEigen modes = symmetric_eigen(whole);
     const Eigen::MatrixXd unit =
         modes.vectors * modes.values.cwiseSqrt().cwiseInverse().asDiagonal();
@@ -52,11 +52,11 @@ void expect_slope_of_gradient(const Eigen::MatrixXd& second, const Points& x, au
 
 /// Nowhere negative, and nowhere below the exact one.
 inline void expect_positive_part(const Eigen::MatrixXd& positive, const Eigen::MatrixXd& exact) {
-    const auto least = [](const Eigen::MatrixXd& m) { return symmetric_eigenvalues(m).minCoeff(); };
+    const auto min = [](const Eigen::MatrixXd& m) { return symmetric_eigenvalues(m).minCoeff(); };
     const double rounding = 1e-11 * positive.cwiseAbs().maxCoeff();
-    EXPECT_LT(least(exact), -rounding) << "nothing to take away: the check would say nothing";
-    EXPECT_GT(least(positive), -rounding);
-    EXPECT_GT(least(positive - exact), -rounding);
+    EXPECT_LT(min(exact), -rounding) << "nothing to take away: the check would say nothing";
+    EXPECT_GT(min(positive), -rounding);
+    EXPECT_GT(min(positive - exact), -rounding);
 }
 
 }  // namespace risorius::testing_of

@@ -35,20 +35,20 @@ TEST(ThreeStages, KeepTheOrderForAnyNumberOfWorkers) {
 }
 
 TEST(ThreeStages, WorkersWorkAtTheSameTime) {
-    std::atomic<int> working{0}, most{0};
+    std::atomic<int> working{0}, max{0};
     run_pipeline(
         40, 3, [](int i) { return i; },
         [&](int, int, int value) {
             const int now = ++working;
-            for (int before = most; before < now && !most.compare_exchange_weak(before, now);) {
+            for (int before = max; before < now && !max.compare_exchange_weak(before, now);) {
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             --working;
             return value;
         },
         [](int, int) {});
-    EXPECT_GE(most, 2);
-    EXPECT_LE(most, 3);
+    EXPECT_GE(max, 2);
+    EXPECT_LE(max, 3);
 }
 
 TEST(ThreeStages, MakingNeverRunsFarAhead) {

@@ -134,7 +134,7 @@ TEST_F(BakedShapes, KeepTheirCertificate) {
         for (const std::string& one : made.certificate.complaints()) said += one + "; ";
         EXPECT_EQ(said, "") << made.goal.name;
         EXPECT_GT(made.certificate.peak_m, 2e-3) << made.goal.name;
-        EXPECT_GT(made.certificate.stretch.greatest, 1.0) << made.goal.name;
+        EXPECT_GT(made.certificate.stretch.max, 1.0) << made.goal.name;
     }
     EXPECT_TRUE(shape("eyeBlinkLeft").certificate.lid_gap_m);
     EXPECT_FALSE(shape("mouthSmileLeft").certificate.lid_gap_m);
@@ -244,7 +244,7 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     turned.kinematic[static_cast<std::size_t>(track::Kinematic::kGazeYawLeft)] = 10;
     const face::FacePose pose = player.pose(turned);
     face.start([&](double) { return turned; });
-    face.settle(turned.excitation, turned);
+    face.solve_equilibrium(turned.excitation, turned);
     const face::FacePose simulated = face.pose();
     EXPECT_EQ(pose.eye_rotation[0], simulated.eye_rotation[0]);
     EXPECT_TRUE(pose.head.isApprox(simulated.head, 0.0));

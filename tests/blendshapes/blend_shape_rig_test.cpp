@@ -76,7 +76,7 @@ TEST(BlendShapeRig, ErrorsAreWeightedByArea) {
     other(2, 0) = 1;  // where nothing is compared
     const FieldError error = error_between(one, other, Eigen::Vector3d(1, 8, 0));
     EXPECT_NEAR(error.rms_m, 1e-3, 1e-15);
-    EXPECT_EQ(error.greatest_m, 3e-3);
+    EXPECT_EQ(error.max_m, 3e-3);
 }
 
 }  // namespace

@@ -31,11 +31,11 @@ TEST(RandomFacsTrack, IsOneOfActionUnitsThatComeAndGo) {
     const std::vector<Eigen::VectorXd> track = random_facs_track(shapes, 400, 7);
     ASSERT_EQ(track.size(), 400u);
     double at_once = 0, alike = 0, sided = 0;
-    Eigen::VectorXd most = Eigen::VectorXd::Zero(track[0].size());
+    Eigen::VectorXd max = Eigen::VectorXd::Zero(track[0].size());
     for (const Eigen::VectorXd& frame : track) {
         EXPECT_GE(frame.minCoeff(), 0);
         EXPECT_LE(frame.maxCoeff(), 1);
-        most = most.cwiseMax(frame);
+        max = max.cwiseMax(frame);
         // Degrees of one thing, and opposites
         EXPECT_LE(
             (frame[index("AU25")] > 0) + (frame[index("AU26")] > 0) + (frame[index("AU27")] > 0),
@@ -58,9 +58,9 @@ TEST(RandomFacsTrack, IsOneOfActionUnitsThatComeAndGo) {
     EXPECT_NEAR(alike / sided, 0.8, 0.1);
     // All of them are there some time, and no descriptors of other actions
     for (const char* name : {"AU1.l", "AU12.r", "AU17.l", "AU27", "AU43.r"})
-        EXPECT_GT(most[index(name)], 0.5) << name;
+        EXPECT_GT(max[index(name)], 0.5) << name;
     for (const char* name : {"AU19", "AU34.l", "AU30.l", "AU61.l"})
-        EXPECT_EQ(most[index(name)], 0) << name;
+        EXPECT_EQ(max[index(name)], 0) << name;
 }
 
 TEST(RandomFacsTrack, HangsOnItsSeedAlone) {

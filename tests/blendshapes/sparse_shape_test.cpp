@@ -69,9 +69,9 @@ TEST(SparseShape, HalvesAddUpToTheWholeAndKeepToTheirSides) {
             EXPECT_LT(std::abs(left(v, 1) - left(v - 1, 1)), 0.4e-3) << v;
         }
     }
-    EXPECT_EQ(left_share(-1, 15e-3), 0);
-    EXPECT_EQ(left_share(0, 15e-3), 0.5);
-    EXPECT_EQ(left_share(1, 15e-3), 1);
+    EXPECT_EQ(left_fraction(-1, 15e-3), 0);
+    EXPECT_EQ(left_fraction(0, 15e-3), 0.5);
+    EXPECT_EQ(left_fraction(1, 15e-3), 1);
 }
 
 TEST(ShapeMeasures, StretchIsThatOfTheDeformationWhicheverWayItTurns) {
@@ -85,10 +85,10 @@ TEST(ShapeMeasures, StretchIsThatOfTheDeformationWhicheverWayItTurns) {
     deform(1, 1) = 0.8;
     const Points moved = (turn * deform * rest.transpose()).transpose();
     const Stretch found = stretch_of(triangles, rest, moved);
-    EXPECT_NEAR(found.greatest, 1.4, 1e-12);
-    EXPECT_NEAR(found.least, 0.8, 1e-12);
-    EXPECT_NEAR(found.greatest_of_99, 1.4, 1e-12);
-    EXPECT_NEAR(stretch_of(triangles, rest, rest).greatest, 1, 1e-12);
+    EXPECT_NEAR(found.max, 1.4, 1e-12);
+    EXPECT_NEAR(found.min, 0.8, 1e-12);
+    EXPECT_NEAR(found.max_of_99, 1.4, 1e-12);
+    EXPECT_NEAR(stretch_of(triangles, rest, rest).max, 1, 1e-12);
 }
 
 TEST(BlendShapePlayer, MovesVerticesAsTheLinearRigDoes) {

@@ -44,8 +44,8 @@ TEST(Visemes, LipsAreWhereSpeechHasThem) {
         const Lips& lips = kSpeech[i];
         SCOPED_TRACE(lips.viseme);
         EXPECT_TRUE(poses[i].figures.converged);
-        const auto within = [&](double wanted, double least_mm) {
-            return std::max(least_mm, 0.3 * std::abs(wanted));
+        const auto within = [&](double wanted, double min_mm) {
+            return std::max(min_mm, 0.3 * std::abs(wanted));
         };
         EXPECT_NEAR(
             gap_at_rest_mm + moved_mm(poses[i], "stos").y() - moved_mm(poses[i], "stoi").y(),

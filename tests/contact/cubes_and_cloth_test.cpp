@@ -63,7 +63,7 @@ TEST(StackedCubes, RestOnEachOtherWithTheirWeights) {
     EXPECT_NEAR(stack.floor->total_force(1.5, x, stack.scene.state.v).z(), 2 * kGravity,
                 0.01 * 2 * kGravity);
     // The lower cube bears its neighbour on a part of its face, at up to thrice the mean pressure
-    EXPECT_GT(stack.contact->least_gap_m(x), 0) << "no part of one lies in the other";
+    EXPECT_GT(stack.contact->min_gap_m(x), 0) << "no part of one lies in the other";
     EXPECT_LT(stack.scene.state.v.cwiseAbs().maxCoeff(), 1e-3);
     EXPECT_GT(stack.scene.middle(1).z(), 0.145);
     const int top = stack.scene.grid.index(1, 1, 2), bottom = 27 + stack.scene.grid.index(1, 1, 0);
@@ -128,16 +128,16 @@ TEST(CollidingCubes, KeepMomentumInImplicitStepsAndDoNotPassThroughEachOther) {
     const Vec3 linear = momentum(scene).first;
     const auto system = scene.system();
     const auto steps = testing::implicit_steps(1.0 / 240);
-    double least = 1;
+    double min = 1;
     for (int i = 1; i <= 36; ++i) {
         steps->advance(system, scene.state, i / 240.0);
-        least = std::min(least, contact->least_gap_m(scene.state.x));
+        min = std::min(min, contact->min_gap_m(scene.state.x));
     }
     EXPECT_GT(scene.velocity(1).z(), scene.velocity(0).z()) << "they must have bounced off";
     // Newton stops at 1e-6 of the cube's side: its force is as exact as that
     EXPECT_LT((momentum(scene).first - linear).norm(), 1e-6);
     // Depth of a blow at 0.6 m/s between cubes of 1 kg
-    EXPECT_GT(least, -3e-3);
+    EXPECT_GT(min, -3e-3);
 }
 
 TEST(CollidingCubes, EndInTheSameBitsInTwoRuns) {
@@ -208,8 +208,8 @@ TEST(Cloth, DrapesOverASphereAndOverAMeshWithoutPassingThrough) {
         // Seen by four times as many points as felt the contact
         const ObstacleContact fine(surface_samples(cloth.sheet.rest, cloth.triangles(), 6),
                                    obstacle, material);
-        EXPECT_GT(contact->least_gap_m(kDuration_s, cloth.state.x), -1e-3);
-        EXPECT_GT(fine.least_gap_m(kDuration_s, cloth.state.x), -4e-3);
+        EXPECT_GT(contact->min_gap_m(kDuration_s, cloth.state.x), -1e-3);
+        EXPECT_GT(fine.min_gap_m(kDuration_s, cloth.state.x), -4e-3);
         EXPECT_GT(contact->touching(kDuration_s, cloth.state.x), 20);
         EXPECT_GT(cloth.state.x.row(Cloth::kNodes * Cloth::kNodes / 2).z(), 0.0)
             << "its middle lies on top";

@@ -119,8 +119,8 @@ TEST(RestingCube, IsCarriedByItsWeightOnEveryObstacleAndSinksInLittle) {
         const Vec3 force = contact->total_force(1.5, scene.state.x, scene.state.v);
         EXPECT_NEAR(force.z(), kGravity, 0.01 * kGravity) << rest.name;
         EXPECT_LT(force.head<2>().norm(), 0.01 * kGravity) << rest.name;
-        EXPECT_GT(contact->least_gap_m(1.5, scene.state.x), -rest.deepest_m) << rest.name;
-        EXPECT_LT(contact->least_gap_m(1.5, scene.state.x), kThickness_m) << rest.name;
+        EXPECT_GT(contact->min_gap_m(1.5, scene.state.x), -rest.deepest_m) << rest.name;
+        EXPECT_LT(contact->min_gap_m(1.5, scene.state.x), kThickness_m) << rest.name;
         EXPECT_LT(scene.state.v.cwiseAbs().maxCoeff(), 1e-3) << rest.name;
     }
 }

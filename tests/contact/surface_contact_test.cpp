@@ -160,7 +160,7 @@ TEST(SurfaceContact, FarBodiesHaveNoPairs) {
     contact.begin_step(0, 0.01, boxes.x, boxes.v);
     EXPECT_EQ(contact.pair_count(), 0);
     EXPECT_EQ(contact.energy(0, boxes.x), 0);
-    EXPECT_EQ(contact.least_gap_m(boxes.x), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(contact.min_gap_m(boxes.x), std::numeric_limits<double>::infinity());
 }
 
 TEST(SurfaceContact, SamplesOfAnOpenSheetPressOnAClosedBody) {

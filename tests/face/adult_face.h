@@ -65,10 +65,11 @@ inline const StaticOptions kWithinATenth{
     .iterations = kRestIterations, .tolerance_m = 1e-4, .planes_m = 1e-4};
 
 /// The pose in equilibrium with a drive, found from rest.
-inline FacePose settled(Face& face, const track::Drive& drive, StepStats* figures = nullptr,
-                        const StaticOptions& options = {.iterations = kRestIterations}) {
+inline FacePose equilibrium_pose(Face& face, const track::Drive& drive,
+                                 StepStats* figures = nullptr,
+                                 const StaticOptions& options = {.iterations = kRestIterations}) {
     face.start(always(neutral()));
-    const StepStats found = face.settle(drive.excitation, drive, options);
+    const StepStats found = face.solve_equilibrium(drive.excitation, drive, options);
     if (figures) *figures = found;
     return face.pose();
 }

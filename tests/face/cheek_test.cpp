@@ -46,7 +46,7 @@ TEST(Cheek, ShortensAcrossTheFoldInASmileMoreThanBehindIt) {
     rig::RigDescription rig = rig::adult().rig;
     rig.solids.clear();
     Face face(rig, rig::adult().mesh, preview(), "adult");
-    const Points after = settled(face, with_unit("AU12")).vertices;
+    const Points after = equilibrium_pose(face, with_unit("AU12")).vertices;
     // From the fold half-way between its middle and its lower end, outwards and up
     const Vec3 fold = 0.5 * (head().landmark("nl2_l") + head().landmark("nl3_l"));
     const auto stretch = [&](double from_mm, double to_mm) {

@@ -13,14 +13,14 @@ using track::Kinematic;
 
 constexpr double kG = 9.81;
 
-Face small_face(double step_s = kStep_s, double piece_s = kStep_s) {
+Face small_face(double step_s = kStep_s, double substep_s = kStep_s) {
     return adult_face({.name = "small",
                        .shell_vertices = 300,
                        .iterations = 60,
-                       .least_iterations = 4,
+                       .min_iterations = 4,
                        .tolerance_rms_m = 0.2e-6,
                        .step_s = step_s,
-                       .longest_piece_s = piece_s});
+                       .max_substep_s = substep_s});
 }
 
 /// The same for tests that start it anew, upright and dynamic.
@@ -50,7 +50,7 @@ TEST(Dynamics, UprightWeightLeavesTheImportedFaceAsItIs) {
 TEST(Dynamics, LyingOnTheBackCheeksSinkTowardsTheEars) {
     Face& face = shared_face();
     face.set_gravity(Vec3(0, 0, -kG));
-    const Points lying = moved_mm(face, settled(face, neutral()));
+    const Points lying = moved_mm(face, equilibrium_pose(face, neutral()));
     for (const char* cheek : {"mc_l", "mc_r"}) {
         EXPECT_LT(at(lying, cheek).z(), -0.2) << cheek << ", mm";
         EXPECT_GT(at(lying, cheek).y(), 0.3) << "what hung upright hangs no more";
@@ -62,10 +62,10 @@ TEST(Dynamics, LyingOnTheBackCheeksSinkTowardsTheEars) {
 
 TEST(Dynamics, ATiltedHeadHangsAsOneUnderTiltedWeight) {
     Face& face = shared_face();
-    const FacePose tilted = settled(face, with_kinematic(Kinematic::kHeadRoll, 40));
+    const FacePose tilted = equilibrium_pose(face, with_kinematic(Kinematic::kHeadRoll, 40));
     const Points nodes = face.skin_nodes();
     face.set_gravity(Vec3(tilted.head.linear().transpose() * Vec3(0, -kG, 0)));
-    settled(face, neutral());
+    equilibrium_pose(face, neutral());
     EXPECT_LT(furthest_mm(nodes, face.skin_nodes()), 1e-3);
     EXPECT_GT(furthest_mm(nodes, face.rest_skin_nodes()), 0.3);
 }
@@ -119,8 +119,8 @@ TEST(Dynamics, AHeadThatJumpsIsFeltNoHarderThanTenTimesItsWeight) {
     motion.start(node, Rigid::Identity());
     const Rigid away = head_motion(head, with_kinematic(Kinematic::kHeadYaw, 60));
     const double lag = (motion.begin(away).aim - node).norm();
-    EXPECT_LE(lag, 1.2 * kMostFelt_m_s2 * kStep_s * kStep_s);
-    EXPECT_GT(lag, 0.1 * kMostFelt_m_s2 * kStep_s * kStep_s);
+    EXPECT_LE(lag, 1.2 * kMaxFelt_m_s2 * kStep_s * kStep_s);
+    EXPECT_GT(lag, 0.1 * kMaxFelt_m_s2 * kStep_s * kStep_s);
 }
 
 /// A footfall: the head is stopped within 60 ms from the fall before, a quarter of a second in.
@@ -206,7 +206,8 @@ TEST(Dynamics, AQuasiStaticFaceIsWhereItsDriveHoldsIt) {
     EXPECT_LT(furthest_mm(moving.pose_at(0.05, drive).vertices, moving.head().vertices), 1e-6);
     const FacePose pose = moving.pose_at(0.1, drive);
     // Skin over the soft fold of the cheek creeps last
-    EXPECT_LT(furthest_mm(pose.vertices, settled(held, with_unit("AU12", 0.7)).vertices), 0.3);
+    EXPECT_LT(furthest_mm(pose.vertices, equilibrium_pose(held, with_unit("AU12", 0.7)).vertices),
+              0.3);
     const int zygomaticus = channels().column("zygomaticus_major", Side::kLeft);
     EXPECT_EQ(moving.activation_at(0.1)[zygomaticus],
               with_unit("AU12", 0.7).excitation[zygomaticus]);
@@ -218,7 +219,7 @@ TEST(Dynamics, AJawMovedByMusclesFeelsWhichWayIsDown) {
     const auto open_mm = [&](const Vec3& gravity) {
         face.set_gravity(gravity);
         // A little open, so that weight and not the teeth decides
-        settled(face, with_kinematic(Kinematic::kJawOpen, 0.2));
+        equilibrium_pose(face, with_kinematic(Kinematic::kJawOpen, 0.2));
         return 1e3 * face.pose().jaw.open_m;
     };
     EXPECT_GT(open_mm({0, -3 * kG, 0}), open_mm({0, 3 * kG, 0}) + 0.05);
@@ -226,28 +227,28 @@ TEST(Dynamics, AJawMovedByMusclesFeelsWhichWayIsDown) {
 
 TEST(Dynamics, AFaceOfUsualSizeSettlesToWhereItBegan) {
     Face face = adult_face(quality_named("preview"));
-    const StressReport report = stress(face, channels(), {.steps = 40, .settle_steps = 150});
+    const StressReport report = stress(face, channels(), {.steps = 40, .rest_steps = 150});
     EXPECT_EQ(report.broken_steps, 0);
     EXPECT_EQ(report.inverted_at_rest, 0);
     EXPECT_GT(report.furthest_m, 0.005);
-    EXPECT_LT(1e3 * report.left_at_rest_m, 0.05);
+    EXPECT_LT(1e3 * report.residual_displacement_m, 0.05);
 }
 
 TEST(Dynamics, RandomDriveOfEverythingLeavesNothingBehind) {
-    Face face = adult_face(
-        {.name = "small", .shell_vertices = 300, .iterations = 6, .least_iterations = 6});
+    Face face =
+        adult_face({.name = "small", .shell_vertices = 300, .iterations = 6, .min_iterations = 6});
     const StressReport report =
-        stress(face, channels(), {.steps = 200, .seed = 4, .settle_steps = 150});
+        stress(face, channels(), {.steps = 200, .seed = 4, .rest_steps = 150});
     EXPECT_EQ(report.steps, 200);
     EXPECT_EQ(report.broken_steps, 0);
     EXPECT_EQ(report.inverted_at_rest, 0);
-    EXPECT_LT(1e3 * report.left_at_rest_m, 0.2);
+    EXPECT_LT(1e3 * report.residual_displacement_m, 0.2);
     EXPECT_LT(report.furthest_m, 0.06);
     EXPECT_LT(1e3 * report.deepest_penetration.lips_m, 0.3);
     EXPECT_LT(1e3 * report.deepest_penetration.bone_m, 0.2);
     EXPECT_LT(1e3 * report.deepest_penetration.eyeball_m, 0.2);
-    RecordProperty("most_inverted", report.most_inverted_tets);
-    RecordProperty("left_mm", std::to_string(1e3 * report.left_at_rest_m));
+    RecordProperty("most_inverted", report.max_inverted_tets);
+    RecordProperty("left_mm", std::to_string(1e3 * report.residual_displacement_m));
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ TEST(FaceTerms, ASpringAddedToTheFacePullsAsItsLawSays) {
     const double k = 20;
     sprung.add_force(std::make_shared<SpringToPoint>(node, p, k));
 
-    EXPECT_TRUE(sprung.settle(neutral().excitation, neutral()).converged);
-    plain.settle(neutral().excitation, neutral());
+    EXPECT_TRUE(sprung.solve_equilibrium(neutral().excitation, neutral()).converged);
+    plain.solve_equilibrium(neutral().excitation, neutral());
     const Vec3 x = sprung.nodes().row(node).transpose();
     EXPECT_GT(x.z() - rest.z(), 0.1e-3);
     EXPECT_LT((x - p).norm(), (rest - p).norm());
@@ -84,7 +84,7 @@ TEST(FaceTerms, ASpringActsInStepsOfMotionAndInTheIterationsOfTheMouth) {
     face.start(always(neutral()));
     for (int i = 0; i < 60; ++i) face.step(always(neutral()));
     const double moved = face.nodes().row(node).z() - rest.z();
-    face.settle(neutral().excitation, neutral());
+    face.solve_equilibrium(neutral().excitation, neutral());
     EXPECT_NEAR(moved, face.nodes().row(node).z() - rest.z(), 0.2e-3);
 }
 
@@ -98,8 +98,8 @@ TEST(FaceTerms, ADriveAsConstructedMeansThatNothingIsActive) {
     other.start(always(neutral()));
     other.step(always(neutral()));
     EXPECT_EQ(pose.vertices, other.pose_at(0.1, always(neutral())).vertices);
-    face.settle(nothing.excitation, nothing);
-    other.settle(neutral().excitation, neutral());
+    face.solve_equilibrium(nothing.excitation, nothing);
+    other.solve_equilibrium(neutral().excitation, neutral());
     EXPECT_EQ(face.pose().vertices, other.pose().vertices);
     EXPECT_EQ(face.driven(nothing).excitation, other.driven(neutral()).excitation);
 }
@@ -110,9 +110,9 @@ TEST(FaceTerms, TheEnergyAndTheTetrahedraOfAFaceCanBeAskedFor) {
     EXPECT_LT(face.tets().maxCoeff(), face.node_count());
     const double rest = face.energy_j();
     const track::Drive smile = with_muscle("zygomaticus_major", 0.5);
-    face.settle(smile.excitation, smile);
+    face.solve_equilibrium(smile.excitation, smile);
     EXPECT_LT(face.energy_j(), rest - 1e-6);  // muscles have given their work
-    face.settle({}, {});
+    face.solve_equilibrium({}, {});
     EXPECT_NEAR(face.energy_j(), rest, 1e-6);
 }
 
@@ -123,7 +123,7 @@ TEST(FaceTerms, AMuscleThatActsIsShorterAndPullsAndItsLandmarkMoves) {
     const Vec3 corner = face.landmark("nl3_l");
     EXPECT_LT((corner - face.head().landmark("nl3_l")).norm(), 1e-9);
     const track::Drive smile = with_muscle(muscle, 0.5, Side::kLeft);
-    face.settle(smile.excitation, smile);
+    face.solve_equilibrium(smile.excitation, smile);
     const MuscleState now = face.muscle_state(muscle, Side::kLeft).value();
     EXPECT_GT(rest.length_m, 0.02);
     EXPECT_LT(now.length_m, rest.length_m);

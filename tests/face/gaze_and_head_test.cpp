@@ -18,7 +18,7 @@ Face& face() {
 TEST(Gaze, TurnsEachEyeByItsOwnAngle) {
     track::Drive drive = with_kinematic(Kinematic::kGazeYawLeft, 20);
     drive = with_kinematic(Kinematic::kGazePitchRight, -15, drive);
-    const FacePose pose = settled(face(), drive);
+    const FacePose pose = equilibrium_pose(face(), drive);
     EXPECT_LT((pose.eye_rotation[0] * Vec3::UnitZ() -
                Vec3(std::sin(20 * kDegree), 0, std::cos(20 * kDegree)))
                   .norm(),
@@ -42,7 +42,7 @@ TEST(Gaze, TurnsEachEyeByItsOwnAngle) {
 }
 
 void expect_rigid(Kinematic channel, double value) {
-    const FacePose pose = settled(face(), with_kinematic(channel, value));
+    const FacePose pose = equilibrium_pose(face(), with_kinematic(channel, value));
     const Points& rest = face().head().vertices;
     const Vec3 nose = at(rest, "prn"), nose_now = at(pose.vertices, "prn");
     int above = 0;
@@ -74,23 +74,24 @@ TEST(HeadTurn, IsRigidAboveTheJawAndLeavesTheShoulders) {
 
 TEST(HeadTurn, GoesTheWayItSays) {
     const auto nose_of = [](Kinematic channel, double value) {
-        return at(moved_mm(face(), settled(face(), with_kinematic(channel, value))), "prn");
+        return at(moved_mm(face(), equilibrium_pose(face(), with_kinematic(channel, value))),
+                  "prn");
     };
     EXPECT_GT(nose_of(Kinematic::kHeadYaw, 20).x(), 20) << "yaw > 0 turns to the subject's left";
     EXPECT_GT(nose_of(Kinematic::kHeadPitch, 20).y(), 20) << "pitch > 0 looks up";
     EXPECT_LT((nose_of(Kinematic::kHeadForward, 12) - Vec3(0, 0, 12)).norm(), 0.2);
     const Points tilted =
-        moved_mm(face(), settled(face(), with_kinematic(Kinematic::kHeadRoll, 20)));
+        moved_mm(face(), equilibrium_pose(face(), with_kinematic(Kinematic::kHeadRoll, 20)));
     EXPECT_LT(at(tilted, "t_l").y(), -10) << "roll > 0 lowers the left ear";
     EXPECT_GT(at(tilted, "t_r").y(), 10);
 }
 
 TEST(HeadTurn, CarriesTheGazeAndAnyExpressionWithIt) {
     track::Drive drive = with_unit("AU12", 0.7);
-    const Points smile = settled(face(), drive).vertices;
+    const Points smile = equilibrium_pose(face(), drive).vertices;
     drive = with_kinematic(Kinematic::kHeadYaw, 25, drive);
     drive = with_kinematic(Kinematic::kGazeYawLeft, 10, drive);
-    const FacePose turned = settled(face(), drive);
+    const FacePose turned = equilibrium_pose(face(), drive);
     for (const char* id : {"ch_l", "mc_r", "prn", "bp_l"})
         EXPECT_LT((turned.head * at(smile, id) - at(turned.vertices, id)).norm(), 1e-4)
             << id << ": but for the lids, which go along with the eyes";
@@ -99,7 +100,7 @@ TEST(HeadTurn, CarriesTheGazeAndAnyExpressionWithIt) {
 }
 
 TEST(HeadTurn, DoesNotTearTheNeck) {
-    const FacePose pose = settled(face(), with_kinematic(Kinematic::kHeadYaw, 60));
+    const FacePose pose = equilibrium_pose(face(), with_kinematic(Kinematic::kHeadYaw, 60));
     const Points& rest = face().head().vertices;
     const Triangles& skin = face().head().skin;
     double longest = 0;

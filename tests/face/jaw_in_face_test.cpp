@@ -103,7 +103,7 @@ TEST(JawInFace, ChannelsAskMusclesForAboutWhatTheyAskBonesFor) {
 TEST(JawInFace, FewIterationsFindWhatManyFind) {
     // In the middle of a fast opening, at 0.5 m/s
     Face careful = adult_face(
-        {.name = "careful", .iterations = 200, .least_iterations = 6, .tolerance_rms_m = 1e-7});
+        {.name = "careful", .iterations = 200, .min_iterations = 6, .tolerance_rms_m = 1e-7});
     careful.drive_jaw_by(track::JawDrive::kMuscles);
     track::Drive drive = openers();
     drive.excitation *= 0.3;

@@ -52,7 +52,7 @@ TEST(Jaw, FloorOfTheMouthBulgesBelowTheMandibleOnly) {
 
 TEST(Jaw, OpeningSinksTheFloorOfTheMouth) {
     // Measured on another head: 21 mm down, 14 mm back
-    const FacePose open = settled(face(), with_kinematic(Kinematic::kJawOpen, 1));
+    const FacePose open = equilibrium_pose(face(), with_kinematic(Kinematic::kJawOpen, 1));
     const int throat = rig::adult().vertex("cer");
     const Vec3 moved = (open.vertices.row(throat) - head().vertices.row(throat)).transpose();
     EXPECT_LT(moved.y(), -head().mm(10));
@@ -129,11 +129,11 @@ TEST(Jaw, LipsAreOnTheirOwnSideOfTheBite) {
     const std::vector<double> heights = bite_heights(head(), jaw(), shell);
     ASSERT_EQ(heights.size(), shell.vertex.size());
     const auto height_at = [&](const char* id) {
-        double least = 1, found = 0;
+        double min = 1, found = 0;
         for (std::size_t i = 0; i < heights.size(); ++i) {
             const double d =
                 (head().vertices.row(shell.vertex[i]).transpose() - head().landmark(id)).norm();
-            if (d < least) least = d, found = heights[i];
+            if (d < min) min = d, found = heights[i];
         }
         return found;
     };
@@ -150,7 +150,7 @@ struct OpenJaw {
 const OpenJaw& opened(double open) {
     static std::map<double, OpenJaw> known;
     if (!known.contains(open)) {
-        FacePose pose = settled(face(), with_kinematic(Kinematic::kJawOpen, open));
+        FacePose pose = equilibrium_pose(face(), with_kinematic(Kinematic::kJawOpen, open));
         known[open] = {std::move(pose), face().tissue_volume_m3(), face().inverted_tets()};
     }
     return known[open];
@@ -216,16 +216,16 @@ TEST(JawOpening, TheTongueLiesInTheLowerJaw) {
 }
 
 double tongue_tip_m(const FacePose& pose, int axis) {
-    double most = -1;
-    for (int v : vertices_of("tongue")) most = std::max(most, pose.vertices(v, axis));
-    return most;
+    double max = -1;
+    for (int v : vertices_of("tongue")) max = std::max(max, pose.vertices(v, axis));
+    return max;
 }
 
 TEST(JawOpening, LetsTheTongueOutWhichShutTeethHoldBack) {
-    const double rest = tongue_tip_m(settled(face(), neutral()), 2);
+    const double rest = tongue_tip_m(equilibrium_pose(face(), neutral()), 2);
     const track::Drive shut = with_kinematic(Kinematic::kTongueOut, 1.0);
-    EXPECT_LT(tongue_tip_m(settled(face(), shut), 2), rest + 6e-3);
-    const FacePose open = settled(face(), with_kinematic(Kinematic::kJawOpen, 0.4, shut));
+    EXPECT_LT(tongue_tip_m(equilibrium_pose(face(), shut), 2), rest + 6e-3);
+    const FacePose open = equilibrium_pose(face(), with_kinematic(Kinematic::kJawOpen, 0.4, shut));
     const double range = 1e-3 * rig::adult().rig.facs.ranges.tongue_out_mm;
     EXPECT_GT(tongue_tip_m(open, 2), rest + 0.5 * range);
     EXPECT_LT(tongue_tip_m(open, 2), rest + range);
@@ -252,10 +252,11 @@ TEST(JawOpening, TheTongueLiftsItsTip) {
         return y;
     };
     const double level = foremost_y(opened(0.5).pose);
-    EXPECT_GT(foremost_y(settled(face(), with_kinematic(Kinematic::kTongueUp, 1.0, open))),
+    EXPECT_GT(foremost_y(equilibrium_pose(face(), with_kinematic(Kinematic::kTongueUp, 1.0, open))),
               level + 6e-3);
-    EXPECT_LT(foremost_y(settled(face(), with_kinematic(Kinematic::kTongueUp, -1.0, open))),
-              level - 3e-3);
+    EXPECT_LT(
+        foremost_y(equilibrium_pose(face(), with_kinematic(Kinematic::kTongueUp, -1.0, open))),
+        level - 3e-3);
 }
 
 }  // namespace

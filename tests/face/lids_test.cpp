@@ -20,8 +20,8 @@ track::Drive gaze(double yaw_deg, double pitch_deg, track::Drive drive = neutral
 }
 
 /// The largest stretch, mm, along which the eye's centre looks out between the lids.
-double largest_gap_mm(const rig::Head& head, const EyeLids& lids, const Points& vertices) {
-    return 1e3 * largest_lid_gap_m(head, lids, vertices);
+double max_gap_mm(const rig::Head& head, const EyeLids& lids, const Points& vertices) {
+    return 1e3 * max_lid_gap_m(head, lids, vertices);
 }
 
 class Lids : public testing::Test {
@@ -40,7 +40,7 @@ class Lids : public testing::Test {
         for (int side = 0; side < 2; ++side)
             largest = std::max(
                 largest,
-                largest_gap_mm(face().head(), EyeLids(face().head(), side, 0.96), pose.vertices));
+                max_gap_mm(face().head(), EyeLids(face().head(), side, 0.96), pose.vertices));
         return largest;
     }
     /// How much deeper than at rest the skin around an eye reaches into the eye's surface, mm.
@@ -50,45 +50,45 @@ class Lids : public testing::Test {
 };
 
 TEST_F(Lids, ABlinkClosesBothEyesFromCanthusToCanthus) {
-    const FacePose open = settled(face(), neutral());
+    const FacePose open = equilibrium_pose(face(), neutral());
     EXPECT_GT(gap_mm(open, "_l"), 8);
     for (const char* unit : {"AU43", "AU45"}) {
-        EXPECT_LT(gaps_mm(settled(face(), with_unit(unit))), 0.3) << unit;
+        EXPECT_LT(gaps_mm(equilibrium_pose(face(), with_unit(unit))), 0.3) << unit;
         EXPECT_EQ(face().inverted_tets(), 0) << unit;
     }
     for (const auto& [yaw, pitch] : {std::pair{0., -30.}, {30., 20.}})
-        EXPECT_LT(gaps_mm(settled(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.3)
+        EXPECT_LT(gaps_mm(equilibrium_pose(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.3)
             << "over an eye turned " << yaw << " " << pitch;
 }
 
 TEST_F(Lids, HalfABlinkLeavesHalfTheFissure) {
-    const double open = gaps_mm(settled(face(), neutral())),
-                 half = gaps_mm(settled(face(), with_unit("AU45", 0.5)));
+    const double open = gaps_mm(equilibrium_pose(face(), neutral())),
+                 half = gaps_mm(equilibrium_pose(face(), with_unit("AU45", 0.5)));
     EXPECT_GT(half, 0.3 * open);
     EXPECT_LT(half, 0.6 * open);
 }
 
 TEST_F(Lids, ABlinkLeavesTheCanthiWhereTheirTendonsHoldThem) {
-    const Points moved = moved_mm(face(), settled(face(), with_unit("AU45")));
+    const Points moved = moved_mm(face(), equilibrium_pose(face(), with_unit("AU45")));
     for (const char* id : {"en_l", "en_r", "ex_l", "ex_r"})
         EXPECT_LT(at(moved, id).norm(), 2.0) << id;
 }
 
 TEST_F(Lids, LidsGoAlongWithAnEyeThatLooksAside) {
-    const Points left = moved_mm(face(), settled(face(), gaze(30, 0)));
+    const Points left = moved_mm(face(), equilibrium_pose(face(), gaze(30, 0)));
     for (const char* id : {"ps_l", "ps_r", "pi_l", "pi_r"}) EXPECT_GT(at(left, id).x(), 0.5) << id;
 }
 
 TEST_F(Lids, WithoutItsLevatorALidFallsAlmostShut) {
-    const FacePose pose = settled(face(), with_muscle("levator_palpebrae_superioris", -1));
+    const FacePose pose = equilibrium_pose(face(), with_muscle("levator_palpebrae_superioris", -1));
     EXPECT_LT(gap_mm(pose, "_l"), 1.0);
     EXPECT_LT(gap_mm(pose, "_r"), 1.0);
 }
 
 TEST_F(Lids, OneEyeWinksAlone) {
     const FacePose pose =
-        settled(face(), with_muscle("levator_palpebrae_superioris", -1, Side::kLeft));
-    const FacePose open = settled(face(), neutral());
+        equilibrium_pose(face(), with_muscle("levator_palpebrae_superioris", -1, Side::kLeft));
+    const FacePose open = equilibrium_pose(face(), neutral());
     EXPECT_LT(gap_mm(pose, "_l"), 1.0);
     EXPECT_NEAR(gap_mm(pose, "_r"), gap_mm(open, "_r"), 0.05);
 }
@@ -107,13 +107,14 @@ TEST_F(Lids, AfterABlinkTheFaceIsAsBefore) {
 }
 
 TEST_F(Lids, TheLevatorOpensTheEyeWide) {
-    const FacePose wide = settled(face(), with_unit("AU5")), open = settled(face(), neutral());
+    const FacePose wide = equilibrium_pose(face(), with_unit("AU5")),
+                   open = equilibrium_pose(face(), neutral());
     EXPECT_GT(gap_mm(wide, "_l"), gap_mm(open, "_l") + 1.5);
 }
 
 TEST_F(Lids, TheUpperLidFollowsTheGazeUpAndDown) {
-    const Points down = moved_mm(face(), settled(face(), gaze(0, -30))),
-                 up = moved_mm(face(), settled(face(), gaze(0, 30)));
+    const Points down = moved_mm(face(), equilibrium_pose(face(), gaze(0, -30))),
+                 up = moved_mm(face(), equilibrium_pose(face(), gaze(0, 30)));
     EXPECT_LT(at(down, "ps_l").y(), -3);
     EXPECT_LT(at(down, "pi_l").y(), -0.5);
     EXPECT_GT(at(up, "ps_l").y(), 1.5);
@@ -123,19 +124,21 @@ TEST_F(Lids, TheUpperLidFollowsTheGazeUpAndDown) {
 
 TEST_F(Lids, NoLidEntersItsEye) {
     for (const char* unit : {"AU45", "AU43", "AU5", "AU6", "AU7"})
-        EXPECT_LT(beyond_rest_mm(settled(face(), with_unit(unit))), 0.2) << unit;
+        EXPECT_LT(beyond_rest_mm(equilibrium_pose(face(), with_unit(unit))), 0.2) << unit;
     for (const auto& [yaw, pitch] :
          {std::pair{0., 30.}, {0., -40.}, {40., 0.}, {-40., 0.}, {30., -25.}, {-25., 25.}}) {
-        EXPECT_LT(beyond_rest_mm(settled(face(), gaze(yaw, pitch))), 0.2) << yaw << " " << pitch;
-        EXPECT_LT(beyond_rest_mm(settled(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.2)
+        EXPECT_LT(beyond_rest_mm(equilibrium_pose(face(), gaze(yaw, pitch))), 0.2)
+            << yaw << " " << pitch;
+        EXPECT_LT(beyond_rest_mm(equilibrium_pose(face(), gaze(yaw, pitch, with_unit("AU45")))),
+                  0.2)
             << "closed over an eye turned " << yaw << " " << pitch;
     }
 }
 
 TEST_F(Lids, EachBrowUnitMovesItsOwnPartOfTheBrow) {
-    const Points inner = moved_mm(face(), settled(face(), with_unit("AU1"))),
-                 outer = moved_mm(face(), settled(face(), with_unit("AU2"))),
-                 lowered = moved_mm(face(), settled(face(), with_unit("AU4")));
+    const Points inner = moved_mm(face(), equilibrium_pose(face(), with_unit("AU1"))),
+                 outer = moved_mm(face(), equilibrium_pose(face(), with_unit("AU2"))),
+                 lowered = moved_mm(face(), equilibrium_pose(face(), with_unit("AU4")));
     EXPECT_GT(at(inner, "bm_l").y(), 3);
     EXPECT_LT(at(inner, "bl_l").y(), 0.4 * at(inner, "bm_l").y());
     EXPECT_GT(at(outer, "bp_l").y(), 3);
@@ -157,12 +160,13 @@ TEST(TarsalPlates, MarginsAreMeasuredOnTheMesh) {
         for (const char* id : {"ulm", "ps", "ull"}) EXPECT_NEAR(off_mm(id, true), 0, 1.5) << id;
         for (const char* id : {"llm", "pi", "lll"}) EXPECT_NEAR(off_mm(id, false), 0, 1.5) << id;
         EXPECT_NEAR(1e3 * lids.zone_m() * (lids.upper_angle(0.45) - lids.lower_angle(0.45)),
-                    largest_gap_mm(rig::adult_placed(), lids, rig::adult_placed().vertices), 1.0);
+                    max_gap_mm(rig::adult_placed(), lids, rig::adult_placed().vertices), 1.0);
     }
 }
 
 LidMember on_margin(bool upper, double place) {
-    return {.upper = upper, .place = place, .height = 0, .share = upper ? 1.0 : 0.0, .beyond = 0};
+    return {
+        .upper = upper, .place = place, .height = 0, .fraction = upper ? 1.0 : 0.0, .beyond = 0};
 }
 
 TEST(TarsalPlates, MarginsMeetWhenClosedWhereverTheySlide) {
@@ -238,14 +242,14 @@ TEST_P(MeasuredHeads, ShutTheirEyes) {
     const auto test = GetParam() == std::string("ict") ? rig::ict_head() : rig::makehuman_head();
     if (!test) GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
     Face face(test->rig, test->mesh, {"test", 400, 6}, GetParam());
-    const FacePose pose = settled(face, with_unit("AU45"));
+    const FacePose pose = equilibrium_pose(face, with_unit("AU45"));
     // Up and aside the eyes pull their lids furthest apart
-    const FacePose aside = settled(face, gaze(-30, 20, with_unit("AU45")));
+    const FacePose aside = equilibrium_pose(face, gaze(-30, 20, with_unit("AU45")));
     for (int side = 0; side < 2; ++side) {
         const EyeLids lids(face.head(), side, 0.96);
-        EXPECT_GT(largest_gap_mm(face.head(), lids, face.head().vertices), 6);
-        EXPECT_LT(largest_gap_mm(face.head(), lids, pose.vertices), 0.3);
-        EXPECT_LT(largest_gap_mm(face.head(), lids, aside.vertices), 0.3);
+        EXPECT_GT(max_gap_mm(face.head(), lids, face.head().vertices), 6);
+        EXPECT_LT(max_gap_mm(face.head(), lids, pose.vertices), 0.3);
+        EXPECT_LT(max_gap_mm(face.head(), lids, aside.vertices), 0.3);
     }
 }
 

@@ -23,11 +23,12 @@ Quality with_mouth(int iterations, int mouth_passes, double tolerance_rms_m) {
 // Lips that press on each other and on teeth, muscles, skin, an open jaw, air behind it and the weight of a tilted head: all that
 // pulls at a mouth.
 track::Drive all_that_pulls(double t_s) {
-    const double share = std::min(1.0, t_s / 0.1);
-    track::Drive drive = with_kinematic(track::Kinematic::kJawOpen, 0.3 * share);
-    drive.excitation += share * (with_unit("AU18").excitation + 0.5 * with_unit("AU12").excitation);
+    const double fraction = std::min(1.0, t_s / 0.1);
+    track::Drive drive = with_kinematic(track::Kinematic::kJawOpen, 0.3 * fraction);
+    drive.excitation +=
+        fraction * (with_unit("AU18").excitation + 0.5 * with_unit("AU12").excitation);
     drive.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] = 300;
-    drive.kinematic[static_cast<std::size_t>(track::Kinematic::kHeadPitch)] = 20 * share;
+    drive.kinematic[static_cast<std::size_t>(track::Kinematic::kHeadPitch)] = 20 * fraction;
     return drive;
 }
 

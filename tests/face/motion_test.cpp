@@ -75,19 +75,19 @@ TEST(Motion, HeldStillTheFaceComesToRest) {
     const track::Drive last = wild(0.999);
     const DriveAt drive = [&](double t) { return t < 1 ? wild(t) : last; };
     face.start(always(neutral()));
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < 60; ++i) {
         face.step(drive);
-        most = std::max(most, face.kinetic_energy_j());
+        max = std::max(max, face.kinetic_energy_j());
     }
     for (int i = 0; i < 120; ++i) face.step(drive);
     // What is left is a tremor of lips in contact, some hundredths of a millimetre a step.
-    EXPECT_LT(face.kinetic_energy_j(), 1e-3 * most);
+    EXPECT_LT(face.kinetic_energy_j(), 1e-3 * max);
     const Points before = face.pose().vertices;
     face.step(drive);
     const double speed = (face.pose().vertices - before).rowwise().norm().maxCoeff() / kStep_s;
     EXPECT_LT(speed, 15e-3) << "m/s";
-    RecordProperty("ratio", std::to_string(most / face.kinetic_energy_j()));
+    RecordProperty("ratio", std::to_string(max / face.kinetic_energy_j()));
     RecordProperty("speed_mm_per_s", std::to_string(1e3 * speed));
 }
 
@@ -113,7 +113,7 @@ TEST(Motion, StepsComeToTheEquilibriumThatSettlingFinds) {
     const DriveAt drive = [&](double) { return smile; };
     stepped.start(always(neutral()));
     for (int i = 0; i < 120; ++i) stepped.step(drive);
-    const Points a = stepped.pose().vertices, b = settled(stepped, smile).vertices;
+    const Points a = stepped.pose().vertices, b = equilibrium_pose(stepped, smile).vertices;
     EXPECT_LT(1e3 * (a - b).rowwise().norm().maxCoeff(), 0.5);
 }
 
@@ -138,7 +138,7 @@ TEST(Motion, AFaceStartedAgainForgetsWhatItDid) {
         return face.pose_at(0.5, drive).vertices;
     };
     const Points first = run();
-    settled(face, with_unit("AU27"), nullptr, kNearRest);
+    equilibrium_pose(face, with_unit("AU27"), nullptr, kNearRest);
     const Points second = run();
     EXPECT_TRUE((first.array() == second.array()).all());
     EXPECT_EQ(face.history().size(), 30u);

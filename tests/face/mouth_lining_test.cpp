@@ -23,7 +23,7 @@ TEST(MouthLining, DoesNotComeThroughTheChinWhenLipsFunnel) {
     Face face = adult_face();
     track::Drive funnel = with_unit("AU22");
     funnel.excitation = (funnel.excitation + with_unit("AU25").excitation).cwiseMin(1.0);
-    const FacePose pose = settled(face, funnel);
+    const FacePose pose = equilibrium_pose(face, funnel);
     const rig::Head& head = face.head();
     const geom::SurfaceTree rest(head.vertices, head.skin), now(pose.vertices, head.skin);
     // How far behind the skin a point lies

@@ -26,7 +26,7 @@ double turn_of_red_deg(const Points& from, const Points& to, const char* rim, co
 TEST(Mouth, LipsAndTeethHardlyPassThroughEachOther) {
     for (const char* unit : {"AU18", "AU24", "AU14", "AU28_lower"}) {
         StepStats figures;
-        settled(adult(), with_unit(unit), &figures);
+        equilibrium_pose(adult(), with_unit(unit), &figures);
         EXPECT_LE(figures.lip_depth_m, 0.3e-3) << unit;
         EXPECT_LE(figures.bone_depth_m, 0.2e-3) << unit;
         RecordProperty(unit, std::to_string(1e3 * figures.lip_depth_m) + " " +
@@ -50,13 +50,13 @@ TEST(Mouth, PressedLipsDoNotSinkInAsTimePasses) {
 
 TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
     const Points& rest = adult().head().vertices;
-    const FacePose lower = settled(adult(), with_unit("AU28_lower"));
+    const FacePose lower = equilibrium_pose(adult(), with_unit("AU28_lower"));
     // Less than the upper one, which it may not pass through
     EXPECT_GT(turn_of_red_deg(rest, lower.vertices, "stoi", "li"), 1.5);
     EXPECT_LT(at(moved_mm(adult(), lower), "stoi").z(), -1.5);
     // It buckles on its way, and comes to rest late
     StepStats figures;
-    const FacePose upper = settled(adult(), with_unit("AU28_upper"), &figures);
+    const FacePose upper = equilibrium_pose(adult(), with_unit("AU28_upper"), &figures);
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LT(turn_of_red_deg(rest, upper.vertices, "stos", "ls"), -6);
@@ -64,7 +64,7 @@ TEST(Mouth, MarginalFibresRollTheLipsInOverTheTeeth) {
 }
 
 TEST(Mouth, PeripheralFibresPushTheLipsForwards) {
-    const Points moved = moved_mm(adult(), settled(adult(), with_unit("AU18")));
+    const Points moved = moved_mm(adult(), equilibrium_pose(adult(), with_unit("AU18")));
     // The rims turn out, so that they come farther forward than the borders of the red
     for (const char* rim : {"stos", "stoi"}) EXPECT_GT(at(moved, rim).z(), 8) << rim;
     for (const char* border : {"ls", "li"}) EXPECT_GT(at(moved, border).z(), 2.5) << border;
@@ -74,7 +74,7 @@ TEST(Mouth, PeripheralFibresPushTheLipsForwards) {
 
 TEST(Mouth, ASmileDrawsTheCornersUpWithoutTheLipsOverlapping) {
     StepStats figures;
-    const Points moved = moved_mm(adult(), settled(adult(), with_unit("AU12"), &figures));
+    const Points moved = moved_mm(adult(), equilibrium_pose(adult(), with_unit("AU12"), &figures));
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);
     for (const char* corner : {"ch_l", "ch_r"}) {
@@ -85,7 +85,7 @@ TEST(Mouth, ASmileDrawsTheCornersUpWithoutTheLipsOverlapping) {
 }
 
 TEST(Mouth, AWideOpenJawLeavesTheUpperLipAndItsLiningAtTheTeeth) {
-    const FacePose pose = settled(adult(), with_kinematic(track::Kinematic::kJawOpen, 1));
+    const FacePose pose = equilibrium_pose(adult(), with_kinematic(track::Kinematic::kJawOpen, 1));
     const rig::Head& head = adult().head();
     const Points moved = moved_mm(adult(), pose);
     EXPECT_GT(at(moved, "stos").y(), -7);

@@ -47,7 +47,7 @@ class MuscleSolidsInFace : public testing::Test {
 };
 
 TEST_F(MuscleSolidsInFace, WithoutActivationNothingMoves) {
-    const FacePose pose = settled(face(), neutral());
+    const FacePose pose = equilibrium_pose(face(), neutral());
     EXPECT_LT((pose.vertices - face().head().vertices).rowwise().norm().maxCoeff(), 1e-6);
     for (const SolidFigures& figures : face().solid_figures())
         EXPECT_NEAR(figures.volume_ratio, 1.0, 1e-9) << figures.muscle;
@@ -57,7 +57,7 @@ TEST_F(MuscleSolidsInFace, AFullContractionKeepsTheVolumeOfEveryMuscle) {
     for (const char* muscle : {"masseter_superficial", "zygomaticus_major", "mentalis",
                                "orbicularis_oris_upper_peripheral"}) {
         StepStats figures;
-        settled(face(), with_muscle(muscle, 1.0), &figures);
+        equilibrium_pose(face(), with_muscle(muscle, 1.0), &figures);
         EXPECT_LT(figures.last_step_rms_m, 1e-4) << muscle;
         EXPECT_LT(figures.muscle_volume_error, 0.01) << muscle;
         const SolidFigures now = of(muscle);
@@ -66,31 +66,32 @@ TEST_F(MuscleSolidsInFace, AFullContractionKeepsTheVolumeOfEveryMuscle) {
         if (std::string(muscle) != "orbicularis_oris_upper_peripheral") {
             EXPECT_GT(now.thickness_ratio, 1.0) << muscle << " does not bulge";
         }
-        EXPECT_GT(now.least_cell_ratio, 0.9) << muscle;
+        EXPECT_GT(now.min_cell_ratio, 0.9) << muscle;
     }
 }
 
 TEST_F(MuscleSolidsInFace, BitingBulgesTheSkinOverTheMasseter) {
-    const FacePose pose = settled(face(), with_muscle("masseter_superficial", 1.0));
+    const FacePose pose = equilibrium_pose(face(), with_muscle("masseter_superficial", 1.0));
     const Points u = moved_mm(face(), pose);
-    double most = 0;
+    double max = 0;
     for (long v = 0; v < u.rows(); ++v) {
         const Vec3 p = face().head().vertices.row(v).transpose();
         if (face().head().carrier[v] == rig::Carrier::kSkin && p.x() > 0.05 && p.z() < 0.06)
-            most = std::max(most, u(v, 0));  // outwards on the left
+            max = std::max(max, u(v, 0));  // outwards on the left
     }
-    EXPECT_GT(most, 0.3);
-    EXPECT_LT(most, 5);
+    EXPECT_GT(max, 0.3);
+    EXPECT_LT(max, 5);
 }
 
 TEST_F(MuscleSolidsInFace, ASmileDrawsTheCornerUpAndOutwards) {
-    const Points u = moved_mm(face(), settled(face(), with_muscle("zygomaticus_major", 1.0)));
+    const Points u =
+        moved_mm(face(), equilibrium_pose(face(), with_muscle("zygomaticus_major", 1.0)));
     EXPECT_GT(at(u, "ch_l").y(), 3);
     EXPECT_GT(at(u, "ch_l").x(), 2);
 }
 
 TEST_F(MuscleSolidsInFace, AnOpenJawStretchesTheMasseterAndKeepsItsVolume) {
-    settled(face(), with_kinematic(track::Kinematic::kJawOpen, 0.4));
+    equilibrium_pose(face(), with_kinematic(track::Kinematic::kJawOpen, 0.4));
     EXPECT_GT(of("masseter_superficial").mean_stretch, 1.1);
     EXPECT_NEAR(of("masseter_superficial").volume_ratio, 1.0, 0.01);
 }

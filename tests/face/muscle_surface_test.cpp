@@ -89,20 +89,20 @@ TEST_F(MuscleSurface, AContractedMuscleIsShorterAndThickerAndKeepsItsVolume) {
     const Points rest = at_rest();
     const auto& zygomaticus = of("zygomaticus_major", Side::kLeft);
     const track::Drive drive = with_muscle("zygomaticus_major", 1.0);
-    settled(*face, drive);
+    equilibrium_pose(*face, drive);
     const Points x = face->muscle_vertices_at(0);
     const auto extent = [&](const Points& p) {  // between the ends of the fibres
         const MuscleSurfaces& all = face->muscle_surfaces();
         Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-        double least = 1e9, most = -1e9;
+        double min = 1e9, max = -1e9;
         for (long i = 0; i < zygomaticus.triangles.size(); ++i) {
             const int v = zygomaticus.triangles.data()[i];
-            if (all.fibre(v, 0) < least) {
-                least = all.fibre(v, 0);
+            if (all.fibre(v, 0) < min) {
+                min = all.fibre(v, 0);
                 low = p.row(v).transpose();
             }
-            if (all.fibre(v, 0) > most) {
-                most = all.fibre(v, 0);
+            if (all.fibre(v, 0) > max) {
+                max = all.fibre(v, 0);
                 high = p.row(v).transpose();
             }
         }

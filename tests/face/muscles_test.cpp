@@ -24,7 +24,7 @@ class Muscles : public testing::Test {
     }
     static Points moved(const track::Drive& drive) {
         StepStats figures;
-        const FacePose pose = settled(face(), drive, &figures, kNearRest);
+        const FacePose pose = equilibrium_pose(face(), drive, &figures, kNearRest);
         EXPECT_LT(figures.converged ? 0.0 : figures.last_step_rms_m, kCircles_m);
         return moved_mm(face(), pose);
     }
@@ -37,8 +37,8 @@ class Muscles : public testing::Test {
         static std::map<std::pair<std::string, std::optional<Side>>, Contraction> known;
         const auto key = std::pair(muscle, side);
         if (!known.contains(key)) {
-            Points u = moved_mm(
-                face(), settled(face(), with_muscle(muscle, 1.0, side), nullptr, kWithinATenth));
+            Points u = moved_mm(face(), equilibrium_pose(face(), with_muscle(muscle, 1.0, side),
+                                                         nullptr, kWithinATenth));
             known[key] = {std::move(u), face().mean_stretch(muscle)};
         }
         return known[key];
@@ -81,9 +81,9 @@ TEST_F(Muscles, EachOfTheTwentyEightMovesTheSkin) {
     for (const rig::Muscle& muscle : mimetic()) {
         const auto& [u, mean_stretch] = contraction(muscle.id, std::nullopt);
         EXPECT_TRUE(u.allFinite()) << muscle.id;
-        const double most = u.row(furthest(u)).norm();
-        EXPECT_GT(most, 0.5) << muscle.id;
-        EXPECT_LT(most, 25) << muscle.id;
+        const double max = u.row(furthest(u)).norm();
+        EXPECT_GT(max, 0.5) << muscle.id;
+        EXPECT_LT(max, 25) << muscle.id;
         EXPECT_LT(mean_stretch, 0.97) << muscle.id << " does not shorten";
     }
 }
@@ -100,10 +100,10 @@ TEST_F(Muscles, ALeftMuscleMovesTheLeftSide) {
         const double left = of_side(u, Side::kLeft), right = of_side(u, Side::kRight);
         // Muscles that end in the skin of the midline draw it along with its other side, all the more on the columella,
         // which is narrower than a tetrahedron.
-        double least_ratio = 4;
-        if (ending_in_the_midline.count(muscle.id)) least_ratio = 1.4;
-        if (muscle.id == "depressor_septi_nasi") least_ratio = 1.05;
-        EXPECT_GT(left, least_ratio * right) << muscle.id << " left " << left << " right " << right;
+        double min_ratio = 4;
+        if (ending_in_the_midline.count(muscle.id)) min_ratio = 1.4;
+        if (muscle.id == "depressor_septi_nasi") min_ratio = 1.05;
+        EXPECT_GT(left, min_ratio * right) << muscle.id << " left " << left << " right " << right;
     }
 }
 
@@ -126,7 +126,7 @@ TEST_F(Muscles, BothSidesTogetherMoveAsMirrorImages) {
         geom::find_mirror_pairs(one.simulated_skin(), one.head().vertices, Vec3::UnitX(), 0.0);
     ASSERT_TRUE(mirror.found());
     for (const char* unit : {"AU9", "AU12", "AU45"}) {
-        const Points u = moved_mm(one, settled(face(), with_unit(unit)));
+        const Points u = moved_mm(one, equilibrium_pose(face(), with_unit(unit)));
         double worst = 0, squares = 0;
         long count = 0;
         for (std::size_t v = 0; v < mirror.partner.size(); ++v) {
@@ -148,9 +148,9 @@ TEST_F(Muscles, MoreActivationMovesMore) {
         double before = 0;
         for (double a : {0.3, 0.6, 1.0}) {
             const Points u = a < 1 ? moved(with_muscle(muscle, a)) : moved(muscle);
-            const double most = u.row(furthest(u)).norm();
-            EXPECT_GT(most, before) << muscle << " at " << a;
-            before = most;
+            const double max = u.row(furthest(u)).norm();
+            EXPECT_GT(max, before) << muscle << " at " << a;
+            before = max;
         }
     }
 }
@@ -241,17 +241,18 @@ TEST_F(Muscles, ASmileKeepsTheVolumeOfTheTissue) {
     const double rest = face().tissue_volume_m3();
     EXPECT_GT(rest, 1e-4);
     EXPECT_LT(rest, 1e-3);
-    settled(face(), with_unit("AU12"));
+    equilibrium_pose(face(), with_unit("AU12"));
     EXPECT_NEAR(face().tissue_volume_m3() / rest, 1.0, 0.03);
 }
 
 TEST_F(Muscles, AStrongerMuscleMovesMore) {
     Face other = adult_face();
     const double before =
-        at(moved_mm(other, settled(other, with_muscle("risorius", 0.5))), "ch_l").norm();
+        at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm();
     other.scale_muscle("risorius", 2.0);
-    EXPECT_GT(at(moved_mm(other, settled(other, with_muscle("risorius", 0.5))), "ch_l").norm(),
-              1.2 * before);
+    EXPECT_GT(
+        at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm(),
+        1.2 * before);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(OtherPeople, MoveAndStayWhole) {
         ASSERT_TRUE(rest.allFinite());
         for (const std::string& unit : units) {
             StepStats figures;
-            const Points moved = settled(face, with_unit(unit), &figures).vertices;
+            const Points moved = equilibrium_pose(face, with_unit(unit), &figures).vertices;
             ASSERT_TRUE(moved.allFinite()) << unit;
             // Lips that slide over teeth may still creep by some tenths of a millimetre
             EXPECT_LT(figures.last_step_rms_m, 0.4e-3) << unit;

@@ -62,32 +62,32 @@ TEST(PlatysmaCords, StandOutFromTheNeckOfTheSideThatPullsAndFromNothingElse) {
 
     activation[channels.column("platysma", Side::kLeft)] = 1;
     cords.raise(activation, vertices, depth);
-    double most = 0;
+    double max = 0;
     for (long v = 0; v < vertices.rows(); ++v) {
         const Vec3 rest = head.vertices.row(v);
         const double moved = (vertices.row(v) - head.vertices.row(v)).norm();
-        most = std::max(most, moved);
+        max = std::max(max, moved);
         if (moved > 0.1e-3) {
             EXPECT_GT(rest.x(), 0) << v;
             EXPECT_LT(rest.y(), head.landmark("ch_l").y()) << v;
         }
     }
-    EXPECT_GT(1e3 * most, 1.5) << "mm";
-    EXPECT_LT(1e3 * most, 7.0) << "mm";
+    EXPECT_GT(1e3 * max, 1.5) << "mm";
+    EXPECT_LT(1e3 * max, 7.0) << "mm";
 
     // Twice the pull on a bed that gives way in proportion: never more than twice the height
     activation *= 0.5;
     Points half = head.vertices;
     cords.raise(activation, half, depth);
     const double at_half = (half - head.vertices).rowwise().norm().maxCoeff();
-    EXPECT_GT(at_half, 0.4 * most);
-    EXPECT_LT(at_half, 0.8 * most);
+    EXPECT_GT(at_half, 0.4 * max);
+    EXPECT_LT(at_half, 0.8 * max);
 }
 
 TEST(PlatysmaCords, ShowAsLinesThatStandOutInTheFace) {
     Face face = adult_face();
     StepStats figures;
-    const FacePose pose = settled(face, with_unit("AU21"), &figures, kNearRest);
+    const FacePose pose = equilibrium_pose(face, with_unit("AU21"), &figures, kNearRest);
     EXPECT_TRUE(figures.converged);
     const Vec3 hyoid = face.head().landmark("hyo");
     double highest = 0;

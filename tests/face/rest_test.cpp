@@ -30,15 +30,15 @@ TEST(Rest, LastsThroughASecondOfSteps) {
 TEST(Rest, IsTheEquilibriumWithoutDrive) {
     Face face = adult_face();
     face.start(always(neutral()));
-    const StepStats figures = face.settle(neutral().excitation, neutral());
+    const StepStats figures = face.solve_equilibrium(neutral().excitation, neutral());
     EXPECT_TRUE(figures.converged);
     EXPECT_LT((face.pose().vertices - face.head().vertices).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(Rest, IsFoundAgainAfterASmile) {
     Face face = adult_face();
-    settled(face, with_unit("AU12"));
-    face.settle(neutral().excitation, neutral());
+    equilibrium_pose(face, with_unit("AU12"));
+    face.solve_equilibrium(neutral().excitation, neutral());
     EXPECT_LT(1e3 * (face.pose().vertices - face.head().vertices).rowwise().norm().maxCoeff(), 0.3)
         << "mm left of a smile that is over";
 }

@@ -44,14 +44,14 @@ const Tissue& adult() {
 }
 
 double smallest_volume(const TissueMesh& mesh) {
-    double least = 1;
+    double min = 1;
     for (long t = 0; t < mesh.tets.rows(); ++t) {
         const auto edge = [&](int k) -> Vec3 {
             return (mesh.nodes.row(mesh.tets(t, k)) - mesh.nodes.row(mesh.tets(t, 0))).transpose();
         };
-        least = std::min(least, edge(1).dot(edge(2).cross(edge(3))) / 6);
+        min = std::min(min, edge(1).dot(edge(2).cross(edge(3))) / 6);
     }
-    return least;
+    return min;
 }
 
 TEST(Shell, HasAboutAsManyVerticesAsAskedFor) {
@@ -345,10 +345,10 @@ TEST(SkinBinding, CarriesAMovedShellToItsVertices) {
     const Points u = moved - adult().head.vertices;
     for (long v = 0; v < u.rows(); ++v) {
         // No vertex moves further than the shell, none against it.
-        const double share = u.row(v).dot(shift) / shift.squaredNorm();
-        ASSERT_LE(share, 1 + 1e-9) << v;
-        ASSERT_GE(share, -1e-9) << v;
-        ASSERT_LT((u.row(v).transpose() - share * shift).norm(), 1e-12) << v;
+        const double fraction = u.row(v).dot(shift) / shift.squaredNorm();
+        ASSERT_LE(fraction, 1 + 1e-9) << v;
+        ASSERT_GE(fraction, -1e-9) << v;
+        ASSERT_LT((u.row(v).transpose() - fraction * shift).norm(), 1e-12) << v;
     }
     for (const char* id : {"ch_l", "mc_l", "pg", "bp_l", "prn"})
         EXPECT_LT((at(u, id) - shift).norm(), 1e-9) << id;

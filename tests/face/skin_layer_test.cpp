@@ -174,7 +174,7 @@ TEST(Wrinkles, KeepTheLengthOfCompressedSkin) {
             along += (folded.vertices.row(node(j, i + 1)) - folded.vertices.row(node(j, i))).norm();
         }
         const double at_rest = (to - from) * 0.5e-3;
-        const double kept = at_rest * (1 - compression + folded_share(compression));
+        const double kept = at_rest * (1 - compression + folded_fraction(compression));
         // Lines differ in depth, and twelve edges cut the corners of a wave.
         EXPECT_NEAR(length / kept, 1.0, 0.03) << compression;
         EXPECT_NEAR(along / at_rest, 1.0, 0.01) << "smooth along the lines";
@@ -200,12 +200,12 @@ TEST(Wrinkles, AreLeftToTheRendererWhereTheMeshIsCoarse) {
 TEST(Wrinkles, BeginSmoothly) {
     EXPECT_EQ(fold_depth_ratio(0.0), 0.0);
     for (const FoldOnset& onset : {kSmoothSkin, kCreasedSkin}) {
-        EXPECT_EQ(folded_share(0.0, onset), 0.0);
+        EXPECT_EQ(folded_fraction(0.0, onset), 0.0);
         // Onset over half the way, onset at twice the pace
         const double smoothest = 1.5e-3 * kSmoothSkin.softness / onset.softness;
         double last = 0, last_step = 0;
         for (double c = 0; c < 0.4; c += 1e-3) {
-            const double depth = fold_depth_ratio(folded_share(c, onset) / (1 - c)),
+            const double depth = fold_depth_ratio(folded_fraction(c, onset) / (1 - c)),
                          step = depth - last;
             EXPECT_GE(step, -1e-12) << c;
             EXPECT_LT(std::abs(step - last_step), smoothest) << "a jump of the speed at " << c;
@@ -215,7 +215,7 @@ TEST(Wrinkles, BeginSmoothly) {
         }
     }
     // A line that is there at rest folds where smooth skin only thickens.
-    EXPECT_GT(folded_share(0.04, kCreasedSkin), 3 * folded_share(0.04));
+    EXPECT_GT(folded_fraction(0.04, kCreasedSkin), 3 * folded_fraction(0.04));
     for (double ratio = 0.02; ratio < 0.6; ratio += 0.02)
         EXPECT_NEAR(fold_depth_ratio(fold_excess(ratio)), ratio, 0.01 * ratio);
 }
@@ -289,14 +289,14 @@ TEST(Wrinkles, ACreaseFoldsAsAWholeByWhatItIsCompressedOnTheWhole) {
 
 TEST(SkinLayer, FoldsTheForeheadOfARaisedBrowAndNothingAtRest) {
     Face face = adult_face();
-    const FacePose rest = settled(face, neutral());
+    const FacePose rest = equilibrium_pose(face, neutral());
     EXPECT_EQ(rest.fold_depth.cwiseAbs().maxCoeff(), 0.0);
     EXPECT_LT((rest.vertices - face.head().vertices).cwiseAbs().maxCoeff(), 1e-9);
 
     track::Drive raised = with_unit("AU1");
     raised.excitation += with_unit("AU2").excitation;
     raised.excitation = raised.excitation.cwiseMin(1.0);
-    const FacePose pose = settled(face, raised);
+    const FacePose pose = equilibrium_pose(face, raised);
     const Vec3 forehead = 0.5 * (face.head().landmark("mef") + face.head().landmark("g"));
     double deepest = 0, elsewhere = 0;
     for (long v = 0; v < pose.vertices.rows(); ++v) {
@@ -319,7 +319,7 @@ TEST(SkinLayer, OfAnOldFaceHasLinesAtRestThatMoveNoVertex) {
     rig::RigDescription old = rig::adult().rig;
     old.appearance.age = 1;
     Face face(old, rig::adult().mesh, preview(), "adult");
-    const FacePose pose = settled(face, neutral());
+    const FacePose pose = equilibrium_pose(face, neutral());
     EXPECT_LT((pose.vertices - face.head().vertices).rowwise().norm().maxCoeff(), 1e-6);
     const auto deepest_near = [&](const char* landmark, double reach_m) {
         double out = 0;
@@ -338,7 +338,7 @@ TEST(SkinLayer, WithoutWrinklesHasNone) {
     rig::RigDescription smooth = rig::adult().rig;
     smooth.skin.wrinkles = 0;
     Face face(smooth, rig::adult().mesh, preview(), "adult");
-    EXPECT_EQ(settled(face, with_unit("AU1")).fold_depth.rows(), 0);
+    EXPECT_EQ(equilibrium_pose(face, with_unit("AU1")).fold_depth.rows(), 0);
     EXPECT_EQ(face.wrinkle_lines().phase.rows(), 0);
 }
 

@@ -22,7 +22,7 @@ track::Drive some_drive() {
 /// One face for all tests, in that pose.
 Face& posed() {
     static Face face = adult_face(kCoarse);
-    face.settle(some_drive().excitation, some_drive());
+    face.solve_equilibrium(some_drive().excitation, some_drive());
     return face;
 }
 
@@ -36,19 +36,21 @@ Points noise(long rows, unsigned seed) {
 
 TEST(FaceStatics, SettlesToForcesThatBalance) {
     Face face = adult_face(kCoarse);
-    const StepStats figures = face.settle(some_drive().excitation, some_drive());
+    const StepStats figures = face.solve_equilibrium(some_drive().excitation, some_drive());
     EXPECT_TRUE(figures.converged);
-    const Points settled = face.static_gradient(face.nodes(), face.activation(), some_drive());
+    const Points equilibrium_pose =
+        face.static_gradient(face.nodes(), face.activation(), some_drive());
     const Points pulled = face.static_gradient(face.nodes(), 1.1 * face.activation(), some_drive());
     // A tenth more of the muscles pulls with some 0.1 N; what is left moves nothing by some micrometres, though pressed teeth
     // and lips are so stiff there
-    EXPECT_LT(settled.norm(), 5e-3 * pulled.norm());
-    EXPECT_LT(face.solve_static(settled).rowwise().norm().maxCoeff(), 5e-6);
+    EXPECT_LT(equilibrium_pose.norm(), 5e-3 * pulled.norm());
+    EXPECT_LT(face.solve_static(equilibrium_pose).rowwise().norm().maxCoeff(), 5e-6);
 }
 
 TEST(FaceStatics, SaysThatItHasNotConverged) {
     Face face = adult_face(kCoarse);
-    EXPECT_FALSE(face.settle(some_drive().excitation, some_drive(), {.iterations = 3}).converged);
+    EXPECT_FALSE(
+        face.solve_equilibrium(some_drive().excitation, some_drive(), {.iterations = 3}).converged);
 }
 
 TEST(FaceStatics, SensitivitiesForetellSettledPoses) {
@@ -81,7 +83,8 @@ TEST(FaceStatics, SensitivitiesForetellSettledPoses) {
                 drive.kinematic[static_cast<std::size_t>(*parameters[i].channel)] += amount;
             else
                 drive.excitation[parameters[i].column] += amount;
-            EXPECT_TRUE(face.settle(drive.excitation, drive).converged) << parameters[i].name;
+            EXPECT_TRUE(face.solve_equilibrium(drive.excitation, drive).converged)
+                << parameters[i].name;
             return face.pose().vertices;
         };
         const double step = parameters[i].step;

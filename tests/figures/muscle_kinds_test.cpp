@@ -143,7 +143,7 @@ TEST(MuscleVelocity, HillsHyperbolaIsFoundThroughItsPoints) {
     }
     const Hill hill = hill_through(force, speed);
     EXPECT_NEAR(hill.a_f0, 0.3, 1e-12);
-    EXPECT_NEAR(hill.greatest_speed, 0.8, 1e-12);
+    EXPECT_NEAR(hill.max_speed, 0.8, 1e-12);
 }
 
 TEST(MuscleCurves, EveryNumberOfThePublishedSetsLiesInItsBand) {

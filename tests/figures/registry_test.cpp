@@ -113,12 +113,12 @@ TEST(Registry, NestedWorkSharesItsThreads) {
     // Three threads between four outer pieces of five inner ones each: never more at work at once, all done.
     SpareThreads spare(2);
     const ThreadLimit limit(3, &spare);
-    std::atomic<int> at_work{0}, most{0};
+    std::atomic<int> at_work{0}, max{0};
     std::vector<int> done(20, 0);
     parallel_for(4, limit, [&](int outer) {
         parallel_for(5, limit, [&](int inner) {
             const int now = ++at_work;
-            for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+            for (int seen = max; now > seen && !max.compare_exchange_weak(seen, now);) {
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             ++done[static_cast<std::size_t>(5 * outer + inner)];
@@ -126,8 +126,8 @@ TEST(Registry, NestedWorkSharesItsThreads) {
         });
     });
     EXPECT_EQ(done, std::vector<int>(20, 1));
-    EXPECT_GT(most, 1);
-    EXPECT_LE(most, 5) << "three, and two more while lent threads come back";
+    EXPECT_GT(max, 1);
+    EXPECT_LE(max, 5) << "three, and two more while lent threads come back";
     for (int i = 0; i < 2; ++i) EXPECT_TRUE(spare.take());
     EXPECT_FALSE(spare.take()) << "all are given back, and no more than there were";
 }

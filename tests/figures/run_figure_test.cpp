@@ -348,16 +348,16 @@ TEST_F(Figures, NothingIsLeftWhenStopped) {
 TEST_F(Figures, ProgressGrowsToTheEnd) {
     add("x1");
     add("x2");
-    std::vector<double> shares;
+    std::vector<double> fractions;
     FigureOptions given = options("all");
     given.threads = 1;
-    run_figures(given,
-                {.progress = [&](double share, const std::string&) { shares.push_back(share); },
-                 .stopped = {}});
-    ASSERT_GE(shares.size(), 5u);
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-    EXPECT_EQ(shares[1], 0.25);
-    EXPECT_EQ(shares.back(), 1);
+    run_figures(given, {.progress = [&](double fraction,
+                                        const std::string&) { fractions.push_back(fraction); },
+                        .stopped = {}});
+    ASSERT_GE(fractions.size(), 5u);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions[1], 0.25);
+    EXPECT_EQ(fractions.back(), 1);
 }
 
 figures::Check within(double low, double high, const std::string& unit) {

@@ -27,7 +27,7 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
         face::Face face = face_of(rig);
         scene::LandmarkDisplacements ways(face, rig, "adult");
         for (const std::string name : {"zygomaticus_major", "orbicularis_oris_upper_peripheral"}) {
-            const Points moved = ways.settle(ways.drive(name));
+            const Points moved = ways.solve_equilibrium(ways.drive(name));
             for (std::size_t i = 0; i < ways.landmarks().size(); ++i)
                 goal[name][ways.landmarks()[i]] = moved.row(static_cast<long>(i)).transpose();
         }

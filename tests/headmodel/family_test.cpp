@@ -72,7 +72,7 @@ TEST(AverageHead, HasTheMeasuresOfAdults) {
 
 TEST(AverageHead, HasTheTopologyOfAFace) {
     EXPECT_EQ(average_quality().triangles, 0);
-    EXPECT_LE(average_quality().unusual_valence_share, 0.02);
+    EXPECT_LE(average_quality().unusual_valence_fraction, 0.02);
     EXPECT_EQ(average_quality().mirror_error_mm, 0);
     EXPECT_EQ(average_quality().self_intersections, 0);
 }

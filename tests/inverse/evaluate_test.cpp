@@ -52,7 +52,7 @@ struct SelfMade {
             for (const auto& [muscle, value] : excitations)
                 for (const Side side : {Side::kLeft, Side::kRight})
                     drive.excitation[channels.column(muscle, side)] = value;
-            face.settle(drive.excitation, drive);
+            face.solve_equilibrium(drive.excitation, drive);
             const Points moved = face.head().frame.to_mesh(face.pose().vertices) - rest;
             for (long v = 0; v < moved.rows(); ++v)
                 for (int k = 0; k < 3; ++k) {

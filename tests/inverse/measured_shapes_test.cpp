@@ -105,7 +105,7 @@ TEST_F(MeasuredShapes, LeftAndRightBecomeOne) {
 }
 
 TEST_F(MeasuredShapes, ApartTheyStayTwo) {
-    const auto shapes = read(json({"mouthSmile_L", "mouthSmile_R"}), {.apart = true});
+    const auto shapes = read(json({"mouthSmile_L", "mouthSmile_R"}), {.separate_sides = true});
     ASSERT_EQ(shapes.size(), 2u);
     EXPECT_TRUE(shapes[0].sided);
     EXPECT_GT(of(shapes[0], "zygomaticus_major", Side::kLeft), 0.1);

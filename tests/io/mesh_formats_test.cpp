@@ -45,12 +45,12 @@ std::set<std::array<long, 3>> rounded_positions(const geom::PolygonMesh& mesh) {
 
 /// Greatest distance between equal-numbered corners: faces keep their order, whatever vertices they share.
 double corner_distance(const geom::PolygonMesh& a, const geom::PolygonMesh& b) {
-    double most = 0;
+    double max = 0;
     for (std::size_t c = 0; c < a.corner_vertex.size(); ++c)
-        most = std::max(
-            most,
+        max = std::max(
+            max,
             (a.positions.row(a.corner_vertex[c]) - b.positions.row(b.corner_vertex[c])).norm());
-    return most;
+    return max;
 }
 
 TEST(MeshFormats, PlyKeepsVertexOrderAndQuads) {

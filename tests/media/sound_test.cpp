@@ -59,7 +59,7 @@ std::vector<std::int16_t> click(int length, int at, int rate_hz) {
 double click_time_s(const Sound& heard) {
     const int half = heard.rate_hz / 1000;
     const std::vector<std::int16_t> shape = click(2 * half + 1, half, heard.rate_hz);
-    double most = 0;
+    double max = 0;
     std::int64_t at = -1;
     for (std::int64_t i = half; i + half < heard.length(); ++i) {
         double sum = 0;
@@ -67,8 +67,8 @@ double click_time_s(const Sound& heard) {
             sum += shape[static_cast<std::size_t>(k + half)] *
                    static_cast<double>(
                        heard.samples[static_cast<std::size_t>((i + k) * heard.channels)]);
-        if (sum > most) {
-            most = sum;
+        if (sum > max) {
+            max = sum;
             at = i;
         }
     }

@@ -27,7 +27,7 @@ struct TwoChains {
 const ChainProperties kMasseterLike{.f0_n = 10,
                                     .rest_stretch = 0.9,
                                     .pennation_rad = 0.24,
-                                    .tendon_share = 0.45,
+                                    .tendon_fraction = 0.45,
                                     .rigid_tendon = false};
 
 TEST(ChainSet, TheGradientIsTheSlopeOfTheEnergy) {

@@ -35,12 +35,12 @@ double thelen_tendon(double eps) {
 }
 
 double farthest(const Curve& curve, double (*published)(double), double from, double to) {
-    double most = 0;
+    double max = 0;
     for (int i = 0; i <= 1000; ++i) {
         const double x = from + (to - from) * i / 1000;
-        most = std::max(most, std::abs(curve.value(x) - published(x)));
+        max = std::max(max, std::abs(curve.value(x) - published(x)));
     }
-    return most;
+    return max;
 }
 
 TEST(ThelenCurves, AreThePublishedOnesAwayFromTheirKinks) {

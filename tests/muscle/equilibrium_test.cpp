@@ -92,7 +92,7 @@ TEST(Scaling, ALongerTendonGivesMoreAtTheSameForce) {
 TEST(Scaling, SpeedScalesWithGreatestSpeedAndOptimalLength) {
     const MuscleCurves curves = zajac_curves();
     MuscleParameters fast = kMuscle;
-    fast.greatest_speed_hz *= 2;
+    fast.max_speed_hz *= 2;
     MuscleParameters longer = kMuscle;
     longer.optimal_length_m *= 2;
     for (const double speed : {-0.3, -0.1, 0.05}) {

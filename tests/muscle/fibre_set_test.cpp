@@ -215,7 +215,7 @@ TEST(FibreSet, AMovingFibrePullsAsHillsLawSays) {
     Points x(2, 3);
     x << 0, 0, 0, 0.01, 0, 0;
     FibreSet set({in_tissue({0}, {1}), in_tissue({1}, {1})},
-                 {{.point_count = 2, .f0_n = 2, .greatest_speed_hz = 8}}, x);
+                 {{.point_count = 2, .f0_n = 2, .max_speed_hz = 8}}, x);
     const double h = 0.01;
     set.begin_step(x, h);
     const Eigen::VectorXd a = Eigen::VectorXd::Constant(1, 0.5);
@@ -242,7 +242,7 @@ TEST(FibreSet, TheMetricOfAStepCountsOnATenthOfTheResistanceToSpeed) {
     Points x(2, 3);
     x << 0, 0, 0, 0.01, 0, 0;
     const FibreSet set({in_tissue({0}, {1}), in_tissue({1}, {1})},
-                       {{.point_count = 2, .f0_n = 2, .greatest_speed_hz = 10}}, x);
+                       {{.point_count = 2, .f0_n = 2, .max_speed_hz = 10}}, x);
     solve::MetricBuilder builder(2);
     set.add_metric(builder, 1.0 / 60);
     const Eigen::MatrixXd lower = builder.build({});

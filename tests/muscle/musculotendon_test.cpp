@@ -350,7 +350,7 @@ TEST(Musculotendon, ParametersOutsideTheirRangesAreRefusedByName) {
                      "muscle/tendon_slack_m: expected (0, inf) of elastic tendons, found 0");
     }
     p = kPrototype;
-    p.greatest_speed_hz = std::nan("");
+    p.max_speed_hz = std::nan("");
     EXPECT_EQ(message_of(p), "muscle.json:/muscle/greatest_speed_hz: expected (0, inf), found nan");
     p = kPrototype;
     p.pennation_deg = 90;
@@ -371,7 +371,7 @@ TEST(Musculotendon, ParametersAreReadWithDefaultsForSpeedPennationAndDamping) {
     EXPECT_EQ(p.f0_n, 50);
     EXPECT_EQ(p.optimal_length_m, 0.06);
     EXPECT_EQ(p.tendon_slack_m, 0.03);
-    EXPECT_EQ(p.greatest_speed_hz, 10);
+    EXPECT_EQ(p.max_speed_hz, 10);
     EXPECT_EQ(p.pennation_deg, 0);
     EXPECT_EQ(p.damping, 0.05);
     EXPECT_EQ(read(R"({"f0_n": 50, "optimal_length_m": 0.06, "tendon_slack_m": 0.03,

@@ -61,14 +61,14 @@ TEST(ExposureTime, AHeadThatMovesIsTheMeanInLinearLightOfItsMoments) {
 
 /// Greatest difference of brightness between neighbours in a row about a place.
 double sharpness(const Image& image, const Vec2& at, int reach) {
-    double most = 0;
+    double max = 0;
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -reach; dx < reach; ++dx) {
             const std::uint8_t* p =
                 image.pixel(static_cast<int>(at.x()) + dx, static_cast<int>(at.y()) + dy);
-            most = std::max(most, std::abs(static_cast<double>(p[1]) - p[5]));
+            max = std::max(max, std::abs(static_cast<double>(p[1]) - p[5]));
         }
-    return most;
+    return max;
 }
 
 TEST(DepthOfField, TheEyesStaySharpAndTheRimOfTheHeadBlurs) {

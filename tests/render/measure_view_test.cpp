@@ -68,9 +68,9 @@ TEST(MeasureView, MarksShowUnlessASurfaceHidesThem) {
 }
 
 TEST(MeasureView, TheScaleGrowsLighter) {
-    for (double share = 0; share < 1; share += 0.1) {
+    for (double fraction = 0; fraction < 1; fraction += 0.1) {
         const Vec3 weights(0.2126, 0.7152, 0.0722);  // of luminance, Rec. 709
-        EXPECT_LT(scale_colour(share).dot(weights), scale_colour(share + 0.1).dot(weights));
+        EXPECT_LT(scale_colour(fraction).dot(weights), scale_colour(fraction + 0.1).dot(weights));
     }
     EXPECT_EQ(scale_colour(-1), scale_colour(0));
     EXPECT_EQ(scale_colour(2), scale_colour(1));

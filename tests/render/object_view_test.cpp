@@ -26,11 +26,10 @@ double brightness(const Image& image, const Vec2& at) {
 
 /// The darkest pixel within a pixel of a place.
 double darkest(const Image& image, const Vec2& at) {
-    double least = 255;
+    double min = 255;
     for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-            least = std::min(least, brightness(image, at + Vec2(dx, dy)));
-    return least;
+        for (int dx = -1; dx <= 1; ++dx) min = std::min(min, brightness(image, at + Vec2(dx, dy)));
+    return min;
 }
 
 struct Covered {

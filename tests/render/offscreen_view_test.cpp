@@ -264,12 +264,12 @@ TEST(OffscreenView, AlphaIsZeroBesideTheHeadFullOnItAndCleanAtItsEdge) {
             const std::uint8_t* p = image.pixel(x, y);
             if (p[3] == 0 || p[3] == 255) continue;
             ++edges;
-            int most = 0;
+            int max = 0;
             for (const int dx : {-1, 1})
                 if (image.pixel(x + dx, y)[3] == 255)
-                    most = std::max<int>(most, image.pixel(x + dx, y)[0]);
-            if (most > 0) {
-                EXPECT_GT(p[0], most / 2) << x << ", " << y;
+                    max = std::max<int>(max, image.pixel(x + dx, y)[0]);
+            if (max > 0) {
+                EXPECT_GT(p[0], max / 2) << x << ", " << y;
             }
         }
     EXPECT_GT(edges, 100);

@@ -40,9 +40,9 @@ TEST(AdultHead, EveryPartIsCarriedByWhatItBelongsTo) {
         for (int v : members) ASSERT_EQ(adult_placed().carrier[v], carrier) << group << " " << v;
     }
     for (int v : vertices_of(adult().mesh, "teeth_lower"))
-        ASSERT_EQ(adult_placed().jaw_share[v], 1.0);
+        ASSERT_EQ(adult_placed().jaw_fraction[v], 1.0);
     for (int v : vertices_of(adult().mesh, "teeth_upper"))
-        ASSERT_EQ(adult_placed().jaw_share[v], 0.0);
+        ASSERT_EQ(adult_placed().jaw_fraction[v], 0.0);
 }
 
 TEST(AdultHead, EyesAreSpheresOfHumanSizeLookingForward) {
@@ -177,13 +177,13 @@ TEST(MissingLandmarks, LieOnTheSkin) {
     const Head head = place_head(rig, adult().mesh, "part");
     EXPECT_EQ(head.warped_landmarks, (std::vector<std::string>{"gn", "zy_r", "mc_l"}));
     for (const std::string& id : head.warped_landmarks) {
-        double least = 1;
+        double min = 1;
         for (long f = 0; f < head.skin.rows(); ++f)
             for (int k = 0; k < 3; ++k)
-                least = std::min(
-                    least,
+                min = std::min(
+                    min,
                     (head.vertices.row(head.skin(f, k)).transpose() - head.landmark(id)).norm());
-        EXPECT_LT(least, 5e-4) << id;  // a vertex, or beside it on the surface
+        EXPECT_LT(min, 5e-4) << id;  // a vertex, or beside it on the surface
     }
 }
 
@@ -223,8 +223,8 @@ TEST(MeasuredHeads, TheScannedMeanHeadIsPlaced) {
     int ups = 0, downs = 0;
     for (int v : vertices_of(test->mesh, "gums_tongue")) {
         EXPECT_NE(head.carrier[v], Carrier::kNone);
-        EXPECT_GE(head.jaw_share[v], 0.0);
-        EXPECT_LE(head.jaw_share[v], 1.0);
+        EXPECT_GE(head.jaw_fraction[v], 0.0);
+        EXPECT_LE(head.jaw_fraction[v], 1.0);
         if (head.carrier[v] == Carrier::kSkull) up += head.vertices(v, 1), ++ups;
         if (head.carrier[v] == Carrier::kMandible) down += head.vertices(v, 1), ++downs;
     }

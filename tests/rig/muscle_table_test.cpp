@@ -45,7 +45,7 @@ TEST(MuscleTable, GivesEveryNumberOfAHillTypeMuscle) {
     EXPECT_DOUBLE_EQ(masseter.optimal_length_m, 27.8e-3);
     EXPECT_DOUBLE_EQ(masseter.tendon_slack_m, 24.2e-3);
     EXPECT_EQ(masseter.pennation_deg, 14);
-    EXPECT_EQ(masseter.greatest_speed_hz, 9);
+    EXPECT_EQ(masseter.max_speed_hz, 9);
     EXPECT_EQ(masseter.rest_stretch, 0.9);
     ASSERT_EQ(masseter.paths.size(), 1u);
     EXPECT_EQ(masseter.paths[0].front().body, PathPoint::Body::kSkull);

@@ -56,14 +56,14 @@ struct Moves {
         track::Drive open = none;
         open.kinematic[static_cast<std::size_t>(track::Kinematic::kJawOpen)] = 1;
         face.start([&](double) { return none; });
-        face.settle(open.excitation, open, {.iterations = 120});
+        face.solve_equilibrium(open.excitation, open, {.iterations = 120});
         const Points opened = face.pose().vertices;
         jaw_mm = 1e3 * points.distance("stos", "stoi", opened);
         face.start([&](double) { return none; });
         Eigen::VectorXd smile = none.excitation;
         for (const Side side : {Side::kLeft, Side::kRight})
             smile[files.rig.channels().column("zygomaticus_major", side)] = 1;
-        face.settle(smile, none, {.iterations = 120});
+        face.solve_equilibrium(smile, none, {.iterations = 120});
         const Points smiling = face.pose().vertices;
         smile_mm = 1e3 * (points.at("ch_l", smiling) - points.at("ch_l", rest)).y();
         finite = opened.allFinite() && smiling.allFinite();

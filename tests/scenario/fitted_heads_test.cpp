@@ -34,7 +34,7 @@ struct Fitted {
     std::unique_ptr<face::Face> face;
     std::unique_ptr<scene::LandmarkPoints> points;
     Points rest;
-    mutable bool came_to_rest = false;  // in settled()
+    mutable bool in_equilibrium = false;  // in settled()
 
     explicit Fitted(const HeadFiles& head) {
         fitting::FitOptions options;
@@ -57,12 +57,12 @@ struct Fitted {
     }
 
     /// At rest under the drive, from the neutral face.
-    face::FacePose settled(const track::Drive& drive) const {
+    face::FacePose equilibrium_pose(const track::Drive& drive) const {
         track::Drive none = drive;
         none.excitation.setZero();
         none.kinematic.fill(0);
         face->start([&](double) { return none; });
-        came_to_rest = face->settle(drive.excitation, drive).converged;
+        in_equilibrium = face->solve_equilibrium(drive.excitation, drive).converged;
         return face->pose();
     }
 
@@ -128,7 +128,7 @@ TEST_P(FittedHead, RestsExactlyAsItsMesh) {
 }
 
 TEST_P(FittedHead, ZygomaticusDrawsTheCornersUpAndOut) {
-    const face::FacePose pose = fitted->settled(fitted->drive_of("AU12"));
+    const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of("AU12"));
     EXPECT_TRUE(pose.vertices.allFinite());
     const Vec3 left = fitted->moved_mm("ch_l", pose), right = fitted->moved_mm("ch_r", pose);
     EXPECT_GT(left.norm(), 5) << left.transpose();
@@ -140,7 +140,7 @@ TEST_P(FittedHead, ZygomaticusDrawsTheCornersUpAndOut) {
 }
 
 TEST_P(FittedHead, BlinkClosesTheLids) {
-    const face::FacePose pose = fitted->settled(fitted->drive_of("AU45"));
+    const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of("AU45"));
     EXPECT_TRUE(pose.vertices.allFinite());
     for (const auto& [upper, lower] : {std::pair{"ps_l", "pi_l"}, std::pair{"ps_r", "pi_r"}}) {
         EXPECT_GT(1e3 * fitted->points->distance(upper, lower, fitted->rest), 6);
@@ -156,9 +156,9 @@ TEST_P(FittedHead, OpenJawOpensTheMouth) {
     drive.excitation.setZero();
     drive.kinematic.fill(0);
     drive.kinematic[static_cast<std::size_t>(track::Kinematic::kJawOpen)] = 1;
-    const face::FacePose pose = fitted->settled(drive);
+    const face::FacePose pose = fitted->equilibrium_pose(drive);
     EXPECT_TRUE(pose.vertices.allFinite());
-    EXPECT_TRUE(fitted->came_to_rest);
+    EXPECT_TRUE(fitted->in_equilibrium);
     EXPECT_GT(1e3 * fitted->points->distance("stos", "stoi", pose.vertices), 20);
     EXPECT_LT(fitted->moved_mm("pg", pose).y(), -15);
     EXPECT_LT(fitted->moved_mm("n", pose).norm(), 2);
@@ -167,7 +167,7 @@ TEST_P(FittedHead, OpenJawOpensTheMouth) {
 TEST_P(FittedHead, FrontalisRaisesTheBrows) {
     track::Drive drive = fitted->drive_of("AU1");
     drive.excitation = drive.excitation.cwiseMax(fitted->drive_of("AU2").excitation);
-    const face::FacePose pose = fitted->settled(drive);
+    const face::FacePose pose = fitted->equilibrium_pose(drive);
     EXPECT_TRUE(pose.vertices.allFinite());
     for (const char* brow : {"bm_l", "bm_r", "bc_l", "bc_r"})
         EXPECT_GT(fitted->moved_mm(brow, pose).y(), 3) << brow;
@@ -176,7 +176,7 @@ TEST_P(FittedHead, FrontalisRaisesTheBrows) {
 TEST_P(FittedHead, OneSideMovesAlone) {
     for (const auto& [side, own, other, sign] : {std::tuple{Side::kLeft, "ch_l", "ch_r", 1.0},
                                                  std::tuple{Side::kRight, "ch_r", "ch_l", -1.0}}) {
-        const face::FacePose pose = fitted->settled(fitted->drive_of("AU12", side));
+        const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of("AU12", side));
         const Vec3 here = fitted->moved_mm(own, pose), there = fitted->moved_mm(other, pose);
         EXPECT_GT(here.norm(), 5);
         EXPECT_GT(sign * here.x(), 1);
@@ -185,7 +185,7 @@ TEST_P(FittedHead, OneSideMovesAlone) {
     }
     for (const auto& [side, own, other] :
          {std::tuple{Side::kLeft, "bc_l", "bc_r"}, std::tuple{Side::kRight, "bc_r", "bc_l"}}) {
-        const face::FacePose pose = fitted->settled(fitted->drive_of("AU2", side));
+        const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of("AU2", side));
         EXPECT_GT(fitted->moved_mm(own, pose).y(), 2);
         EXPECT_LT(fitted->moved_mm(other, pose).norm(), 0.5);
     }
@@ -196,9 +196,9 @@ TEST_P(FittedHead, EveryActionUnitComesToRestAndPassesThroughNothing) {
     int turn = std::string(GetParam().name) == kHeads[0].name ? 0 : 1;
     for (const track::ActionUnit& unit : fitted->files.rig.facs.units) {
         if (!unit.unsupported.empty() || turn++ % 2) continue;
-        const face::FacePose pose = fitted->settled(fitted->drive_of(unit.id));
+        const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of(unit.id));
         EXPECT_TRUE(pose.vertices.allFinite()) << unit.id;
-        EXPECT_TRUE(fitted->came_to_rest) << unit.id;
+        EXPECT_TRUE(fitted->in_equilibrium) << unit.id;
         const face::Penetration penetration = fitted->face->penetration();
         EXPECT_LT(1e3 * penetration.lips_m, 0.3) << unit.id;
         EXPECT_LT(1e3 * penetration.bone_m, 0.2) << unit.id;
@@ -220,7 +220,8 @@ TEST_P(FittedHead, ALipSuckedInComesToRestOnAFineMesh) {
     track::Drive none = drive;
     none.excitation.setZero();
     face.start([&](double) { return none; });
-    const face::StepStats figures = face.settle(drive.excitation, drive, {.iterations = 400});
+    const face::StepStats figures =
+        face.solve_equilibrium(drive.excitation, drive, {.iterations = 400});
     EXPECT_TRUE(figures.converged);
     EXPECT_LE(figures.lip_depth_m, 0.3e-3);
     EXPECT_LE(figures.bone_depth_m, 0.2e-3);

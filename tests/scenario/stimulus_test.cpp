@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSide = 120, kStimulusFrames = 5;
 
-fs::path smile_of(const Folder& folder, const std::string& name, double most) {
+fs::path smile_of(const Folder& folder, const std::string& name, double max) {
     const Json script{
         {"format", "risorius-script"},
         {"version", 1},
@@ -36,7 +36,7 @@ fs::path smile_of(const Folder& folder, const std::string& name, double most) {
         {"fps", 25},
         {"duration_s", 0.2},
         {"channels",
-         {{"AU12", {{"keys", {{0, 0.1}, {0.16, most}}}, {"interpolation", "linear"}}},
+         {{"AU12", {{"keys", {{0, 0.1}, {0.16, max}}}, {"interpolation", "linear"}}},
           {"AU2.l", {{"keys", {{0, 0.25}}}}},
           {"gaze_yaw_deg", {{"keys", {{0, 10}}}}},
           {"head_yaw_deg", {{"keys", {{0, -4}, {0.16, 4}}}, {"interpolation", "linear"}}}}},

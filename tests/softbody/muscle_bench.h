@@ -26,7 +26,7 @@ inline softbody::MuscleDescription prototype_muscle(
     d.musculotendon = {.f0_n = 94.2 * radius_m * radius_m / 1e-4,
                        .optimal_length_m = 0.04,
                        .tendon_slack_m = 0.02,
-                       .greatest_speed_hz = 10,
+                       .max_speed_hz = 10,
                        .damping = 0.1};
     return d;
 }

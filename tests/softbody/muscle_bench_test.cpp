@@ -67,9 +67,9 @@ struct Release {
 };
 
 /// Full activation, anchors brought together by 2.5 mm within 1 ms.
-Release released(double greatest_speed_hz) {
+Release released(double max_speed_hz) {
     MuscleDescription d = prototype_muscle({4, 3, 3});
-    d.musculotendon.greatest_speed_hz = greatest_speed_hz;
+    d.musculotendon.max_speed_hz = max_speed_hz;
     d.musculotendon.damping = 0.07;
     constexpr double kRelease_s = 1e-3, kBy_m = 2.5e-3;
     const MuscleBody muscle = build_muscle(
@@ -91,15 +91,15 @@ Release released(double greatest_speed_hz) {
     auto integrator = solve::make_integrator(moving);
     integrator->advance(muscle.body.system, state, kRelease_s);
     found.slack = muscle.tension(kRelease_s, state.x);
-    moving.step_s = std::max(5e-4, 2e-3 / greatest_speed_hz);
+    moving.step_s = std::max(5e-4, 2e-3 / max_speed_hz);
     integrator = solve::make_integrator(moving);
     double before = found.slack;
     while (found.t90_s == 0 && state.t_s < 0.5) {
         const double from_s = state.t_s;
         integrator->advance(muscle.body.system, state, from_s + moving.step_s);
         const double tension = muscle.tension(state.t_s, state.x);
-        const auto crossing = [&](double share, double& when_s) {
-            const double wanted = share * found.after;
+        const auto crossing = [&](double fraction, double& when_s) {
+            const double wanted = fraction * found.after;
             if (when_s == 0 && tension >= wanted)
                 when_s = from_s + moving.step_s * (wanted - before) / (tension - before);
         };
@@ -126,8 +126,8 @@ TEST(MuscleBench, AfterAQuickReleaseTensionComesBackAsFastAsTheFibresShorten) {
         EXPECT_GT(shortening.back(), 85e-3) << speed_hz;
         EXPECT_LT(shortening.back(), 100e-3) << speed_hz;
     }
-    const auto [least, greatest] = std::minmax_element(shortening.begin(), shortening.end());
-    EXPECT_LT(*greatest / *least, 1.1);
+    const auto [min, max] = std::minmax_element(shortening.begin(), shortening.end());
+    EXPECT_LT(*max / *min, 1.1);
 }
 
 TEST(MuscleBench, AnActiveMuscleShortenedByAQuarterBulgesAndKeepsItsVolume) {

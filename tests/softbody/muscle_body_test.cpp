@@ -30,7 +30,7 @@ MuscleDescription prototype(Discretisation discretisation, const tissue::GridSha
     d.musculotendon = {.f0_n = 94.2,
                        .optimal_length_m = 0.04,
                        .tendon_slack_m = 0.02,
-                       .greatest_speed_hz = 10,
+                       .max_speed_hz = 10,
                        .pennation_deg = 0,
                        .damping = 0.1};
     return d;

@@ -73,7 +73,7 @@ TEST(ShapedMuscle, ForcesAndTorquesOfEveryShapeAndItsAnchorsSumToZero) {
             const long rows = muscle.body.rest.rows();
             Points x = 1.1 * muscle.body.rest + random_points(rows, 1e-4, 1), force;
             muscle.body.system.force(0, x, random_points(rows, 0.05, 2), force);
-            const double greatest = force.cwiseAbs().maxCoeff();
+            const double max = force.cwiseAbs().maxCoeff();
             Vec3 sum = force.colwise().sum(), torque = Vec3::Zero();
             for (long i = 0; i < rows; ++i) torque += Vec3(x.row(i)).cross(Vec3(force.row(i)));
             for (const muscle::End end : {muscle::End::kOrigin, muscle::End::kInsertion}) {
@@ -85,9 +85,9 @@ TEST(ShapedMuscle, ForcesAndTorquesOfEveryShapeAndItsAnchorsSumToZero) {
                 for (long c = 0; c < points.rows(); ++c)
                     torque += Vec3(points.row(c)).cross(Vec3(pulls.row(c)));
             }
-            EXPECT_GT(greatest, 1) << sample.shape.place;
-            EXPECT_LT(sum.norm(), 1e-11 * greatest) << sample.shape.place;
-            EXPECT_LT(torque.norm(), 1e-12 * greatest) << sample.shape.place;
+            EXPECT_GT(max, 1) << sample.shape.place;
+            EXPECT_LT(sum.norm(), 1e-11 * max) << sample.shape.place;
+            EXPECT_LT(torque.norm(), 1e-12 * max) << sample.shape.place;
         }
 }
 

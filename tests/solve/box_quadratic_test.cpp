@@ -14,16 +14,16 @@ BoxQuadratic random_problem(int unknowns, unsigned seed) {
     problem.A = J.transpose() * J;
     problem.b = 3 * Eigen::VectorXd::Random(unknowns);
     problem.price = Eigen::VectorXd::Constant(unknowns, 0.2);
-    problem.least = Eigen::VectorXd::Constant(unknowns, -0.3);
-    problem.most = Eigen::VectorXd::Constant(unknowns, 0.4);
+    problem.min = Eigen::VectorXd::Constant(unknowns, -0.3);
+    problem.max = Eigen::VectorXd::Constant(unknowns, 0.4);
     return problem;
 }
 
 TEST(BoxQuadratic, WithoutLimitsAndPriceItSolvesTheEquations) {
     BoxQuadratic problem = random_problem(12, 1);
     problem.price.setZero();
-    problem.least.setConstant(-1e3);
-    problem.most.setConstant(1e3);
+    problem.min.setConstant(-1e3);
+    problem.max.setConstant(1e3);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(12);
     minimise(problem, x, 1e-13);
     EXPECT_LT((problem.A * x + problem.b).norm(), 1e-9);
@@ -37,18 +37,18 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
         const Eigen::VectorXd slope = problem.A * x + problem.b;
         int free = 0, zero = 0, held = 0;
         for (long i = 0; i < 20; ++i) {
-            ASSERT_GE(x[i], problem.least[i]);
-            ASSERT_LE(x[i], problem.most[i]);
+            ASSERT_GE(x[i], problem.min[i]);
+            ASSERT_LE(x[i], problem.max[i]);
             // Slopes to either side, price included
             const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.price[i];
             const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.price[i];
-            if (x[i] < problem.most[i]) {
+            if (x[i] < problem.max[i]) {
                 EXPECT_GE(up, -1e-8);
             }
-            if (x[i] > problem.least[i]) {
+            if (x[i] > problem.min[i]) {
                 EXPECT_LE(down, 1e-8);
             }
-            const bool at_limit = x[i] == problem.least[i] || x[i] == problem.most[i];
+            const bool at_limit = x[i] == problem.min[i] || x[i] == problem.max[i];
             ++(at_limit ? held : x[i] == 0 ? zero : free);
         }
         EXPECT_GT(free, 0);
@@ -70,7 +70,7 @@ TEST(BoxQuadratic, UnknownsThatAreNearlyAlikeTakeFewSweeps) {
     EXPECT_LT(minimise(problem, x, 1e-9), 60);
     const Eigen::VectorXd slope = problem.A * x + problem.b;
     for (long i = 0; i < 8; ++i)
-        if (x[i] > 0 && x[i] < problem.most[i]) {
+        if (x[i] > 0 && x[i] < problem.max[i]) {
             EXPECT_NEAR(slope[i], -problem.price[i], 1e-9) << i;
         }
 }
@@ -80,8 +80,8 @@ TEST(BoxQuadratic, APriceAboveTheSlopeKeepsAnUnknownAtZero) {
     problem.A = Eigen::MatrixXd::Identity(2, 2);
     problem.b = Eigen::Vector2d(-0.5, -0.5);
     problem.price = Eigen::Vector2d(0.6, 0.2);
-    problem.least = Eigen::Vector2d(-1, -1);
-    problem.most = Eigen::Vector2d(1, 1);
+    problem.min = Eigen::Vector2d(-1, -1);
+    problem.max = Eigen::Vector2d(1, 1);
     Eigen::VectorXd x = Eigen::Vector2d(1, 1);
     minimise(problem, x);
     EXPECT_EQ(x[0], 0.0);

@@ -64,27 +64,27 @@ TEST(ExplicitMethods, HalvingTheStepShowsTheOrderOfEachMethod) {
 }
 
 /// Largest step with which x'' = -w^2 x - d x' stays bounded, by bisection
-double largest_stable_step(Method method, double w, double d, double least, double most) {
+double max_stable_step(Method method, double w, double d, double min, double max) {
     const MotionSystem system = toy::system_of(1, 1.0, std::make_shared<Anchor>(w * w, d));
     for (int halving = 0; halving < 12; ++halving) {
-        const double h = std::sqrt(least * most);
+        const double h = std::sqrt(min * max);
         MotionState state = toy::at_rest(Points::Ones(1, 3));
         const auto integrator = make_integrator({.method = method, .step_s = h});
         const bool stable = !integrator->advance(system, state, 20000 * h).diverged;
-        (stable ? least : most) = h;
+        (stable ? min : max) = h;
     }
-    return least;
+    return min;
 }
 
 TEST(ExplicitMethods, StabilityLimitsAreThoseOfTheLinearTheory) {
     // Undamped, w = 10: physics of the test equation, Hairer & Wanner II, IV.2
-    EXPECT_NEAR(largest_stable_step(Method::kRungeKutta4, 10, 0, 0.05, 1) * 10, 2.83, 0.03);
-    EXPECT_NEAR(largest_stable_step(Method::kVerlet, 10, 0, 0.05, 1) * 10, 2.0, 0.02);
+    EXPECT_NEAR(max_stable_step(Method::kRungeKutta4, 10, 0, 0.05, 1) * 10, 2.83, 0.03);
+    EXPECT_NEAR(max_stable_step(Method::kVerlet, 10, 0, 0.05, 1) * 10, 2.0, 0.02);
     // Damping dominates, w << d = 100
-    EXPECT_NEAR(largest_stable_step(Method::kEuler, 1, 100, 1e-3, 1) * 100, 2.0, 0.02);
-    EXPECT_NEAR(largest_stable_step(Method::kRungeKutta4, 1, 100, 1e-3, 1) * 100, 2.785, 0.03);
+    EXPECT_NEAR(max_stable_step(Method::kEuler, 1, 100, 1e-3, 1) * 100, 2.0, 0.02);
+    EXPECT_NEAR(max_stable_step(Method::kRungeKutta4, 1, 100, 1e-3, 1) * 100, 2.785, 0.03);
     // Interval of absolute stability of Adams-Bashforth 4: (-0.3, 0)
-    EXPECT_NEAR(largest_stable_step(Method::kAdamsBashforth, 1, 100, 1e-3, 1) * 100, 0.3, 0.01);
+    EXPECT_NEAR(max_stable_step(Method::kAdamsBashforth, 1, 100, 1e-3, 1) * 100, 0.3, 0.01);
 }
 
 TEST(ExplicitMethods, EulerAndMidpointGrowWithoutDamping) {

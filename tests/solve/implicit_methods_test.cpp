@@ -177,8 +177,8 @@ TEST(BaraffWitkin, IsOneUndampedNewtonStepWithTheExactCurvature) {
     HessianBuilder builder(8, toy::first_fixed(8));
     system.add_hessian({h, h, x}, x, Curvature::kExact, builder);
     Eigen::MatrixXd A = Eigen::MatrixXd(builder.build()).selfadjointView<Eigen::Lower>();
-    const double least = symmetric_eigenvalues(A)[0];
-    ASSERT_LT(least + m / h / h, -1) << "the case is meant to be indefinite";
+    const double min = symmetric_eigenvalues(A)[0];
+    ASSERT_LT(min + m / h / h, -1) << "the case is meant to be indefinite";
     Points force;
     system.force(0, x, v, force);
     Eigen::VectorXd b(24);
@@ -217,9 +217,9 @@ TEST(BaraffWitkin, WhereTheExactCurvatureIsSingularThePositiveOneIsTaken) {
 double terzopoulos_limit(double strain) {
     const MotionSystem system =
         toy::system_of(2, 1.0, std::make_shared<Chain>(50.0, 1.0, 0.0), toy::first_fixed(2));
-    double least = 0.01, most = 2;
+    double min = 0.01, max = 2;
     for (int halving = 0; halving < 14; ++halving) {
-        const double h = std::sqrt(least * most);
+        const double h = std::sqrt(min * max);
         MotionState state = toy::at_rest(toy::straight(2, 1.0));
         state.v(1, 0) = strain * 10;  // w = sqrt(2 k / m) = 10
         const auto integrator = make_integrator({.method = Method::kTerzopoulos, .step_s = h});
@@ -228,9 +228,9 @@ double terzopoulos_limit(double strain) {
             bounded = !integrator->advance(system, state, k * h).diverged &&
                       std::abs(state.x(1, 0) - 1) < 100 * strain;
         }
-        (bounded ? least : most) = h;
+        (bounded ? min : max) = h;
     }
-    return least;
+    return min;
 }
 
 TEST(Terzopoulos, NearRestItIsVerletAndNoMoreStable) {

@@ -50,7 +50,7 @@ TEST(IntegratorOptions, ValuesOutsideTheirRangesAreNamed) {
     EXPECT_EQ(message_of({.tolerance = -1e-6}), "tolerance: expected [0, 1), found -1e-06");
     EXPECT_EQ(message_of({.tolerance = 1}), "tolerance: expected [0, 1), found 1");
     EXPECT_EQ(message_of({.length_scale_m = -3}), "length_scale_m: expected (0, inf), found -3");
-    EXPECT_EQ(message_of({.least_step_s = -1}), "least_step_s: expected [0, inf), found -1");
+    EXPECT_EQ(message_of({.min_step_s = -1}), "least_step_s: expected [0, inf), found -1");
     EXPECT_EQ(message_of({.diverged_at = 0}), "diverged_at: expected (0, inf), found 0");
     EXPECT_EQ(message_of({.newton_iterations = 0}),
               "newton_iterations: expected at least 1, found 0");

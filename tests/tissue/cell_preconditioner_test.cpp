@@ -84,9 +84,9 @@ std::pair<double, double> eigenvalues(const Hanging& body, const Points& x,
 TEST(CellPreconditioner, IsNearTheInverseHoweverStiffTheVolume) {
     for (const double psi : {10.0, 100.0, 1000.0}) {
         const Hanging body = thesis(5, psi);
-        const auto [least, most] = eigenvalues(body, body.solid->body().rest);
-        EXPECT_GT(least, 0.4) << psi;
-        EXPECT_LT(most, 2.0) << psi;
+        const auto [min, max] = eigenvalues(body, body.solid->body().rest);
+        EXPECT_GT(min, 0.4) << psi;
+        EXPECT_LT(max, 2.0) << psi;
     }
 }
 
@@ -96,9 +96,9 @@ TEST(CellPreconditioner, IsNearTheInverseOfWhatIsStretchedAndTurned) {
     x.col(2) *= 1.2;
     const Eigen::AngleAxisd turn(1.0, Vec3(1, 2, 2) / 3);
     x = (x * turn.toRotationMatrix().transpose()).eval();
-    const auto [least, most] = eigenvalues(body, x);
-    EXPECT_GT(least, 0.25);
-    EXPECT_LT(most, 3.0);
+    const auto [min, max] = eigenvalues(body, x);
+    EXPECT_GT(min, 0.25);
+    EXPECT_LT(max, 3.0);
 }
 
 TEST(CellPreconditioner, IsNearTheInverseOnGridsThatDoNotHalve) {
@@ -110,19 +110,19 @@ TEST(CellPreconditioner, IsNearTheInverseOnGridsThatDoNotHalve) {
     const Hanging body(cell_body(
         uniform_cells(grid),
         [](const Vec3& a) { return Vec3(0.03 * a[0], 0.05 * a[1], 0.04 * a[2]); }, tissue, 1000));
-    const auto [least, most] = eigenvalues(body, body.solid->body().rest, {.coarsest_cells = 8});
-    EXPECT_GT(least, 0.2);
-    EXPECT_LT(most, 3.0);
+    const auto [min, max] = eigenvalues(body, body.solid->body().rest, {.coarsest_cells = 8});
+    EXPECT_GT(min, 0.2);
+    EXPECT_LT(max, 3.0);
 }
 
 TEST(CellPreconditioner, ManyLevelsAreAsGoodAsADirectSolution) {
     const Hanging body = thesis(6, 100);
     const Points& rest = body.solid->body().rest;
-    const auto [least, most] = eigenvalues(body, rest, {.coarsest_cells = 1});
+    const auto [min, max] = eigenvalues(body, rest, {.coarsest_cells = 1});
     const auto [direct_least, direct_most] = eigenvalues(body, rest, {.coarsest_cells = 1000});
     EXPECT_EQ(body.preconditioner({.coarsest_cells = 1}).level_count(), 4);
     EXPECT_EQ(body.preconditioner({.coarsest_cells = 1000}).level_count(), 1);
-    EXPECT_LT(most / least, 2 * direct_most / direct_least);
+    EXPECT_LT(max / min, 2 * direct_most / direct_least);
 }
 
 TEST(CellPreconditioner, HeldNodesStayAndScaleDoesNotMatter) {

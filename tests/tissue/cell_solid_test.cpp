@@ -54,7 +54,7 @@ double plain_energy(const CellSolid& solid, const Points& x) {
     double sum = 0;
     for (std::size_t c = 0; c < body.mesh.cells().size(); ++c) {
         const CellMesh::Cell& cell = body.mesh.cells()[c];
-        const double share = cell.size.prod() / 8;
+        const double fraction = cell.size.prod() / 8;
         double volume = 0, rest_volume = 0, metric = 0;
         for (int g = 0; g < 8; ++g) {
             Mat3 r = Mat3::Zero(), r0 = Mat3::Zero();
@@ -72,17 +72,17 @@ double plain_energy(const CellSolid& solid, const Points& x) {
                     r.col(i) += d * all.row(row).transpose();
                     r0.col(i) += d * rest.row(row).transpose();
                 }
-            volume += share * r.determinant();
-            rest_volume += share * r0.determinant();
+            volume += fraction * r.determinant();
+            rest_volume += fraction * r0.determinant();
             const Mat3 strain = r.transpose() * r - r0.transpose() * r0;
             if (body.moduli.empty()) {
-                metric += share * 0.25 *
+                metric += fraction * 0.25 *
                           body.parameters[c]
                               .elastic_n_per_m3.cwiseProduct(strain.cwiseProduct(strain))
                               .sum();
             } else {
                 const Mat3 C = (r0.transpose() * r0).inverse();
-                metric += share * r0.determinant() * 0.25 * body.moduli[c].mu_pa *
+                metric += fraction * r0.determinant() * 0.25 * body.moduli[c].mu_pa *
                           (C * strain * C * strain).trace();
             }
         }
@@ -259,9 +259,9 @@ TEST(CellSolid, MetricBoundsTheStiffnessAtRest) {
         metric.diagonal().array() += 1e-6 * scalar.norm();
         Eigen::MatrixXd H = full_hessian(at->solid, {h, h, rest}, rest, Curvature::kExact);
         H.diagonal().array() += 1e-6 * scalar.norm();
-        const double most = testing_of::shares(H, metric).maxCoeff();
-        EXPECT_LT(most, 3.0) << at->name;  // div u counts three times at most
-        EXPECT_GT(most, 0.5) << at->name;
+        const double max = testing_of::fractions(H, metric).maxCoeff();
+        EXPECT_LT(max, 3.0) << at->name;  // div u counts three times at most
+        EXPECT_GT(max, 0.5) << at->name;
     }
 }
 

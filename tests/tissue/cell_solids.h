@@ -31,20 +31,20 @@ inline GridSolid varied_solid(const GridShape& grid) {
     solid.grid = grid;
     solid.rest = block_rest(grid, Vec3(1.0, 1.3, 0.7));
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::uniform_real_distribution<double> fraction(0.0, 1.0);
     for (Eigen::Index i = 0; i < solid.rest.size(); ++i)
-        solid.rest.data()[i] += 0.04 * (share(random) - 0.5);
+        solid.rest.data()[i] += 0.04 * (fraction(random) - 0.5);
     for (int node = 0; node < grid.size(); ++node) {
         SolidMaterial material;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j <= i; ++j) {
                 material.elastic_n_per_m3(i, j) = material.elastic_n_per_m3(j, i) =
-                    1.0 + share(random);
+                    1.0 + fraction(random);
                 material.damping_ns_per_m3(i, j) = material.damping_ns_per_m3(j, i) =
-                    0.1 * share(random);
+                    0.1 * fraction(random);
             }
-        material.incompressibility_n_per_m5 = 5 + 5 * share(random);
-        material.mass_kg = 1 + share(random);
+        material.incompressibility_n_per_m5 = 5 + 5 * fraction(random);
+        material.mass_kg = 1 + fraction(random);
         solid.material.push_back(material);
     }
     return solid;

@@ -276,12 +276,12 @@ TEST(DifferenceSolid, PositivePartIsPositiveWhereTheSecondDerivativeIsNot) {
     // Squeezed to a third: compressive stress everywhere
     const Points x = 0.33 * shaken_rest(solid, 0.1, 15);
     const ImplicitStep step{.end_s = 0, .step_s = kForever, .start = solid.rest};
-    const auto least = [&](Curvature curvature) {
+    const auto min = [&](Curvature curvature) {
         const Eigen::VectorXd values = symmetric_eigenvalues(hessian(term, step, x, curvature));
         return values[0] / values[values.size() - 1];
     };
-    EXPECT_LT(least(Curvature::kExact), -1e-3);
-    EXPECT_GT(least(Curvature::kPositive), -1e-14);
+    EXPECT_LT(min(Curvature::kExact), -1e-3);
+    EXPECT_GT(min(Curvature::kPositive), -1e-14);
 }
 
 TEST(DifferenceSolid, PositivePartIsTheSecondDerivativeAtRest) {
@@ -309,7 +309,7 @@ TEST(DifferenceSolid, MetricBoundsTheSecondDerivativeAtRest) {
             term, {.end_s = 0, .step_s = step, .start = solid.rest}, solid.rest, Curvature::kExact);
         // Largest share of the bound that is used; the small diagonal stands for the mass that holds the body in place.
         metric.diagonal().array() += 1e-9 * metric.diagonal().maxCoeff();
-        const double used = testing_of::shares(stiffness, metric).maxCoeff();
+        const double used = testing_of::fractions(stiffness, metric).maxCoeff();
         EXPECT_LT(used, 1.0 + 1e-9);
         EXPECT_GT(used, 0.5);  // a bound far too large would cost as many times the iterations
     }

@@ -104,16 +104,16 @@ TEST(GridCurve, BucklesAtEulersLoad) {
     const GridCurveTerm term(curve);
     std::vector<char> fixed(static_cast<std::size_t>(nodes), 0);
     fixed.front() = fixed.back() = 1;
-    for (const double share : {0.995, 1.005}) {
+    for (const double fraction : {0.995, 1.005}) {
         double s = 1;
         for (int k = 0; k < 30; ++k)
-            s -= (0.5 * tension * (s * s - 1) + share * euler) / (tension * s);
+            s -= (0.5 * tension * (s * s - 1) + fraction * euler) / (tension * s);
         const Points pressed = s * curve.rest;
         solve::HessianBuilder builder(nodes, fixed);
         term.add_hessian(no_motion(pressed), pressed, solve::Curvature::kExact, builder);
         const Eigen::MatrixXd lower = builder.build();
-        const double least = symmetric_eigenvalues(lower)[0];
-        EXPECT_EQ(least > 0, share < 1) << least;
+        const double min = symmetric_eigenvalues(lower)[0];
+        EXPECT_EQ(min > 0, fraction < 1) << min;
     }
 }
 
@@ -140,7 +140,7 @@ TEST(GridCurve, HangsAsACatenary) {
             const double along = 2.0 * i / (nodes - 1) - 1;
             x.row(i) << 0.5 * span * (1 + along), 0, -0.4 * (1 - along * along);
         }
-        ASSERT_TRUE(settle(GridCurveTerm(curve), fixed, load, x)) << nodes;
+        ASSERT_TRUE(solve(GridCurveTerm(curve), fixed, load, x)) << nodes;
         const double error = std::abs(-x(nodes / 2, 2) - expected) / expected;
         const double h = 1.0 / (nodes - 1);
         EXPECT_LT(error, 1.0 * h * h) << nodes;

@@ -60,11 +60,11 @@ inline Points equilibrium(const solve::MotionSystem& system, const Points& start
         const Eigen::VectorXd direction = -solver.solve(slope);
         const Points move = Eigen::Map<const Points>(direction.data(), x.rows(), 3);
         if (move.cwiseAbs().maxCoeff() < 1e-10) return x + move;
-        double share = 1;
-        while (share > 1e-6 && system.potential(still, x + share * move, ignored) >
-                                   potential + 1e-4 * share * slope.dot(direction))
-            share /= 2;
-        x += share * move;
+        double fraction = 1;
+        while (fraction > 1e-6 && system.potential(still, x + fraction * move, ignored) >
+                                      potential + 1e-4 * fraction * slope.dot(direction))
+            fraction /= 2;
+        x += fraction * move;
     }
     ADD_FAILURE() << "no equilibrium was found";
     return x;

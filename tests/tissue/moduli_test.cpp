@@ -49,11 +49,11 @@ TEST(Moduli, SimpleShearMeetsTheShearModulusLessWhatTheBorderLacks) {
             Mat3 shear = Mat3::Identity();
             shear(i, j) = kStrain;
             EXPECT_NEAR(traction(solid, shear, j)[i] / kStrain,
-                        2e3 * nodal_shear_share(kModuliGrid, i, j), 2e3 * 1e-5)
+                        2e3 * nodal_shear_fraction(kModuliGrid, i, j), 2e3 * 1e-5)
                 << i << j;
         }
-    EXPECT_DOUBLE_EQ(nodal_shear_share({3, 3, 3}, 0, 1), 2.0 / 3);
-    EXPECT_DOUBLE_EQ(nodal_shear_share({9, 9, 9}, 0, 1), 8.0 / 9);
+    EXPECT_DOUBLE_EQ(nodal_shear_fraction({3, 3, 3}, 0, 1), 2.0 / 3);
+    EXPECT_DOUBLE_EQ(nodal_shear_fraction({9, 9, 9}, 0, 1), 8.0 / 9);
 }
 
 TEST(Moduli, PressureShrinksTheBodyByItsBulkModulus) {

@@ -53,15 +53,15 @@ void expect_conforming(const TriangleSurface& surface) {
 }
 
 double smallest_angle(const TriangleSurface& surface) {
-    double least = 4;
+    double min = 4;
     for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
         for (int k = 0; k < 3; ++k) {
             const Vec3 p = surface.rest.row(surface.triangles(t, k)).transpose();
             const Vec3 u = surface.rest.row(surface.triangles(t, (k + 1) % 3)).transpose() - p;
             const Vec3 v = surface.rest.row(surface.triangles(t, (k + 2) % 3)).transpose() - p;
-            least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
+            min = std::min(min, std::atan2(u.cross(v).norm(), u.dot(v)));
         }
-    return least;
+    return min;
 }
 
 TEST(Bisection, KeepsTheMeshConformingAndItsAngles) {
@@ -130,7 +130,7 @@ TEST(AdaptiveSurface, LinearStatesAndTheirEnergyAreUnchangedByRefinement) {
 }
 
 TEST(AdaptiveSurface, BisectionsOfATriangleAreLimited) {
-    AdaptiveSurface adaptive(sheet(2), {.most_bisections = 3});
+    AdaptiveSurface adaptive(sheet(2), {.max_bisections = 3});
     const auto all = [](int) { return true; };
     int rounds = 0;
     while (rounds < 10 && adaptive.refine_where(all)) ++rounds;
@@ -173,7 +173,7 @@ TEST(SurfaceError, ConstantCurvatureHasNoErrorInsideAndChangingCurvatureHas) {
     TriangleSurface limp = sheet(13);
     limp.material = {isotropic_surface(0, 0, 0.01, 2, 0)};  // bending alone
     const TriangleSheetTerm term(limp);
-    const auto share = [&](const std::function<double(double)>& height) {
+    const auto fraction = [&](const std::function<double(double)>& height) {
         const Points x = mapped(limp.rest, [&](const Vec3& p) -> Vec3 {
             return {p[0], p[1], height(p[0])};
         });
@@ -185,8 +185,8 @@ TEST(SurfaceError, ConstantCurvatureHasNoErrorInsideAndChangingCurvatureHas) {
         }
         return inside / term.energy(0, x);
     };
-    EXPECT_LT(share([](double s) { return 1e-3 * s * s; }), 1e-5);
-    EXPECT_GT(share([](double s) { return 1e-3 * std::sin(9 * s); }), 0.01);
+    EXPECT_LT(fraction([](double s) { return 1e-3 * s * s; }), 1e-5);
+    EXPECT_GT(fraction([](double s) { return 1e-3 * std::sin(9 * s); }), 0.01);
 }
 
 /// Held at its border, a patch of 1/4 x 1/4 in the middle pushed out by 0.3 m; stretched by 5 % to begin with.
@@ -197,7 +197,7 @@ struct PokedSheet {
     static bool is_patch(const Eigen::RowVector3d& p) {
         return (p.head<2>().array() - 0.5).abs().maxCoeff() < 0.125 + 1e-9;
     }
-    bool operator()(const AdaptiveSurface& surface, Settling settling, solve::MotionState& state) {
+    bool operator()(const AdaptiveSurface& surface, SolveStage stage, solve::MotionState& state) {
         const Points& rest = surface.surface().rest;
         std::vector<char> fixed(static_cast<std::size_t>(rest.rows()), 0);
         for (Eigen::Index i = 0; i < rest.rows(); ++i) {
@@ -211,10 +211,10 @@ struct PokedSheet {
         solve::MotionSystem system(node_mass(surface.surface()), fixed);
         system.add(surface.term());
         const Points start = state.x;
-        const auto report = solve::Newton().settle(
+        const auto report = solve::Newton().solve_equilibrium(
             system, {.end_s = 0, .step_s = std::numeric_limits<double>::infinity(), .start = start},
             {.iterations = 100,
-             .tolerance_m = settling == Settling::kFinal ? 1e-6 : 1e-3,
+             .tolerance_m = stage == SolveStage::kFinal ? 1e-6 : 1e-3,
              .linear = solve::LinearSolver::kConjugate,
              .first_step_s = 30},
             state.x);
@@ -233,24 +233,24 @@ struct PokedSheet {
 };
 
 TEST(AdaptiveSurface, PokedSheetNeedsLessThanHalfTheWorkOfAUniformOne) {
-    const SurfaceRefineOptions options{.tolerance = 0.1, .most_bisections = 6};
+    const SurfaceRefineOptions options{.tolerance = 0.1, .max_bisections = 6};
     AdaptiveSurface uniform(sheet(9), options);
-    PokedSheet settle_uniform;
+    PokedSheet solve_uniform;
     solve::MotionState uniform_state = uniform.start();
     do {
-        ASSERT_TRUE(settle_uniform(uniform, Settling::kOnTheWay, uniform_state));
+        ASSERT_TRUE(solve_uniform(uniform, SolveStage::kIntermediate, uniform_state));
     } while (uniform.refine_where([](int) { return true; }, &uniform_state));
-    ASSERT_TRUE(settle_uniform(uniform, Settling::kFinal, uniform_state));
+    ASSERT_TRUE(solve_uniform(uniform, SolveStage::kFinal, uniform_state));
 
     AdaptiveSurface adaptive(sheet(9), options);
-    PokedSheet settle;
+    PokedSheet solve;
     solve::MotionState state = adaptive.start();
-    const RefineRounds rounds = settle_and_refine(adaptive, std::ref(settle), 7, state);
-    EXPECT_TRUE(rounds.settled);
+    const RefineRounds rounds = solve_and_refine(adaptive, std::ref(solve), 7, state);
+    EXPECT_TRUE(rounds.converged);
     const double fine = PokedSheet::push(uniform, uniform_state.x);
     EXPECT_NEAR(PokedSheet::push(adaptive, state.x) / fine, 1, 0.01);
-    EXPECT_LT(settle.multiplications, 0.25 * settle_uniform.multiplications);
-    EXPECT_LT(settle.assembled, 0.5 * settle_uniform.assembled);
+    EXPECT_LT(solve.multiplications, 0.25 * solve_uniform.multiplications);
+    EXPECT_LT(solve.assembled, 0.5 * solve_uniform.assembled);
     // Near a corner of the patch the triangles are small, near a corner of the sheet they are not
     double near = 1, far = 1;
     for (Eigen::Index t = 0; t < adaptive.surface().triangles.rows(); ++t) {
@@ -273,7 +273,7 @@ TEST(AdaptiveSurface, OptionsOutsideTheirRangesAreNamed) {
     };
     EXPECT_EQ(message({.tolerance = 0}),
               "SurfaceRefineOptions: tolerance: expected (0, 1), found 0");
-    EXPECT_EQ(message({.most_bisections = -1}),
+    EXPECT_EQ(message({.max_bisections = -1}),
               "SurfaceRefineOptions: most_bisections: expected [0, 16], found -1");
 }
 

@@ -190,7 +190,7 @@ TEST(StrainError, SeesVolumeChangeThatVariesFromCellToCell) {
 }
 
 /// What holds and pulls the thesis' cube: its highest plane of a3, and weight.
-bool hang(const std::shared_ptr<CellSolid>& solid, Settling settling, solve::MotionState& state) {
+bool hang(const std::shared_ptr<CellSolid>& solid, SolveStage stage, solve::MotionState& state) {
     const CellBody& body = solid->body();
     std::vector<char> fixed;
     for (int i = 0; i < solid->mesh().node_count(); ++i)
@@ -200,12 +200,12 @@ bool hang(const std::shared_ptr<CellSolid>& solid, Settling settling, solve::Mot
     system.add(std::make_shared<Gravity>(body.mass_kg));
     const Points start = state.x;
     return solve::Newton()
-        .settle(system,
-                {.end_s = 0, .step_s = std::numeric_limits<double>::infinity(), .start = start},
-                {.iterations = 100,
-                 .tolerance_m = settling == Settling::kFinal ? 1e-7 : 1e-3,
-                 .first_step_s = 30},
-                state.x)
+        .solve_equilibrium(
+            system, {.end_s = 0, .step_s = std::numeric_limits<double>::infinity(), .start = start},
+            {.iterations = 100,
+             .tolerance_m = stage == SolveStage::kFinal ? 1e-7 : 1e-3,
+             .first_step_s = 30},
+            state.x)
         .converged;
 }
 
@@ -223,9 +223,9 @@ TEST(AdaptiveSolid, HangingCubeIsRefinedAlongTheEdgesOfTheHeldFaceAndAgreesWithT
     const RefineOptions options{.tolerance = 0.35, .deepest_level = 1};
     AdaptiveSolid adaptive(thesis_cube(5, 100), options);
     solve::MotionState state = adaptive.start();
-    const RefineRounds rounds = settle_and_refine(adaptive, hang, 5, state);
+    const RefineRounds rounds = solve_and_refine(adaptive, hang, 5, state);
     EXPECT_TRUE(rounds.satisfied);
-    EXPECT_TRUE(rounds.settled);
+    EXPECT_TRUE(rounds.converged);
     EXPECT_GE(rounds.meshes, 2);
     EXPECT_FALSE(adaptive.refine(state)) << "satisfied is satisfied";
     EXPECT_TRUE(adaptive.tree().is_split({0, {0, 0, 3}})) << "a corner of the held face";
@@ -236,7 +236,7 @@ TEST(AdaptiveSolid, HangingCubeIsRefinedAlongTheEdgesOfTheHeldFaceAndAgreesWithT
     EXPECT_TRUE(fine.refine_where([](const CellMesh::Cell&) { return true; }));
     EXPECT_EQ(fine.solid()->mesh().cells().size(), 512u);
     solve::MotionState fine_state = fine.start();
-    ASSERT_TRUE(hang(fine.solid(), Settling::kFinal, fine_state));
+    ASSERT_TRUE(hang(fine.solid(), SolveStage::kFinal, fine_state));
     EXPECT_LT(adaptive.solid()->mesh().node_count(), 0.8 * fine.solid()->mesh().node_count());
     EXPECT_NEAR(tip(*adaptive.solid(), state.x) / tip(*fine.solid(), fine_state.x), 1, 0.01);
 }
@@ -316,25 +316,25 @@ TEST(AdaptiveSolid, MaterialAndLinearStatesAreUnchangedByRefinement) {
 }
 
 TEST(AdaptiveSolid, EveryMeshIsSettledOnTheWayAndTheLastToTheEnd) {
-    std::vector<std::pair<Settling, std::size_t>> calls;
-    const auto stretch = [&](const std::shared_ptr<CellSolid>& solid, Settling settling,
+    std::vector<std::pair<SolveStage, std::size_t>> calls;
+    const auto stretch = [&](const std::shared_ptr<CellSolid>& solid, SolveStage stage,
                              solve::MotionState& state) {
-        calls.emplace_back(settling, solid->mesh().cells().size());
+        calls.emplace_back(stage, solid->mesh().cells().size());
         state.x =
             mapped(solid->mesh(), [](const Vec3& a) -> Vec3 { return kSide * (a + a * a[2]); });
         return true;
     };
     AdaptiveSolid adaptive(thesis_cube(2, 100), {.tolerance = 1e-3, .deepest_level = 1});
     solve::MotionState state = adaptive.start();
-    RefineRounds rounds = settle_and_refine(adaptive, stretch, 2, state);
-    EXPECT_EQ(calls, (decltype(calls){{Settling::kOnTheWay, 1}, {Settling::kFinal, 8}}));
+    RefineRounds rounds = solve_and_refine(adaptive, stretch, 2, state);
+    EXPECT_EQ(calls, (decltype(calls){{SolveStage::kIntermediate, 1}, {SolveStage::kFinal, 8}}));
     EXPECT_EQ(rounds.meshes, 2);
-    EXPECT_TRUE(rounds.settled);
+    EXPECT_TRUE(rounds.converged);
     EXPECT_FALSE(rounds.satisfied) << "not asked";
 
     calls.clear();
-    rounds = settle_and_refine(adaptive, stretch, 9, state);
-    EXPECT_EQ(calls, (decltype(calls){{Settling::kOnTheWay, 8}, {Settling::kFinal, 8}}));
+    rounds = solve_and_refine(adaptive, stretch, 9, state);
+    EXPECT_EQ(calls, (decltype(calls){{SolveStage::kIntermediate, 8}, {SolveStage::kFinal, 8}}));
     EXPECT_EQ(rounds.meshes, 1);
     EXPECT_TRUE(rounds.satisfied) << "at its deepest level";
 }
@@ -342,10 +342,10 @@ TEST(AdaptiveSolid, EveryMeshIsSettledOnTheWayAndTheLastToTheEnd) {
 TEST(AdaptiveSolid, StopsWhereASolverFails) {
     AdaptiveSolid adaptive(thesis_cube(3, 100), {});
     solve::MotionState state = adaptive.start();
-    const RefineRounds rounds = settle_and_refine(
-        adaptive, [](const auto&, Settling, solve::MotionState&) { return false; }, 3, state);
+    const RefineRounds rounds = solve_and_refine(
+        adaptive, [](const auto&, SolveStage, solve::MotionState&) { return false; }, 3, state);
     EXPECT_EQ(rounds.meshes, 0);
-    EXPECT_FALSE(rounds.settled);
+    EXPECT_FALSE(rounds.converged);
     EXPECT_FALSE(rounds.satisfied);
 }
 

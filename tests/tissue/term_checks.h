@@ -170,8 +170,8 @@ inline Points small_deflection(const solve::EnergyTerm& term, const Points& rest
 
 /// Equilibrium under a dead load by Newton's method with halving; `x` is the start and the result. True when no node
 /// moved more than 1e-9 m at last.
-inline bool settle(const solve::EnergyTerm& term, const std::vector<char>& fixed,
-                   const Points& load, Points& x, int iterations = 200) {
+inline bool solve(const solve::EnergyTerm& term, const std::vector<char>& fixed, const Points& load,
+                  Points& x, int iterations = 200) {
     const auto total = [&](const Points& y, Points& gradient) {
         gradient = -load;
         const double stored = term.add_potential(no_motion(y), y, gradient);
@@ -189,14 +189,15 @@ inline bool settle(const solve::EnergyTerm& term, const std::vector<char>& fixed
         for (Eigen::Index i = 0; i < x.size(); ++i)
             slope[i] = fixed[static_cast<std::size_t>(i / 3)] ? 0 : gradient.data()[i];
         const Eigen::VectorXd step = -solver.solve(slope);
-        double share = 1, next = 0;
+        double fraction = 1, next = 0;
         Points y = x;
-        for (int halving = 0; halving < 40; ++halving, share *= 0.5) {
-            for (Eigen::Index i = 0; i < x.size(); ++i) y.data()[i] = x.data()[i] + share * step[i];
+        for (int halving = 0; halving < 40; ++halving, fraction *= 0.5) {
+            for (Eigen::Index i = 0; i < x.size(); ++i)
+                y.data()[i] = x.data()[i] + fraction * step[i];
             next = total(y, ignored);
-            if (next <= energy + 1e-4 * share * step.dot(slope)) break;
+            if (next <= energy + 1e-4 * fraction * step.dot(slope)) break;
         }
-        const double moved = share * step.cwiseAbs().maxCoeff();
+        const double moved = fraction * step.cwiseAbs().maxCoeff();
         x = y;
         energy = total(x, gradient);
         if (moved < 1e-9) return true;

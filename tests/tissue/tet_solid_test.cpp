@@ -138,17 +138,17 @@ TEST(TetSolid, AStepIsDampedAsTheLaplacianSays) {
     const double energy = at_rest.add_energy(x, still);
     const double lost = 0.5 * damping.cwiseProduct(x - start).sum();
     for (const auto precision : {solve::Precision::kDouble, solve::Precision::kSingle}) {
-        const double share = precision == solve::Precision::kDouble ? 1e-12 : 1e-6;
+        const double fraction = precision == solve::Precision::kDouble ? 1e-12 : 1e-6;
         solid.begin_step(start, kViscosity, precision);
         Points gradient = Points::Zero(block.nodes(), 3);
         EXPECT_NEAR(solid.add_step_energy(x, gradient, precision), energy + lost,
-                    share * (energy + lost));
-        EXPECT_LT((gradient - still - damping).norm(), share * damping.norm());
+                    fraction * (energy + lost));
+        EXPECT_LT((gradient - still - damping).norm(), fraction * damping.norm());
         // Where it began there is no damping
         Points begun = Points::Zero(block.nodes(), 3), plain = begun;
         solid.add_step_energy(start, begun, precision);
         at_rest.add_energy(start, plain, precision);
-        EXPECT_LT((begun - plain).norm(), share * plain.norm());
+        EXPECT_LT((begun - plain).norm(), fraction * plain.norm());
         // and outside of a step there is none
         Points outside = Points::Zero(block.nodes(), 3);
         solid.add_energy(x, outside);

@@ -266,9 +266,9 @@ double sag_difference(const SurfaceGrid& grid, const std::vector<char>& fixed) {
     Points load = Points::Zero(grid.size(), 3);
     load.col(2) = -9.81 * node_mass(surface);
     Points by_grid = surface.rest, by_triangles = surface.rest;
-    EXPECT_TRUE(settle(GridSurfaceTerm(surface), fixed, load, by_grid));
+    EXPECT_TRUE(solve(GridSurfaceTerm(surface), fixed, load, by_grid));
     load.col(2) = -9.81 * node_mass(triangles);
-    EXPECT_TRUE(settle(TriangleSheetTerm(triangles), fixed, load, by_triangles));
+    EXPECT_TRUE(solve(TriangleSheetTerm(triangles), fixed, load, by_triangles));
     const double sag = -by_grid.col(2).minCoeff();
     EXPECT_GT(sag, 0.5);
     return std::abs(-by_triangles.col(2).minCoeff() - sag) / sag;
@@ -300,7 +300,7 @@ TEST(TriangleSheet, IrregularTrianglesSagAsRegularOnesDo) {
     const auto sag = [&](const TriangleSurface& sheet) {
         Points x = sheet.rest, load = Points::Zero(grid.size(), 3);
         load.col(2) = -9.81 * node_mass(sheet);
-        EXPECT_TRUE(settle(TriangleSheetTerm(sheet), fixed, load, x));
+        EXPECT_TRUE(solve(TriangleSheetTerm(sheet), fixed, load, x));
         return -x.col(2).minCoeff();
     };
     const double regular = sag(triangulated(surface));

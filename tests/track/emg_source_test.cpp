@@ -81,16 +81,16 @@ TEST_F(EmgSource, RawSignalsBecomeTheExcitationThatMadeThem) {
         script_of(R"("emg": {"file": "emg_test.csv", "rate_hz": 1000, "maximum": {"ZYG_L": )" +
                   std::to_string(maximum) + R"(}, "channels": {"zygomaticus_major.l": "ZYG_L"}})"),
         channels());
-    double squares = 0, most_at_rest = 0;
+    double squares = 0, max_at_rest = 0;
     for (int i = 0; i < 600; ++i) {
         const double t = 0.005 * i;
         const double u = excitation(timeline, "zygomaticus_major", Side::kLeft, t);
         squares += std::pow(u - intended(t), 2) / 600;
-        if (t < 0.3) most_at_rest = std::max(most_at_rest, u);
+        if (t < 0.3) max_at_rest = std::max(max_at_rest, u);
     }
     EXPECT_LT(std::sqrt(squares),
-              0.08);                // the flutter that 6 Hz leave of noise
-    EXPECT_LT(most_at_rest, 0.01);  // the offset of 0.01 is gone
+              0.08);               // the flutter that 6 Hz leave of noise
+    EXPECT_LT(max_at_rest, 0.01);  // the offset of 0.01 is gone
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kRight, 0.9), 0);
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 3.1), 0);
 }
@@ -234,12 +234,12 @@ TEST_F(EmgSource, SimulatedEmgReadAgainGivesTheExcitationOfTheScript) {
                              "maximum": {"emg:zygomaticus_major.l": 1},
                              "channels": {"zygomaticus_major.l": "emg:zygomaticus_major.l"}})"),
         channels());
-    double most = 0;
+    double max = 0;
     for (double t = 0; t < 2.95; t += 0.005)
-        most = std::max(
-            most, std::abs(excitation(read, "zygomaticus_major", Side::kLeft, t) - intended(t)));
-    EXPECT_LT(most, 0.03);  // what 6 Hz cut off a rise within 0.3 s
-    EXPECT_GT(most, 0.001);
+        max = std::max(
+            max, std::abs(excitation(read, "zygomaticus_major", Side::kLeft, t) - intended(t)));
+    EXPECT_LT(max, 0.03);  // what 6 Hz cut off a rise within 0.3 s
+    EXPECT_GT(max, 0.001);
 }
 
 }  // namespace

@@ -66,10 +66,10 @@ TEST(Facs, SmileUnitPullsBothCorners) {
     const Expansion au12 = unit("AU12");
     EXPECT_GT(excitation(au12, "zygomaticus_major.l"), 0.5);
     double sum = 0;
-    for (const MuscleShare& share : tables().facs.find("AU12")->muscles) {
-        EXPECT_EQ(excitation(au12, share.muscle + ".l"), share.weight);
-        EXPECT_EQ(excitation(au12, share.muscle + ".r"), share.weight);
-        sum += 2 * share.weight;
+    for (const MuscleShare& fraction : tables().facs.find("AU12")->muscles) {
+        EXPECT_EQ(excitation(au12, fraction.muscle + ".l"), fraction.weight);
+        EXPECT_EQ(excitation(au12, fraction.muscle + ".r"), fraction.weight);
+        sum += 2 * fraction.weight;
     }
     EXPECT_NEAR(au12.excitation.sum(), sum, 1e-12);
 }

@@ -251,14 +251,14 @@ Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
             {"tets", face.tet_count()},
             {"steps", report.steps},
             {"broken_steps", report.broken_steps},
-            {"most_inverted_tets", report.most_inverted_tets},
+            {"most_inverted_tets", report.max_inverted_tets},
             {"mean_inverted_tets", report.mean_inverted_tets},
             {"longest_inverted_steps", report.longest_inverted_steps},
             {"furthest_mm", 1e3 * report.furthest_m},
             {"usual_penetration_mm", penetration(report.usual_penetration)},
             {"deepest_penetration_mm", penetration(report.deepest_penetration)},
             {"inverted_at_rest", report.inverted_at_rest},
-            {"left_at_rest_mm", 1e3 * report.left_at_rest_m},
+            {"left_at_rest_mm", 1e3 * report.residual_displacement_m},
             {"step_ms", 1e3 * stopwatch.seconds() / std::max(1, report.steps)}};
 }
 

@@ -20,20 +20,20 @@ track::Drive drive_of(const scene::RigFiles& files, const std::string& unit) {
     return rig::clamped_drive(*expansion, files.rig.channels());
 }
 
-Json settle(face::Face& face, const std::string& unit, const track::Drive& drive) {
+Json solve_equilibrium(face::Face& face, const std::string& unit, const track::Drive& drive) {
     track::Drive rest = drive;
     rest.excitation.setZero();
     rest.kinematic = {};
     face.start([&](double) { return rest; });
     const report::CoreStopwatch stopwatch;
-    const face::StepStats figures = face.settle(drive.excitation, drive);
+    const face::StepStats figures = face.solve_equilibrium(drive.excitation, drive);
     const double seconds = stopwatch.seconds();
     const int inverted = face.inverted_tets();
     const Points at_rest = face.nodes();
     face::StaticOptions closer{.iterations = face::kRestIterations};
     closer.tolerance_m /= kCloser;
     closer.planes_m /= kCloser;
-    face.settle(drive.excitation, drive, closer);
+    face.solve_equilibrium(drive.excitation, drive, closer);
     return {{"name", unit},
             {"iterations", figures.iterations},
             {"seconds", seconds},
@@ -61,7 +61,7 @@ Json bench_poses(const scene::RigFiles& files, const PoseBench& bench,
         for (std::size_t i = 0; i < drives.size(); ++i) {
             monitor.report(done / all,
                            bench.units[i] + ", " + std::to_string(face.node_count()) + " nodes");
-            poses.push_back(settle(face, bench.units[i], drives[i]));
+            poses.push_back(solve_equilibrium(face, bench.units[i], drives[i]));
             done += vertices;
         }
         out.push_back({{"shell_vertices", vertices},

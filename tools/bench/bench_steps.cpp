@@ -58,7 +58,7 @@ struct StepRun {
     SkinTrack skin;
     std::vector<double> step_ms;
     int nodes = 0, tets = 0;
-    int most_inverted_tets = 0;
+    int max_inverted_tets = 0;
     double iterations = 0;  // mean
 };
 
@@ -76,7 +76,7 @@ StepRun play(const scene::RigFiles& files, const face::DriveAt& drive, const Ste
         out.iterations += face.step(drive).iterations / static_cast<double>(one.steps);
         out.step_ms.push_back(1e3 * stopwatch.seconds());
         out.skin.push_back(face.skin_nodes());
-        out.most_inverted_tets = std::max(out.most_inverted_tets, face.inverted_tets());
+        out.max_inverted_tets = std::max(out.max_inverted_tets, face.inverted_tets());
     }
     return out;
 }
@@ -133,7 +133,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
     std::map<std::tuple<int, int, double>, SkinTrack>
         converged;  // by size of the shell, number of steps and length of a substep
     const auto key = [](const StepBench& one) {
-        return std::tuple(one.quality.shell_vertices, one.steps, one.quality.longest_piece_s);
+        return std::tuple(one.quality.shell_vertices, one.steps, one.quality.max_substep_s);
     };
     for (const StepBench& one : cases) {
         if (converged.contains(key(one))) continue;
@@ -147,17 +147,17 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
 
     // All cases run before any is repeated, since a shared machine can be slow for seconds.
     std::vector<StepRun> runs(cases.size());
-    std::vector<std::vector<double>> least_ms(cases.size());
+    std::vector<std::vector<double>> min_ms(cases.size());
     for (int time = 0; time < kTimesPlayed; ++time)
         for (std::size_t i = 0; i < cases.size(); ++i) {
             StepRun run = play(files, drive, cases[i], monitor);
             if (time == 0) {
-                least_ms[i] = run.step_ms;
+                min_ms[i] = run.step_ms;
                 runs[i] = std::move(run);
                 continue;
             }
             for (std::size_t step = 0; step < run.step_ms.size(); ++step)
-                least_ms[i][step] = std::min(least_ms[i][step], run.step_ms[step]);
+                min_ms[i][step] = std::min(min_ms[i][step], run.step_ms[step]);
             runs[i].step_ms.insert(runs[i].step_ms.end(), run.step_ms.begin(), run.step_ms.end());
         }
 
@@ -177,11 +177,11 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
             {{"quality", cases[i].quality.name},
              {"nodes", run.nodes},
              {"tets", run.tets},
-             {"most_inverted_tets", run.most_inverted_tets},
+             {"most_inverted_tets", run.max_inverted_tets},
              {"steps", cases[i].steps},
              {"iterations", run.iterations},
              {"step_ms", report::median(run.step_ms)},
-             {"least_step_ms", report::median(least_ms[i])},
+             {"least_step_ms", report::median(min_ms[i])},
              {"mean_step_ms", std::accumulate(run.step_ms.begin(), run.step_ms.end(), 0.0) /
                                   static_cast<double>(run.step_ms.size())},
              {"rms_mm", 1e3 * std::sqrt(squares / static_cast<double>(count))},

@@ -28,7 +28,7 @@ struct StepBench {
     int steps = 240;  ///< of the track, from its start
 };
 
-/// For each entry: quality, nodes, tets, most_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
+/// For each entry: quality, nodes, tets, max_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
 /// largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cases,
                  const ProgressMonitor& monitor = {});

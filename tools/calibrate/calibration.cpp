@@ -63,7 +63,7 @@ class Calibration {
                 if (unknown.name.starts_with("levator_palpebrae") ||
                     unknown.name.starts_with("superior_tarsal") ||
                     (!unknown.channels.empty() && inverse::value_of(unknown, shape.drive) == 0))
-                    unknown.least = unknown.most = inverse::value_of(unknown, shape.drive);
+                    unknown.min = unknown.max = inverse::value_of(unknown, shape.drive);
             one.price = one.table.unaryExpr(
                 [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
@@ -146,7 +146,7 @@ class Calibration {
             out.drives.push_back(drive_of(one, z));
             out.faces.push_back(std::make_unique<face::Face>(make_face(rig)));
             face::Face& face = *out.faces.back();
-            face.settle(out.drives.back().excitation, out.drives.back());
+            face.solve_equilibrium(out.drives.back().excitation, out.drives.back());
             out.miss.push_back(weighted(face.skin_nodes() - face.rest_skin_nodes()) - one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
             const Eigen::VectorXd a = z.segment(one.first, one.table.size());
@@ -255,19 +255,19 @@ class Calibration {
     }
 
     void limit(double reach, solve::BoxQuadratic& problem) const {
-        problem.least = z_;
-        problem.most = z_;
+        problem.min = z_;
+        problem.max = z_;
         for (std::size_t p = 0; p < parameters_.size(); ++p) {
             const long i = static_cast<long>(p);
-            const double far = reach * 0.7 * parameters_[p].spread, most = parameters_[p].most;
-            problem.least[i] = std::max(-most, z_[i] - far);
-            problem.most[i] = std::min(most, z_[i] + far);
+            const double far = reach * 0.7 * parameters_[p].spread, max = parameters_[p].max;
+            problem.min[i] = std::max(-max, z_[i] - far);
+            problem.max[i] = std::min(max, z_[i] + far);
         }
         for (const Expression& one : expressions_)
             for (std::size_t i = 0; i < one.unknowns.size(); ++i) {
                 const long at = one.first + static_cast<long>(i);
-                problem.least[at] = std::max(one.unknowns[i].least, z_[at] - 0.3 * reach);
-                problem.most[at] = std::min(one.unknowns[i].most, z_[at] + 0.3 * reach);
+                problem.min[at] = std::max(one.unknowns[i].min, z_[at] - 0.3 * reach);
+                problem.max[at] = std::min(one.unknowns[i].max, z_[at] + 0.3 * reach);
             }
     }
 

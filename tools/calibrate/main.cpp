@@ -33,7 +33,7 @@ std::map<std::string, double> stretches(const scene::RigFiles& files,
         for (const Side side : {Side::kLeft, Side::kRight})
             activation[channels.column(band.muscle, side)] = 1;
         face.start([&](double) { return rest; });
-        face.settle(activation, rest);
+        face.solve_equilibrium(activation, rest);
         out[band.muscle] = face.mean_stretch(band.muscle);
     }
     return out;
@@ -50,7 +50,7 @@ void write_ways(const std::filesystem::path& rig_file, const std::string& qualit
     const std::set<std::string> others{"eyeBlink", "eyeWide", "jawForward", "jawOpen"};
     for (const std::string& name : inverse::twenty_four_expressions()) {
         if (others.count(name)) continue;
-        const Points moved = ways.settle(ways.drive(name));
+        const Points moved = ways.solve_equilibrium(ways.drive(name));
         for (std::size_t i = 0; i < ways.landmarks().size(); ++i)
             table[name][ways.landmarks()[i]] = moved.row(static_cast<long>(i)).transpose();
     }
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
     std::filesystem::path rig_file, shapes_file, standard;
     std::vector<std::string> only;
     calibrate::Options options;
-    double least = 0.05;
+    double min = 0.05;
     bool shapes_too = false, ways_only = false;
     app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
         ->required();
@@ -126,13 +126,13 @@ int main(int argc, char** argv) {
             std::printf("%-16s relative error %.3f -> %.3f :", shapes[e].name.c_str(),
                         result.relative_before[e], result.relative_after[e]);
             for (std::size_t i = 0; i < result.unknowns[e].size(); ++i)
-                if (std::abs(result.activations[e][static_cast<long>(i)]) >= least)
+                if (std::abs(result.activations[e][static_cast<long>(i)]) >= min)
                     std::printf(" %s %.2f", result.unknowns[e][i].name.c_str(),
                                 result.activations[e][static_cast<long>(i)]);
             std::printf("\n");
         }
         calibrate::write_tables(found, stretches(files, found, options.quality), standard);
-        if (shapes_too) calibrate::write_shapes(shapes, result, files.rig, least, standard);
+        if (shapes_too) calibrate::write_shapes(shapes, result, files.rig, min, standard);
     } catch (const Error& error) {
         std::fprintf(stderr, "calibrate: %s\n", error.what());
         return 2;

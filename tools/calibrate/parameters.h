@@ -16,7 +16,7 @@ struct Parameter {
     std::string name;
     double spread;  ///< how far from the published value it may plausibly lie, standard deviation
     double step;    ///< for differences
-    double most;    ///< |value| at most
+    double max;     ///< |value| at most
     std::function<void(rig::RigDescription&, double value)> add;  ///< value 0: as it is
 };
 

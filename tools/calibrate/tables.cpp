@@ -88,8 +88,7 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
 }
 
 void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Result& result,
-                  const rig::RigDescription& rig, double least,
-                  const std::filesystem::path& folder) {
+                  const rig::RigDescription& rig, double min, const std::filesystem::path& folder) {
     Json facs = read(folder / "facs.json");
     for (std::size_t e = 0; e < shapes.size(); ++e) {
         const auto write = [&](const std::string& name, const std::string& side,
@@ -122,7 +121,7 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
             for (std::size_t i = 0; i < result.unknowns[e].size(); ++i) {
                 const inverse::ActivationUnknown& unknown = result.unknowns[e][i];
                 double value = rounded(result.activations[e][static_cast<long>(i)], 0.01);
-                if (std::abs(value) < least) value = 0;
+                if (std::abs(value) < min) value = 0;
                 const bool listed = inverse::value_of(unknown, shapes[e].drive) != 0;
                 if (value == 0 && !(listed && target == &shape)) continue;
                 if (unknown.channels.empty()) {

@@ -18,8 +18,7 @@ void write_tables(const rig::RigDescription& rig, const std::map<std::string, do
 
 /// facs.json: the ARKit shapes among `shapes`, or the unit that one of them is, get the activations found. Sources under `least` are left out.
 void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Result& result,
-                  const rig::RigDescription& rig, double least,
-                  const std::filesystem::path& folder);
+                  const rig::RigDescription& rig, double min, const std::filesystem::path& folder);
 
 /// landmark_ways.json.
 void write_ways(const scene::DisplacementTable& ways, const std::filesystem::path& folder);

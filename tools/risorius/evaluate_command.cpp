@@ -43,7 +43,7 @@ void print_means(const char* what, const inverse::Evaluation& evaluation,
     if (fitted.count > 0)
         std::printf("   | %6.3f %6.3f %6.2f %6s %6.2f   least cosine %.3f", fitted.cosine,
                     fitted.relative, 1e3 * fitted.rms_m, "", 1e3 * fitted.landmark_m,
-                    fitted.least_cosine);
+                    fitted.min_cosine);
     std::printf("\n");
 }
 
@@ -135,7 +135,7 @@ void add_evaluate(CLI::App& app) {
     command->add_flag("--fit", options.fit,
                       "Also fit activations in [0, 1], sparse, starting from the rig's table");
     command->add_flag(
-        "--apart", options.apart,
+        "--apart", options.separate_sides,
         "Evaluate left and right shapes separately; otherwise x_L and x_R are added to x");
     command
         ->add_option("--quality", options.quality,

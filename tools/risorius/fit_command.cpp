@@ -33,10 +33,10 @@ void add_part(const std::string& text, std::map<std::string, std::vector<std::st
     }
 }
 
-std::string joined(const std::vector<std::string>& list, std::size_t most = 1000) {
+std::string joined(const std::vector<std::string>& list, std::size_t max = 1000) {
     std::string out;
-    for (std::size_t i = 0; i < std::min(most, list.size()); ++i) out += (i ? " " : "") + list[i];
-    if (list.size() > most) out += " ...";
+    for (std::size_t i = 0; i < std::min(max, list.size()); ++i) out += (i ? " " : "") + list[i];
+    if (list.size() > max) out += " ...";
     return out;
 }
 

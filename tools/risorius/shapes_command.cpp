@@ -36,7 +36,7 @@ void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOpt
                     shown_mm(of.peak_m).c_str(), 100 * of.volume_change,
                     shown_mm(of.lip_depth_m).c_str(), shown_mm(of.eye_depth_m).c_str(),
                     shown_mm(of.lid_gap_m).c_str(), shown_mm(of.asymmetry_m).c_str(),
-                    of.stretch.greatest);
+                    of.stretch.max);
         for (const std::string& one : of.complaints()) std::printf("  %s", one.c_str());
         std::printf("\n");
     }
@@ -52,7 +52,7 @@ void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOpt
         std::printf(
             "%s, %d frames: linear rig off the simulation by %.2f mm RMS, %.2f at most; "
             "without correctives %.2f, %.2f; %.2f ms a frame\n",
-            track.name.c_str(), track.frames, 1e3 * track.rms_m, 1e3 * track.greatest_m,
+            track.name.c_str(), track.frames, 1e3 * track.rms_m, 1e3 * track.max_m,
             1e3 * track.plain_rms_m, 1e3 * track.plain_greatest_m, 1e3 * track.play_s);
     if (!report.correctives.tried.empty())
         std::printf("%zu correctives for what %zu pairs and halves lack\n",

@@ -22,7 +22,7 @@ void print(const inverse::SolveReport& report, const inverse::SolveOptions& opti
     std::printf("  %-24s %9s %9s %9s %8s\n", "mm", "given rms", "left rms", "left max", "highest");
     for (const inverse::SolvedDrive& one : report.solved)
         std::printf("  %-24s %9.3f %9.3f %9.3f %8.2f\n", one.name.c_str(), 1e3 * one.given_rms_m,
-                    1e3 * one.rms_m, 1e3 * one.greatest_m, one.highest);
+                    1e3 * one.rms_m, 1e3 * one.max_m, one.highest);
     std::printf("all: %.3f mm RMS left; script: %s\n", 1e3 * report.rms_m(),
                 (options.out / "script.json").generic_string().c_str());
 }

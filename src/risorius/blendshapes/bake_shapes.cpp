@@ -34,7 +34,7 @@ Json shape_json(const MadeShape& made, const std::vector<MadeShape>& all) {
 // The greatest of every number over all shapes.
 Json worst_of(const MadeShapes& shapes) {
     Json out = Json::object();
-    const auto greatest = [&](const char* name, auto&& value) {
+    const auto max = [&](const char* name, auto&& value) {
         double worst = 0;
         bool known = false;
         for (const MadeShape& made : shapes.list)
@@ -47,13 +47,13 @@ Json worst_of(const MadeShapes& shapes) {
     using C = const ShapeCertificate&;
     using Maybe = std::optional<double>;
     const auto mm = [](const Maybe& m) { return m ? Maybe(1e3 * *m) : Maybe(); };
-    greatest("volume_change", [](C c) { return Maybe(std::abs(c.volume_change)); });
-    greatest("lip_depth_mm", [&](C c) { return mm(c.lip_depth_m); });
-    greatest("eye_depth_mm", [&](C c) { return mm(c.eye_depth_m); });
-    greatest("bone_depth_mm", [&](C c) { return mm(c.bone_depth_m); });
-    greatest("lid_gap_mm", [&](C c) { return mm(c.lid_gap_m); });
-    greatest("asymmetry_mm", [&](C c) { return mm(c.asymmetry_m); });
-    greatest("largest_stretch", [](C c) { return Maybe(c.stretch.greatest); });
+    max("volume_change", [](C c) { return Maybe(std::abs(c.volume_change)); });
+    max("lip_depth_mm", [&](C c) { return mm(c.lip_depth_m); });
+    max("eye_depth_mm", [&](C c) { return mm(c.eye_depth_m); });
+    max("bone_depth_mm", [&](C c) { return mm(c.bone_depth_m); });
+    max("lid_gap_mm", [&](C c) { return mm(c.lid_gap_m); });
+    max("asymmetry_mm", [&](C c) { return mm(c.asymmetry_m); });
+    max("largest_stretch", [](C c) { return Maybe(c.stretch.max); });
     out["halves_sum_error_mm"] = 1e3 * shapes.halves_error_m;
     return out;
 }
@@ -68,7 +68,7 @@ Json correctives_json(const Correctives& found) {
     for (const blendshapes::Driver& driver : found.rig.drivers) drivers.push_back(driver.name);
     for (const TriedCorrective& one : found.tried)
         tried.push_back({{"name", one.name},
-                         {"max_mm", 1e3 * one.greatest_m},
+                         {"max_mm", 1e3 * one.max_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
                          {"put_right", one.put_right}});
@@ -81,7 +81,7 @@ Json tracks_json(const std::vector<TrackError>& tracks) {
         out.push_back({{"name", track.name},
                        {"frames", track.frames},
                        {"rms_mm", 1e3 * track.rms_m},
-                       {"max_mm", 1e3 * track.greatest_m},
+                       {"max_mm", 1e3 * track.max_m},
                        {"worst_frame", track.frame_of(track.worst)},
                        {"worst_vertex", track.worst_vertex},
                        {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},

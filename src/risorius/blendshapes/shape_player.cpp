@@ -85,14 +85,14 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         one.name = correctives[c].at("name").string();
         if (one.name != target.name)
             correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
-        const std::vector<JsonCursor> shares = correctives[c].at("of_terms").items();
-        if (shares.size() != drivers.size())
+        const std::vector<JsonCursor> fractions = correctives[c].at("of_terms").items();
+        if (fractions.size() != drivers.size())
             correctives[c]
                 .at("of_terms")
                 .fail("a number for each of " + std::to_string(drivers.size()) + " terms");
-        one.of_drivers.resize(static_cast<long>(shares.size()));
-        for (std::size_t t = 0; t < shares.size(); ++t)
-            one.of_drivers[static_cast<long>(t)] = shares[t].number();
+        one.of_drivers.resize(static_cast<long>(fractions.size()));
+        for (std::size_t t = 0; t < fractions.size(); ++t)
+            one.of_drivers[static_cast<long>(t)] = fractions[t].number();
         one.shape = {target.vertex, target.delta};
     }
     return out;

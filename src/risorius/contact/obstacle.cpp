@@ -36,18 +36,18 @@ class Capsule : public Shape {
         const double length = off.norm();
         if (!(length > 0)) return Mat3::Zero();
         Mat3 across = Mat3::Identity() - off * off.transpose() / (length * length);
-        const double s = share(p);
+        const double s = fraction(p);
         if (s > 0 && s < 1)
             across -= axis_ * axis_.transpose() / axis_.squaredNorm();  // straight along the side
         return across / length;
     }
 
   private:
-    double share(const Vec3& p) const {
+    double fraction(const Vec3& p) const {
         const double squared = axis_.squaredNorm();
         return squared > 0 ? std::clamp((p - start_).dot(axis_) / squared, 0.0, 1.0) : 0.0;
     }
-    Vec3 from_axis(const Vec3& p) const { return p - start_ - share(p) * axis_; }
+    Vec3 from_axis(const Vec3& p) const { return p - start_ - fraction(p) * axis_; }
 
     Vec3 start_, axis_;
     double radius_;
@@ -115,10 +115,11 @@ RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double e
         // Cubic ease: speed and place join the rests before and after
         const double duration = end_s - start_s;
         const double s = std::clamp((t_s - start_s) / duration, 0.0, 1.0);
-        const double share = s * s * (3 - 2 * s), rate = 6 * s * (1 - s) / duration;
+        const double fraction = s * s * (3 - 2 * s), rate = 6 * s * (1 - s) / duration;
         RigidState state{from, rate * way, rate * turn.angle() * turn.axis()};
-        state.place.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()) * from.linear();
-        state.place.translation() = from.translation() + share * way;
+        state.place.linear() =
+            Eigen::AngleAxisd(fraction * turn.angle(), turn.axis()) * from.linear();
+        state.place.translation() = from.translation() + fraction * way;
         return state;
     };
 }

@@ -145,12 +145,12 @@ void ObstacleContact::add_metric(double, solve::MetricBuilder& metric) const {
         sample.point.scatter(0.5 * material_.stiffness_pa_per_m * sample.area_m2, metric);
 }
 
-double ObstacleContact::least_gap_m(double t_s, const Points& x) const {
+double ObstacleContact::min_gap_m(double t_s, const Points& x) const {
     const PlacedShape shape = obstacle_->at(t_s);
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const ContactSample& sample : samples_)
-        least = std::min(least, shape.distance(sample.point.of(x)).gap_m);
-    return least;
+        min = std::min(min, shape.distance(sample.point.of(x)).gap_m);
+    return min;
 }
 
 int ObstacleContact::touching(double t_s, const Points& x) const {

@@ -35,8 +35,8 @@ class ObstacleContact : public solve::EnergyTerm {
     /// Every sample may touch some day: each gives half its stiffness, touching or not.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
-    double least_gap_m(double t_s, const Points& x) const;  ///< negative: penetration
-    int touching(double t_s, const Points& x) const;        ///< samples that press
+    double min_gap_m(double t_s, const Points& x) const;  ///< negative: penetration
+    int touching(double t_s, const Points& x) const;      ///< samples that press
     /// Of the obstacle on the body, friction included, N.
     Vec3 total_force(double t_s, const Points& x, const Points& v) const;
 

@@ -30,7 +30,7 @@ Vec3 foot_on_plane(const Vec3& p, int triangle, const Triangles& triangles, cons
     return {1 - of_b - of_c, of_b, of_c};
 }
 
-double greatest_speed(const std::vector<int>& nodes, const Points& v) {
+double max_speed(const std::vector<int>& nodes, const Points& v) {
     double squared = 0;
     for (const int node : nodes) squared = std::max(squared, v.row(node).squaredNorm());
     return std::sqrt(squared);
@@ -67,7 +67,7 @@ void SurfaceContact::begin_step(double, double step_s, const Points& x, const Po
     double reach = options_.search_m > 0 ? options_.search_m : 4 * material_.thickness_m;
     reach += material_.thickness_m;
     if (std::isfinite(step_s))
-        reach += step_s * (greatest_speed(nodes_[0], v) + greatest_speed(nodes_[1], v));
+        reach += step_s * (max_speed(nodes_[0], v) + max_speed(nodes_[1], v));
     for (ClosedSurface& surface : surfaces_) surface.refit(x);
     pairs_.clear();
     for (std::size_t i = 0; i < sides_.size(); ++i) find_pairs(sides_[i], i == 0, reach, x);
@@ -120,7 +120,7 @@ void SurfaceContact::add_pair(const Side& side, const ContactSample& sample, boo
               {corners(0), corners(1), corners(2)},
               weights,
               Vec3::Zero(),
-              side.share * material_.stiffness_pa_per_m * sample.area_m2,
+              side.fraction * material_.stiffness_pa_per_m * sample.area_m2,
               of_first,
               Vec3::Zero(),
               0,
@@ -256,11 +256,10 @@ void SurfaceContact::add_metric(double, solve::MetricBuilder& metric) const {
             sample.point.scatter(0.5 * material_.stiffness_pa_per_m * sample.area_m2, metric);
 }
 
-double SurfaceContact::least_gap_m(const Points& x) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Pair& pair : pairs_)
-        least = std::min(least, pair.normal.dot(frame_of(pair, x).place()));
-    return least;
+double SurfaceContact::min_gap_m(const Points& x) const {
+    double min = std::numeric_limits<double>::infinity();
+    for (const Pair& pair : pairs_) min = std::min(min, pair.normal.dot(frame_of(pair, x).place()));
+    return min;
 }
 
 Vec3 SurfaceContact::force_on_first(const Points& x) const {

@@ -52,7 +52,7 @@ class SurfaceContact : public solve::EnergyTerm {
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
     /// Negative: penetration. Of the step's pairs; infinite without any.
-    double least_gap_m(const Points& x) const;
+    double min_gap_m(const Points& x) const;
     int pair_count() const { return static_cast<int>(pairs_.size()); }
     /// On the first body (or the samples) at rest in position x, N.
     Vec3 force_on_first(const Points& x) const;
@@ -63,7 +63,7 @@ class SurfaceContact : public solve::EnergyTerm {
         std::vector<ContactSample> samples;
         int own = -1;  // surface the samples lie on, or none
         int other = 0;
-        double share = 1;  // of the stiffness
+        double fraction = 1;  // of the stiffness
     };
     struct Pair {
         const ContactSample* sample;

@@ -18,16 +18,16 @@ std::vector<ContactSample> surface_samples(const Points& rest, const Triangles& 
     using Key = std::array<std::pair<int, int>, 3>;
     std::map<Key, std::size_t> found;
     std::vector<ContactSample> samples;
-    const auto sample_at = [&](long t, const std::array<int, 3>& shares) -> ContactSample& {
+    const auto sample_at = [&](long t, const std::array<int, 3>& fractions) -> ContactSample& {
         Key key;
         for (int k = 0; k < 3; ++k)
-            key[k] = shares[k] > 0 ? std::pair(triangles(t, k), shares[k]) : std::pair(-1, 0);
+            key[k] = fractions[k] > 0 ? std::pair(triangles(t, k), fractions[k]) : std::pair(-1, 0);
         std::sort(key.begin(), key.end());
         const auto [place, is_new] = found.try_emplace(key, samples.size());
         if (is_new) {
             ContactSample sample{{}, 0};
-            for (const auto& [node, share] : key)
-                if (share > 0) sample.point.add(node, share / static_cast<double>(n));
+            for (const auto& [node, fraction] : key)
+                if (fraction > 0) sample.point.add(node, fraction / static_cast<double>(n));
             samples.push_back(sample);
         }
         return samples[place->second];

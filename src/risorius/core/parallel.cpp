@@ -10,7 +10,7 @@
 namespace risorius {
 
 int ThreadLimit::count() const {
-    return most > 0 ? most : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return max > 0 ? max : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 void parallel_for(int count, const ThreadLimit& threads, const std::function<void(int)>& body) {

@@ -36,11 +36,11 @@ class SpareThreads {
 
 /// How many threads to use; a plain number will do.
 struct ThreadLimit {
-    int most = 0;                   ///< 0 = as many as the machine has
+    int max = 0;                    ///< 0 = as many as the machine has
     SpareThreads* spare = nullptr;  ///< where to take them from, besides the one that asks
 
-    ThreadLimit(int most_threads = 0, SpareThreads* spare_threads = nullptr)
-        : most(most_threads), spare(spare_threads) {}
+    ThreadLimit(int max_threads = 0, SpareThreads* spare_threads = nullptr)
+        : max(max_threads), spare(spare_threads) {}
 
     int count() const;
 };

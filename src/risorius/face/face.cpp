@@ -45,21 +45,21 @@ Quality quality_named(const std::string& name) {
                 .iterations = 8,
                 .mouth_passes = 10,
                 .step_s = 2 * kStep_s,
-                .longest_piece_s = 2 * kStep_s};
+                .max_substep_s = 2 * kStep_s};
     if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_passes = 9};
     if (name == "video")
         return {.name = "video",
                 .iterations = 80,
-                .least_iterations = 4,
+                .min_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
-                .longest_piece_s = kStep_s / 2};
+                .max_substep_s = kStep_s / 2};
     if (name == "fine")
         return {.name = "fine",
                 .shell_vertices = 1700,
                 .iterations = 120,
-                .least_iterations = 4,
+                .min_iterations = 4,
                 .tolerance_rms_m = 0.0025e-3,
-                .longest_piece_s = kStep_s / 2};
+                .max_substep_s = kStep_s / 2};
     throw Error(option_name("quality"),
                 "\"draft\", \"preview\", \"video\" or \"fine\"" +
                     did_you_mean(name, {"draft", "preview", "video", "fine"}),
@@ -69,8 +69,8 @@ Quality quality_named(const std::string& name) {
 struct Face::Impl {
     rig::RigDescription rig;
     Quality quality;
-    int pieces;      // of a step
-    double piece_s;  // what is solved at once
+    int substeps;      // of a step
+    double substep_s;  // what is solved at once
     double build_s = 0;
     rig::Head head;
     std::array<EyeLids, 2> lids;
@@ -108,11 +108,11 @@ struct Face::Impl {
          const Quality& q, const std::string& place)
         : rig(rig_description),
           quality(q),
-          pieces(std::max(1, static_cast<int>(std::ceil(q.step_s / q.longest_piece_s - 1e-6)))),
-          piece_s(q.step_s / pieces),
+          substeps(std::max(1, static_cast<int>(std::ceil(q.step_s / q.max_substep_s - 1e-6)))),
+          substep_s(q.step_s / substeps),
           head(rig::place_head(rig, polygon_mesh, place)),
-          lids{EyeLids(head, 0, rig.eyes.lid_closed_share),
-               EyeLids(head, 1, rig.eyes.lid_closed_share)},
+          lids{EyeLids(head, 0, rig.eyes.lid_closed_fraction),
+               EyeLids(head, 1, rig.eyes.lid_closed_fraction)},
           jaw(head, rig.jaw),
           shell(drop_unsupported_vertices(build_shell(head, jaw, lids, {q.shell_vertices}), head,
                                           rig, lids)),
@@ -120,7 +120,7 @@ struct Face::Impl {
           tissue(head, rig, jaw, lids, shell, mesh),
           driven_jaw(head, rig, jaw),
           neck(head),
-          motion(neck, tissue.rest(), piece_s),
+          motion(neck, tissue.rest(), substep_s),
           channels(rig.channels()) {
         tissue.step_in(quality.precision);
         tissue.refine_mouth(quality.mouth_passes);
@@ -162,8 +162,8 @@ struct Face::Impl {
         return activation;
     }
 
-    JawVector jaw_between(double share) const {
-        return (1 - share) * before.jaw.q + share * now.jaw.q;
+    JawVector jaw_between(double fraction) const {
+        return (1 - fraction) * before.jaw.q + fraction * now.jaw.q;
     }
 
     // In the frame of the head; what rest bears if weight is not to turn.
@@ -194,14 +194,15 @@ struct Face::Impl {
         tissue.set_boundary_conditions(prescribed(activation, drive));
     }
 
-    StepStats settle(const Eigen::VectorXd& activation, const track::Drive& drive,
-                     const StaticOptions& options) {
+    StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& drive,
+                                const StaticOptions& options) {
         Points x = now.x;
         set_boundary_conditions(x, activation, drive);
         const StepStats figures =
             driven_jaw.by_muscles()
-                ? driven_jaw.settle(tissue, activation, gravity_at(drive), options, x, now.jaw)
-                : statics->settle(activation, options, x);
+                ? driven_jaw.solve_equilibrium(tissue, activation, gravity_at(drive), options, x,
+                                               now.jaw)
+                : statics->solve_equilibrium(activation, options, x);
         now.x = x;
         now.activation = activation;
         now.drive = drive;
@@ -218,9 +219,9 @@ struct Face::Impl {
         return times * quality.iterations;
     }
 
-    StepStats piece(const DriveAt& drive_at) {
-        const double from = static_cast<double>(done) * piece_s,
-                     to = static_cast<double>(done + 1) * piece_s;
+    StepStats substep(const DriveAt& drive_at) {
+        const double from = static_cast<double>(done) * substep_s,
+                     to = static_cast<double>(done + 1) * substep_s;
         const track::Drive drive = complete(drive_at(to));
         Eigen::VectorXd excitation;
         dynamics->advance(
@@ -245,10 +246,10 @@ struct Face::Impl {
         const std::span<const Points> warm_start(&last_move,
                                                  last_move.rows() > 0 && !went_back ? 1 : 0);
         const StepStats figures =
-            driven_jaw.implicit_step(tissue, h, piece_s, moves.start, moves.aim, activation,
+            driven_jaw.implicit_step(tissue, h, substep_s, moves.start, moves.aim, activation,
                                      {moves.moved, gravity_at(drive)},
                                      {.iterations = iterations(),
-                                      .least_iterations = quality.least_iterations,
+                                      .min_iterations = quality.min_iterations,
                                       .memory = kMemory,
                                       .pairs = quality.precision,
                                       .step_cap_m = kStepCap_m,
@@ -271,18 +272,18 @@ struct Face::Impl {
     }
 
     // Linear between the last two steps; the drives that move bone and lids are interpolated, not their results.
-    track::Drive drive_between(double share) const {
+    track::Drive drive_between(double fraction) const {
         track::Drive drive = now.drive;
         for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
             drive.kinematic[k] =
-                (1 - share) * before.drive.kinematic[k] + share * now.drive.kinematic[k];
+                (1 - fraction) * before.drive.kinematic[k] + fraction * now.drive.kinematic[k];
         return drive;
     }
 
     // Where t lies between the last two steps, 0..1
-    double share_of_step(double t_s) const {
+    double fraction_of_step(double t_s) const {
         if (how == Motion::kQuasiStatic) return 1.0;
-        return 1.0 - (static_cast<double>(done) - exact_step(t_s, piece_s));
+        return 1.0 - (static_cast<double>(done) - exact_step(t_s, substep_s));
     }
 
     void make_surfaces() {
@@ -291,9 +292,9 @@ struct Face::Impl {
         tissue.solids().add_surfaces(surfaces);
     }
 
-    Points muscle_vertices(double share) {
+    Points muscle_vertices(double fraction) {
         make_surfaces();
-        const State state = between(share);
+        const State state = between(fraction);
         const JawVector& q = state.jaw.q;
         Points vertices = surfaces.rest;
         const Points x = shown(state);
@@ -306,22 +307,23 @@ struct Face::Impl {
         return vertices;
     }
 
-    State between(double share) const {
-        return {(1 - share) * before.x + share * now.x,
-                (1 - share) * before.activation + share * now.activation,
-                drive_between(share),
-                {.q = jaw_between(share)}};
+    State between(double fraction) const {
+        return {(1 - fraction) * before.x + fraction * now.x,
+                (1 - fraction) * before.activation + fraction * now.activation,
+                drive_between(fraction),
+                {.q = jaw_between(fraction)}};
     }
 
     // Nodes as they are shown: steps leave surfaces in each other, equilibria hardly.
     Points shown(const State& state) const {
-        return in_step ? tissue.apart(state.x, driven_jaw.motion(state.jaw.q, state.drive),
-                                      poser->gaze(state.drive))
+        return in_step ? tissue.resolve_penetration(state.x,
+                                                    driven_jaw.motion(state.jaw.q, state.drive),
+                                                    poser->gaze(state.drive))
                        : state.x;
     }
 
-    FacePose pose(double share) const {
-        State state = between(share);
+    FacePose pose(double fraction) const {
+        State state = between(fraction);
         state.x = shown(state);
         return pose_of(state);
     }
@@ -396,14 +398,14 @@ void Face::start(const DriveAt& drive) {
         impl_->before = impl_->now;
         impl_->in_step = false;
     } else {
-        impl_->settle(activation, first, {.iterations = kRestIterations});
+        impl_->solve_equilibrium(activation, first, {.iterations = kRestIterations});
     }
 }
 
 StepStats Face::step(const DriveAt& drive) {
-    StepStats sum = impl_->piece(drive);
-    for (int i = 1; i < impl_->pieces; ++i) {
-        const StepStats next = impl_->piece(drive);
+    StepStats sum = impl_->substep(drive);
+    for (int i = 1; i < impl_->substeps; ++i) {
+        const StepStats next = impl_->substep(drive);
         const StepStats before = sum;
         sum = next;
         sum.iterations += before.iterations;
@@ -416,12 +418,13 @@ StepStats Face::step(const DriveAt& drive) {
 FacePose Face::pose_at(double t_s, const DriveAt& drive) {
     if (impl_->how == Motion::kQuasiStatic) {
         const track::Drive now = impl_->complete(drive(t_s));
-        impl_->history.push_back(
-            impl_->settle(impl_->steady_activation(now), now, {.iterations = kRestIterations}));
+        impl_->history.push_back(impl_->solve_equilibrium(impl_->steady_activation(now), now,
+                                                          {.iterations = kRestIterations}));
         return impl_->pose(1.0);
     }
-    while (static_cast<double>(impl_->done) < exact_step(t_s, impl_->piece_s)) impl_->piece(drive);
-    return impl_->pose(impl_->share_of_step(t_s));
+    while (static_cast<double>(impl_->done) < exact_step(t_s, impl_->substep_s))
+        impl_->substep(drive);
+    return impl_->pose(impl_->fraction_of_step(t_s));
 }
 
 const MuscleSurfaces& Face::muscle_surfaces() const {
@@ -430,22 +433,22 @@ const MuscleSurfaces& Face::muscle_surfaces() const {
 }
 
 Points Face::muscle_vertices_at(double t_s) const {
-    return impl_->muscle_vertices(impl_->share_of_step(t_s));
+    return impl_->muscle_vertices(impl_->fraction_of_step(t_s));
 }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double share = impl_->share_of_step(t_s);
-    return (1 - share) * impl_->before.activation + share * impl_->now.activation;
+    const double fraction = impl_->fraction_of_step(t_s);
+    return (1 - fraction) * impl_->before.activation + fraction * impl_->now.activation;
 }
 
-StepStats Face::settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                       const StaticOptions& options) {
+StepStats Face::solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                                  const StaticOptions& options) {
     const Eigen::VectorXd given =
         activation.size() > 0
             ? activation
             : Eigen::VectorXd(Eigen::VectorXd::Zero(impl_->channels.column_count()));
-    return impl_->settle(impl_->driven_jaw.excitation(given, kinematic), impl_->complete(kinematic),
-                         options);
+    return impl_->solve_equilibrium(impl_->driven_jaw.excitation(given, kinematic),
+                                    impl_->complete(kinematic), options);
 }
 
 const Points& Face::nodes() const { return impl_->now.x; }
@@ -473,7 +476,7 @@ void Face::fold(FacePose& pose, const track::Drive& drive) const {
     impl_->poser->fold(pose, impl_->complete(drive).excitation);
 }
 
-double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->piece_s; }
+double Face::time_s() const { return static_cast<double>(impl_->done) * impl_->substep_s; }
 double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
 Penetration Face::penetration() const {

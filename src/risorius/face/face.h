@@ -42,12 +42,12 @@ struct Quality {
     int shell_vertices = 800;  ///< three nodes each
     int iterations = 6;        ///< per piece of a step, at most; as many again for volume
                                ///< muscles, and again for a jaw that muscles move
-    int least_iterations = 0;  ///< before the tolerance may stop a piece
+    int min_iterations = 0;    ///< before the tolerance may stop a piece
     int mouth_passes = 0;      ///< then, of the mouth alone, at most
     double tolerance_rms_m =
         0.0;  ///< stop when an iteration moves the nodes less, RMS; 0: always all iterations
     double step_s = kStep_s;
-    double longest_piece_s =
+    double max_substep_s =
         kStep_s;  ///< a step is solved in so many equal pieces that none is longer
     solve::Precision precision = solve::Precision::kSingle;  ///< of the tissue's forces in steps
 };
@@ -76,7 +76,7 @@ class Face {
     ~Face();
     Face(Face&&) noexcept;
 
-    /// What moves the jaw, from the next start() or settle() on. At first its channels do.
+    /// What moves the jaw, from the next start() or solve_equilibrium() on. At first its channels do.
     void drive_jaw_by(track::JawDrive by);
     /// Of pose_at(); dynamic at first. A quasi-static pose is sought from the one before.
     void move(Motion how);
@@ -99,10 +99,10 @@ class Face {
     FacePose pose_at(double t_s, const DriveAt& drive);
 
     /// Static equilibrium for given activations (per column) and kinematic drive; leaves the face there.
-    StepStats settle(const Eigen::VectorXd& activation, const track::Drive& kinematic,
-                     const StaticOptions& options = {.iterations = kRestIterations});
+    StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& kinematic,
+                                const StaticOptions& options = {.iterations = kRestIterations});
 
-    /// What follows is about the equilibrium that settle() left, with a jaw placed by its channels.
+    /// What follows is about the equilibrium that solve_equilibrium() left, with a jaw placed by its channels.
     /// Nodes, n x 3, m: tissue, then volume muscles.
     const Points& nodes() const;
     /// Slope g of the static energy, N, at any nodes, activation and drive: zero in equilibrium and on nodes that are held.
@@ -138,7 +138,7 @@ class Face {
     /// Where wrinkles lie that fold_depth of a pose is about; empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
 
-    /// Of what pose() shows after the last step or settle().
+    /// Of what pose() shows after the last step or solve_equilibrium().
     Penetration penetration() const;
 
     int node_count() const;

@@ -67,11 +67,11 @@ void count(const FigureResult& figure, Counts& counts) {
 
 /// So many that both ends of the range, and what is measured, keep what sets them apart.
 int digits_of(const Check& check) {
-    constexpr int kFewest = 4, kMost = 10;
+    constexpr int kFewest = 4, kMax = 10;
     constexpr double kRounding = 0.05;  ///< of the width
     const double width = check.high - check.low;
     if (!(width > 0) || std::isinf(width)) return kFewest;
-    for (int digits = kFewest; digits < kMost; ++digits) {
+    for (int digits = kFewest; digits < kMax; ++digits) {
         const auto moves = [&](double end) {
             char text[32];
             std::snprintf(text, sizeof text, "%.*g", digits, end);
@@ -79,7 +79,7 @@ int digits_of(const Check& check) {
         };
         if (!moves(check.low) && !moves(check.high)) return digits;
     }
-    return kMost;
+    return kMax;
 }
 
 /// Numbered figures are called so, others go by their name.

@@ -159,7 +159,7 @@ class Run {
         : options_(options),
           monitor_(monitor),
           jobs_(jobs),
-          shares_(jobs.size(), 0),
+          fractions_(jobs.size(), 0),
           spare_(ThreadLimit(options.threads).count() - 1),
           shared_(&spare_) {}
 
@@ -204,8 +204,8 @@ class Run {
         run_options.monitor.stopped = [this] {
             return failed_ || (monitor_.stopped && monitor_.stopped());
         };
-        run_options.monitor.progress = [&](double share, const std::string& what) {
-            report(job, share, name.empty() ? what : name + ": " + what);
+        run_options.monitor.progress = [&](double fraction, const std::string& what) {
+            report(job, fraction, name.empty() ? what : name + ": " + what);
         };
         run_options.monitor.report(0, name);
         const report::Stopwatch running;
@@ -222,12 +222,12 @@ class Run {
         return done;
     }
 
-    void report(std::size_t job, double share, const std::string& what) {
+    void report(std::size_t job, double fraction, const std::string& what) {
         const std::lock_guard<std::mutex> lock(telling_);
-        shares_[job] = std::max(shares_[job], share);
+        fractions_[job] = std::max(fractions_[job], fraction);
         double done_s = 0, total_s = 0;
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
-            done_s += shares_[i] * expected_s(jobs_[i]);
+            done_s += fractions_[i] * expected_s(jobs_[i]);
             total_s += expected_s(jobs_[i]);
         }
         if (monitor_.progress) monitor_.progress(done_s / total_s, what);
@@ -236,7 +236,7 @@ class Run {
     const FigureOptions& options_;
     const ProgressMonitor& monitor_;
     const std::vector<Job>& jobs_;
-    std::vector<double> shares_;  ///< of each job, done
+    std::vector<double> fractions_;  ///< of each job, done
     SpareThreads spare_;
     figures::SharedRuns shared_;
     std::atomic<bool> failed_{false};

@@ -253,7 +253,7 @@ class MeshInspector {
 
     void check_scale() {
         const double size = (report_.high - report_.low).maxCoeff();
-        if (size >= options_.smallest_size_m && size <= options_.largest_size_m) return;
+        if (size >= options_.smallest_size_m && size <= options_.max_size_m) return;
         std::string advice;
         // Millimetres, centimetres, inches, decimetres, feet, metres and what a unit taken for another leaves behind.
         constexpr double kTypicalHead_m = 0.3;
@@ -261,7 +261,7 @@ class MeshInspector {
         for (const double factor :
              {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.0254, 0.1, 0.3048, 1.0, 10.0, 100.0, 1000.0}) {
             const double resized = size / options_.metres_per_unit * factor;
-            if (resized < options_.smallest_size_m || resized > options_.largest_size_m) continue;
+            if (resized < options_.smallest_size_m || resized > options_.max_size_m) continue;
             const double previous = size / options_.metres_per_unit * best;
             if (best == 0 || std::abs(std::log(resized / kTypicalHead_m)) <
                                  std::abs(std::log(previous / kTypicalHead_m)))
@@ -273,7 +273,7 @@ class MeshInspector {
                      number(size / options_.metres_per_unit * best) + " m";
         add(MeshCheck::kScale, options_.scale, "",
             "a longest side of " + number(options_.smallest_size_m) + " to " +
-                number(options_.largest_size_m) + " m",
+                number(options_.max_size_m) + " m",
             number(size) + " m" + advice);
     }
 

@@ -35,7 +35,7 @@ struct MeshCheckOptions {
     std::vector<int> groups{};      ///< groups whose faces are checked; empty: all
     double metres_per_unit = 1.0;   ///< with which the mesh was read, for advice in a message
     double smallest_size_m = 0.12;  ///< longest side of the bounding box: a face alone
-    double largest_size_m = 1.0;    ///< a head with shoulders
+    double max_size_m = 1.0;        ///< a head with shoulders
     double smallest_face_area_m2 = 1e-13;
     double seam_tolerance_m = 1e-7;
     int findings_per_check = 5;  ///< further findings are only counted

@@ -22,7 +22,7 @@ class NearestVertex {
     int nearest(const Vec3& p) const {
         const std::array<int, 3> home = cell_of(p);
         int best = -1;
-        double least = cell_ * cell_;
+        double min = cell_ * cell_;
         for (int i = -1; i <= 1; ++i)
             for (int j = -1; j <= 1; ++j)
                 for (int k = -1; k <= 1; ++k) {
@@ -30,8 +30,8 @@ class NearestVertex {
                     if (found == cells_.end()) continue;
                     for (int v : found->second) {
                         const double squared = (points_.row(v).transpose() - p).squaredNorm();
-                        if (squared < least) {
-                            least = squared;
+                        if (squared < min) {
+                            min = squared;
                             best = v;
                         }
                     }
@@ -102,17 +102,17 @@ MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, 
     }
     std::map<std::pair<int, int>, int> along_seam;  // triangles of the first half on an edge
     for (long f = 0; f < triangles.rows(); ++f) {
-        int least = 1, most = -1, on_seam = 0;
+        int min = 1, max = -1, on_seam = 0;
         for (int k = 0; k < 3; ++k) {
             const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
             const int side = mirror.side(a, points);
-            least = std::min(least, side);
-            most = std::max(most, side);
+            min = std::min(min, side);
+            max = std::max(max, side);
             on_seam += side == 0;
             if (side == 0 && mirror.side(b, points) == 0)
                 ++along_seam[{std::min(a, b), std::max(a, b)}];
         }
-        if (least * most < 0 || on_seam == 3) return {};
+        if (min * max < 0 || on_seam == 3) return {};
     }
     for (const auto& [edge, faces] : along_seam)
         if (faces > 2) return {};

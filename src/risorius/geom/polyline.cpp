@@ -13,7 +13,7 @@ PolylinePoint nearest_on_polyline(const Vec3& p, const std::vector<Vec3>& line) 
         const Vec3 along = line[i + 1] - line[i];
         const double t = std::clamp((p - line[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
         const double squared = (p - line[i] - t * along).squaredNorm();
-        if (squared < best) best = squared, nearest.piece = i, nearest.share = t;
+        if (squared < best) best = squared, nearest.piece = i, nearest.fraction = t;
     }
     nearest.distance_m = std::sqrt(best);
     return nearest;

@@ -13,7 +13,7 @@ namespace risorius::geom {
 struct PolylinePoint {
     double distance_m = 0;
     std::size_t piece = 0;
-    double share = 0;  ///< position on the segment, 0 at its first point, 1 at its second
+    double fraction = 0;  ///< position on the segment, 0 at its first point, 1 at its second
 };
 PolylinePoint nearest_on_polyline(const Vec3& p, const std::vector<Vec3>& line);
 

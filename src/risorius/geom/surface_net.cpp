@@ -19,19 +19,20 @@ GridField::GridField(const Vec3& low, const Vec3& high, double step, float value
 
 double GridField::at(const Vec3& p) const {
     std::array<int, 3> cell{};
-    Vec3 share;
+    Vec3 fraction;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const double x =
             std::clamp((p[axis] - origin[axis]) / step_m, 0.0, static_cast<double>(size[a] - 1));
         cell[a] = std::min(static_cast<int>(x), size[a] - 2);
-        share[axis] = x - cell[a];
+        fraction[axis] = x - cell[a];
     }
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
-        const double weight = (dx ? share.x() : 1 - share.x()) * (dy ? share.y() : 1 - share.y()) *
-                              (dz ? share.z() : 1 - share.z());
+        const double weight = (dx ? fraction.x() : 1 - fraction.x()) *
+                              (dy ? fraction.y() : 1 - fraction.y()) *
+                              (dz ? fraction.z() : 1 - fraction.z());
         sum += weight * values[index(cell[0] + dx, cell[1] + dy, cell[2] + dz)];
     }
     return sum;

@@ -18,9 +18,10 @@ Vec3 place_of(const HeadModel& model, const std::string& landmark) {
     return model.mesh.positions.row(model.landmarks.at(landmark)).transpose();
 }
 
-double share_of(std::vector<double> values, double share) {
+double fraction_of(std::vector<double> values, double fraction) {
     if (values.empty()) return 0;
-    const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto at =
+        static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5);
     std::nth_element(values.begin(), values.begin() + static_cast<long>(at), values.end());
     return values[at];
 }
@@ -127,11 +128,11 @@ void judge_topology(const HeadModel& model, HeadQuality& quality) {
         if (count < 3 || count > 5) ++unusual;
     }
     quality.vertices = static_cast<int>(valence.size());
-    quality.quad_share = 1.0 - static_cast<double>(quality.triangles) / quality.faces;
-    quality.unusual_valence_share = static_cast<double>(unusual) / inner;
-    quality.aspect_median = share_of(aspect, 0.5);
-    quality.aspect_99 = share_of(aspect, 0.99);
-    quality.aspect_worst = share_of(aspect, 1.0);
+    quality.quad_fraction = 1.0 - static_cast<double>(quality.triangles) / quality.faces;
+    quality.unusual_valence_fraction = static_cast<double>(unusual) / inner;
+    quality.aspect_median = fraction_of(aspect, 0.5);
+    quality.aspect_99 = fraction_of(aspect, 0.99);
+    quality.aspect_worst = fraction_of(aspect, 1.0);
     const Triangles both = geom::triangulate(mesh, {groups[0], groups[1]});
     quality.self_intersections =
         static_cast<int>(geom::self_intersections(mesh.positions, both).size());
@@ -173,9 +174,9 @@ void judge_layout(const HeadModel& model, HeadQuality& quality) {
         }
         if (area < 0) ++quality.turned_over;
     }
-    const double usual = share_of(stretch, 0.5);
-    quality.stretch_low = share_of(stretch, 0.01) / usual;
-    quality.stretch_high = share_of(stretch, 0.99) / usual;
+    const double usual = fraction_of(stretch, 0.5);
+    quality.stretch_low = fraction_of(stretch, 0.01) / usual;
+    quality.stretch_high = fraction_of(stretch, 0.99) / usual;
 }
 
 void print(std::string& out, const char* form, ...) {
@@ -233,9 +234,9 @@ std::string quality_report(const HeadQuality& q) {
     for (const MeasureScore& m : q.measures)
         print(out, "  %-20s %6.1f mm  %+5.2f\n", m.measure.c_str(), m.length_mm, m.deviation);
     print(out, "skin and mouth   %d vertices, %d faces, %.2f %% quads (%d triangles)\n", q.vertices,
-          q.faces, 100 * q.quad_share, q.triangles);
+          q.faces, 100 * q.quad_fraction, q.triangles);
     print(out, "valence          %.2f %% of the inner vertices not 3 to 5\n",
-          100 * q.unusual_valence_share);
+          100 * q.unusual_valence_fraction);
     print(out, "intersections    %d pairs of triangles\n", q.self_intersections);
     print(out, "mirror           %.1e mm\n", q.mirror_error_mm);
     print(out, "aspect           median %.2f, 99 of 100 below %.1f, greatest %.1f\n",

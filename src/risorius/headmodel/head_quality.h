@@ -35,8 +35,8 @@ struct HeadQuality {
     int vertices = 0, faces = 0;  ///< of skin and mouth
     int triangles = 0;            ///< faces of skin and mouth that are no quads
     int self_intersections = 0;   ///< pairs of triangles of skin and mouth
-    double quad_share = 0,
-           unusual_valence_share = 0;  ///< of the faces; of inner vertices not 3 to 5
+    double quad_fraction = 0,
+           unusual_valence_fraction = 0;  ///< of the faces; of inner vertices not 3 to 5
     double mirror_error_mm = 0;
     /// Longest side of a face / its shortest: median, 99th of a hundred, greatest.
     double aspect_median = 0, aspect_99 = 0, aspect_worst = 0;

@@ -184,8 +184,8 @@ Json SculptReport::json() const {
     for (const headmodel::MeasureScore& m : quality.measures)
         json["measures"][m.measure] = {{"length_mm", m.length_mm}, {"deviation", m.deviation}};
     json["self_intersections"] = quality.self_intersections;
-    json["quad_share"] = quality.quad_share;
-    json["unusual_valence_share"] = quality.unusual_valence_share;
+    json["quad_share"] = quality.quad_fraction;
+    json["unusual_valence_share"] = quality.unusual_valence_fraction;
     json["mirror_error_mm"] = quality.mirror_error_mm;
     json["aspect"] = {{"median", quality.aspect_median},
                       {"of_99", quality.aspect_99},

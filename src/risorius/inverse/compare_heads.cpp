@@ -58,8 +58,8 @@ HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesy
     for (const std::string& name : names) {
         monitor.report(
             static_cast<double>(out.expressions.size()) / static_cast<double>(names.size()), name);
-        const Points u = 1e3 * own.ways.settle(own.ways.drive(name)),
-                     g = 1e3 * other.ways.settle(other.ways.drive(name));
+        const Points u = 1e3 * own.ways.solve_equilibrium(own.ways.drive(name)),
+                     g = 1e3 * other.ways.solve_equilibrium(other.ways.drive(name));
         HeadDifference one;
         one.expression = name;
         const double uu = u.squaredNorm(), gg = g.squaredNorm();

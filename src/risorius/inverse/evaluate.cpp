@@ -43,13 +43,13 @@ Json attempt_json(const Attempt& attempt, const track::ChannelTable& channels) {
 }
 
 Json means_json(const ScoreMeans& means) {
-    return {{"expressions", means.count},         {"cosine", means.cosine},
-            {"least_cosine", means.least_cosine}, {"relative_error", means.relative},
-            {"rms_mm", 1e3 * means.rms_m},        {"landmark_mm", 1e3 * means.landmark_m}};
+    return {{"expressions", means.count},       {"cosine", means.cosine},
+            {"least_cosine", means.min_cosine}, {"relative_error", means.relative},
+            {"rms_mm", 1e3 * means.rms_m},      {"landmark_mm", 1e3 * means.landmark_m}};
 }
 
 // Of the time a run takes, about: the rest draws pictures.
-double share_of_settling(const EvaluateOptions& options) {
+double converging_fraction(const EvaluateOptions& options) {
     if (options.out.empty() || !options.pictures) return 1;
     return options.fit ? 0.8 : 0.1;
 }
@@ -60,11 +60,11 @@ void write_report(const Evaluation& evaluation, const scene::RigFiles& files, co
     std::optional<EvaluationPictures> pictures;
     std::vector<std::string> written{"index.html", "results.json", "scores.tsv"};
     if (options.pictures) {
-        const double before = share_of_settling(options);
+        const double before = converging_fraction(options);
         ProgressMonitor drawing = monitor;
         if (monitor.progress)
-            drawing.progress = [&](double share, const std::string& what) {
-                monitor.progress(before + (1 - before) * share, what);
+            drawing.progress = [&](double fraction, const std::string& what) {
+                monitor.progress(before + (1 - before) * fraction, what);
             };
         pictures = draw_evaluation(evaluation, files.rig, files.mesh, head, area, folder, drawing);
         for (const std::string& file : pictures->files()) written.push_back(file);
@@ -107,7 +107,7 @@ ScoreMeans Evaluation::means(const std::vector<std::string>& names, bool fitted)
         const scene::ExpressionScore& score = (fitted ? *one.fitted : one.table).score;
         ++out.count;
         out.cosine += score.cosine;
-        out.least_cosine = std::min(out.least_cosine, score.cosine);
+        out.min_cosine = std::min(out.min_cosine, score.cosine);
         out.relative += score.relative;
         out.rms_m += score.rms_m;
         out.landmark_m += score.landmark_m;
@@ -175,7 +175,8 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
     if (!options.out.empty()) folder.emplace(options.out);
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
     const std::vector<MeasuredShape> shapes = read_measured_shapes(
-        options.shapes, {.only = options.only, .apart = options.apart}, files.rig, face.head());
+        options.shapes, {.only = options.only, .separate_sides = options.separate_sides}, files.rig,
+        face.head());
     const Points& rest = face.head().vertices;
     const Eigen::VectorXd area = scene::vertex_areas(face.simulated_skin(), rest);
     const std::vector<int> landmarks =
@@ -188,19 +189,19 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
     out.shapes = options.shapes.generic_string();
     out.nodes = face.node_count();
     out.channels = files.rig.channels();
-    const double settling = share_of_settling(options);
+    const double converging = converging_fraction(options);
     track::Drive at_rest;
     at_rest.excitation = Eigen::VectorXd::Zero(out.channels.column_count());
     for (std::size_t s = 0; s < shapes.size(); ++s) {
         const MeasuredShape& shape = shapes[s];
-        monitor.report(settling * static_cast<double>(s) / static_cast<double>(shapes.size()),
+        monitor.report(converging * static_cast<double>(s) / static_cast<double>(shapes.size()),
                        shape.name);
         EvaluatedExpression one;
         one.name = shape.name;
         one.measured = shape.displacement;
         face.start([&](double) { return at_rest; });
         one.table.drive = shape.drive;
-        one.table.converged = face.settle(shape.drive.excitation, shape.drive).converged;
+        one.table.converged = face.solve_equilibrium(shape.drive.excitation, shape.drive).converged;
         one.table.vertices = face.pose().vertices;
         one.table.inverted_tets = face.inverted_tets();
         one.table.score =

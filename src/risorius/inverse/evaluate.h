@@ -22,7 +22,7 @@ struct EvaluateOptions {
                           out = {};      ///< out: a folder; empty: nothing is written
     std::vector<std::string> only = {};  ///< names of shapes; empty: all
     std::string quality = "preview";     ///< quality of the mesh; poses are in equilibrium
-    bool apart = false;                  ///< left and right shapes are evaluated separately
+    bool separate_sides = false;         ///< left and right shapes are evaluated separately
     bool fit = false;
     bool pictures = true;
 };
@@ -46,7 +46,7 @@ struct EvaluatedExpression {
 /// Means over a list of expressions, with the worst cosine and relative error.
 struct ScoreMeans {
     int count = 0;
-    double cosine = 0, least_cosine = 1, relative = 0, rms_m = 0, landmark_m = 0;
+    double cosine = 0, min_cosine = 1, relative = 0, rms_m = 0, landmark_m = 0;
 };
 
 /// A list of expressions with its means.

@@ -62,7 +62,7 @@ std::vector<ActivationUnknown> activation_unknowns(const rig::RigDescription& ri
         const int left = channels.column(muscle.id, Side::kLeft),
                   right = channels.column(muscle.id, Side::kRight);
         ActivationUnknown unknown;
-        unknown.least = muscle.min;
+        unknown.min = muscle.min;
         if (!sided || left == right) {
             unknown.name = muscle.id;
             unknown.columns =
@@ -83,8 +83,8 @@ std::vector<ActivationUnknown> activation_unknowns(const rig::RigDescription& ri
         out.push_back({.name = std::string(range.name),
                        .columns = {},
                        .channels = {which},
-                       .least = range.min / scale,
-                       .most = 1,
+                       .min = range.min / scale,
+                       .max = 1,
                        .scale = scale});
     };
     channel(track::Kinematic::kJawOpen);
@@ -92,7 +92,7 @@ std::vector<ActivationUnknown> activation_unknowns(const rig::RigDescription& ri
     if (sided || begin.at(track::Kinematic::kJawSide) != 0) channel(track::Kinematic::kJawSide);
     if (begin.at(track::Kinematic::kMouthPressure) != 0) {
         channel(track::Kinematic::kMouthPressure);
-        out.back().least = std::max(out.back().least, 0.0);
+        out.back().min = std::max(out.back().min, 0.0);
     }
     return out;
 }
@@ -109,10 +109,10 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
     track::Drive drive = begin;
     Eigen::VectorXd x(count);
     for (long i = 0; i < count; ++i) x[i] = value_of(unknowns[static_cast<std::size_t>(i)], begin);
-    const auto settled_miss = [&](const Eigen::VectorXd& at) {
+    const auto equilibrium_miss = [&](const Eigen::VectorXd& at) {
         for (long i = 0; i < count; ++i)
             set_value(unknowns[static_cast<std::size_t>(i)], at[i], drive);
-        face.settle(drive.excitation, drive, options.rest);
+        face.solve_equilibrium(drive.excitation, drive, options.rest);
         if (options.rest.stopped && options.rest.stopped()) throw Interrupted();
         return Eigen::VectorXd(weighted(face.pose().vertices - rest) - goal);
     };
@@ -121,8 +121,8 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
                0.5 * options.l2_weight * at.squaredNorm() +
                (options.keep > 0 ? 0.5 * options.keep * (at - options.near).squaredNorm() : 0.0);
     };
-    Eigen::VectorXd miss = settled_miss(x);
-    double least = cost(miss, x);
+    Eigen::VectorXd miss = equilibrium_miss(x);
+    double min = cost(miss, x);
     double longest = options.longest_step;
     for (int round = 0; round < options.rounds && longest > 0.01; ++round) {
         std::vector<int> columns;
@@ -150,30 +150,30 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
         problem.price = Eigen::VectorXd::Constant(count, options.l1_weight);
         bool better = false;
         while (!better && longest > 0.01) {
-            problem.least.resize(count);
-            problem.most.resize(count);
+            problem.min.resize(count);
+            problem.max.resize(count);
             for (long i = 0; i < count; ++i) {
                 const ActivationUnknown& unknown = unknowns[static_cast<std::size_t>(i)];
-                problem.least[i] = std::max(unknown.least, x[i] - longest);
-                problem.most[i] = std::min(unknown.most, x[i] + longest);
+                problem.min[i] = std::max(unknown.min, x[i] - longest);
+                problem.max[i] = std::min(unknown.max, x[i] + longest);
             }
             Eigen::VectorXd next = x;
             solve::minimise(problem, next);
-            const Eigen::VectorXd next_miss = settled_miss(next);
+            const Eigen::VectorXd next_miss = equilibrium_miss(next);
             const double next_cost = cost(next_miss, next);
-            better = next_cost < least;
+            better = next_cost < min;
             if (!better) {
                 longest *= 0.4;
                 continue;
             }
-            const double gain = (least - next_cost) / least;
+            const double gain = (min - next_cost) / min;
             x = next;
             miss = next_miss;
-            least = next_cost;
-            if (gain < options.least_gain) longest = 0;
+            min = next_cost;
+            if (gain < options.min_gain) longest = 0;
         }
     }
-    settled_miss(x);
+    equilibrium_miss(x);
     return drive;
 }
 

@@ -24,7 +24,7 @@ struct ActivationFitOptions {
         2e-3;  ///< weight of sum |a_i|: an activation of 1 costs as much as .4 % of |g|^2
     double l2_weight = 2e-3;
     double longest_step = 0.4;  ///< largest change of an unknown in the first round
-    double least_gain =
+    double min_gain =
         1e-3;         ///< stops when a round reduces the objective by less than this fraction
     double size = 0;  ///< replaces |g|_w^2, m^4; 0: |g|_w^2 itself
     double keep = 0;  ///< weight of the distance from `near`: keep/2 sum (a_i - near_i)^2
@@ -38,7 +38,7 @@ struct ActivationUnknown {
     std::string name;
     std::vector<int> columns;                ///< columns of the excitation
     std::vector<track::Kinematic> channels;  ///< or kinematic channels
-    double least = 0, most = 1;
+    double min = 0, max = 1;
     double scale = 1;  ///< value of the channel / unknown
 };
 

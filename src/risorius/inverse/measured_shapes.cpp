@@ -155,9 +155,9 @@ class Drives {
             out.add(track::expand(*rig_.facs.find(use.unit), use.side, channels_),
                     at.number({0, 1}));
         } else {
-            const track::MuscleShare share = track::muscle_named(at, source, channels_);
-            out.add(track::expand(share, channels_),
-                    at.number({channels_.find(share.muscle)->min, 1}));
+            const track::MuscleShare fraction = track::muscle_named(at, source, channels_);
+            out.add(track::expand(fraction, channels_),
+                    at.number({channels_.find(fraction.muscle)->min, 1}));
         }
     }
 
@@ -207,7 +207,7 @@ std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& fil
         // mouthLeft and mouthRight are directions, not halves
         const bool direction = names[s] == "mouthLeft" || names[s] == "mouthRight" ||
                                names[s] == "jawLeft" || names[s] == "jawRight";
-        if (sided.side && !options.apart && !direction)
+        if (sided.side && !options.separate_sides && !direction)
             for (const char* ending : {"_L", "_R", "Left", "Right"})
                 if (const auto other = shapes.index(sided.base + ending); other && *other != s) {
                     parts.push_back(*other);

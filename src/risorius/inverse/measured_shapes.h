@@ -27,7 +27,8 @@ struct MeasuredShape {
 
 struct MeasuredShapesOptions {
     std::vector<std::string> only = {};  ///< names; empty: all
-    bool apart = false;  ///< left and right shapes are kept separate instead of added to one
+    bool separate_sides =
+        false;  ///< left and right shapes are kept separate instead of added to one
 };
 
 /// Shapes of two sides (smile_L and smile_R, smileLeft and smileRight) are added to one, "smile". A shape measured on top of another

@@ -41,15 +41,15 @@ track::Drive nothing(const track::ChannelTable& channels) {
     return drive;
 }
 
-void add_channel(std::vector<ActivationUnknown>& unknowns, Kinematic which, double most) {
+void add_channel(std::vector<ActivationUnknown>& unknowns, Kinematic which, double max) {
     const track::KinematicChannel& range =
         track::kinematic_channels()[static_cast<std::size_t>(which)];
-    const double scale = std::min(most, range.max);
+    const double scale = std::min(max, range.max);
     unknowns.push_back({.name = std::string(range.name),
                         .columns = {},
                         .channels = {which},
-                        .least = std::max(range.min / scale, -1.0),
-                        .most = 1,
+                        .min = std::max(range.min / scale, -1.0),
+                        .max = 1,
                         .scale = scale});
 }
 
@@ -59,7 +59,7 @@ std::vector<ActivationUnknown> unknowns_of(const scene::RigFiles& files, const r
     std::vector<ActivationUnknown> out =
         activation_unknowns(files.rig, nothing(files.rig.channels()), true);
     add_channel(out, Kinematic::kMouthPressure, kPressure_pa);
-    out.back().least = 0;
+    out.back().min = 0;
     const auto counted = [&](rig::Carrier part) {
         for (long v = 0; v < weight.size(); ++v)
             if (head.carrier[static_cast<std::size_t>(v)] == part && weight[v] > 0) return true;
@@ -98,9 +98,9 @@ void measure(const face::Face& face, const Points& given, const Eigen::VectorXd&
     const double whole = weight.sum();
     out.rms_m = std::sqrt(squares(miss, weight) / whole);
     out.given_rms_m = std::sqrt(squares(given, weight) / whole);
-    out.greatest_m = 0;
+    out.max_m = 0;
     for (long v = 0; v < weight.size(); ++v)
-        if (weight[v] > 0) out.greatest_m = std::max(out.greatest_m, miss.row(v).norm());
+        if (weight[v] > 0) out.max_m = std::max(out.max_m, miss.row(v).norm());
     out.highest = out.drive.excitation.cwiseAbs().maxCoeff();
 }
 
@@ -164,7 +164,7 @@ class Solver {
         fit.rounds = rounds;
         fit.l1_weight = options_.l1_weight;
         fit.l2_weight = options_.l2_weight;
-        fit.least_gain = 3e-3;
+        fit.min_gain = 3e-3;
         fit.rest = {.iterations = kIterations,
                     .tolerance_m = kTolerance_m,
                     .planes_m = kTolerance_m,
@@ -259,7 +259,7 @@ Json SolveReport::json() const {
         Json entry{{"name", one.name}};
         if (sequence) entry["time_s"] = one.time_s;
         entry["rms_mm"] = 1e3 * one.rms_m;
-        entry["max_mm"] = 1e3 * one.greatest_m;
+        entry["max_mm"] = 1e3 * one.max_m;
         entry["given_rms_mm"] = 1e3 * one.given_rms_m;
         entry["drive"] = rig::drive_json(one.drive, channels);
         list.push_back(entry);
@@ -303,19 +303,19 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
         const scene::LandmarkPoints points(face.head(), files.rig);
         const track::Drive rest = nothing(files.rig.channels());
         face.start([&](double) { return rest; });
-        face.settle(rest.excitation, rest);
+        face.solve_equilibrium(rest.excitation, rest);
         std::vector<int> columns;
         for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
             columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
         const std::vector<Points> ways =
             face.sensitivities(columns, std::array{Kinematic::kJawOpen});
-        std::vector<double> most_m;
+        std::vector<double> max_m;
         for (const std::string& id : points.ids()) {
-            double most = 0;
-            for (const Points& way : ways) most = std::max(most, way.row(points.vertex(id)).norm());
-            most_m.push_back(most);
+            double max = 0;
+            for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
+            max_m.push_back(max);
         }
-        given = given_landmarks(options.landmarks, options.fps, points, most_m,
+        given = given_landmarks(options.landmarks, options.fps, points, max_m,
                                 face.head().vertices.rows());
     } else {
         given = options.meshes.empty() ? given_shapes(options.shapes, options.only, files, face)

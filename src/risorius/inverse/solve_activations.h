@@ -42,9 +42,9 @@ struct SolvedDrive {
     std::string name;
     double time_s = 0;  ///< of a frame
     track::Drive drive;
-    double rms_m = 0, greatest_m = 0;  ///< of u - g over the points that count
-    double given_rms_m = 0;            ///< of g
-    double highest = 0;                ///< largest activation of a muscle
+    double rms_m = 0, max_m = 0;  ///< of u - g over the points that count
+    double given_rms_m = 0;       ///< of g
+    double highest = 0;           ///< largest activation of a muscle
 };
 
 struct SolveReport {

@@ -228,11 +228,11 @@ MorphModel read_glb(const std::filesystem::path& file) {
         if (numbers.rows() != at.rows() || at.rows() == 0 || !(numbers.minCoeff() >= 0) ||
             !(numbers.maxCoeff() < 1e7f))
             from.fail("a vertex number for every vertex", "others");
-        const long most = static_cast<long>(numbers.maxCoeff()) + 1;
-        if (most > out.vertices.rows()) {
+        const long max = static_cast<long>(numbers.maxCoeff()) + 1;
+        if (max > out.vertices.rows()) {
             const long before = out.vertices.rows();
-            out.vertices.conservativeResize(most, 3);
-            out.vertices.bottomRows(most - before).setZero();
+            out.vertices.conservativeResize(max, 3);
+            out.vertices.bottomRows(max - before).setZero();
         }
         const auto vertex = [&](long i) { return static_cast<int>(numbers(i, 0)); };
         for (long i = 0; i < at.rows(); ++i)

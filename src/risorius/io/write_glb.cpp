@@ -19,8 +19,8 @@ namespace risorius::io {
 
 namespace {
 
-constexpr double kNoTurn = 0.035;     // of a normal, at weight 1: two degrees are not seen
-constexpr double kMostWhole = 32767;  // of 16 bits
+constexpr double kNoTurn = 0.035;    // of a normal, at weight 1: two degrees are not seen
+constexpr double kMaxWhole = 32767;  // of 16 bits
 
 using Floats = std::vector<float>;
 
@@ -296,7 +296,7 @@ std::string glb_bytes(const MorphModel& model) {
         if (target.delta.size() > 0)
             largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
     // Positions are counted in it too, and the node makes metres of them
-    const double unit = model.whole_numbers ? largest / kMostWhole : 0;
+    const double unit = model.whole_numbers ? largest / kMaxWhole : 0;
     if (unit > 0) out.extensionsUsed = out.extensionsRequired = {"KHR_mesh_quantization"};
     const Points normals = vertex_normals(model, model.vertices);
     std::vector<PartVertices> vertices;

@@ -13,7 +13,7 @@
 namespace risorius::media {
 namespace {
 
-constexpr int kMostSide = 16384;
+constexpr int kMaxSide = 16384;
 
 class RowReader {
   public:
@@ -68,8 +68,8 @@ HdrPicture read_hdr(const std::filesystem::path& file) {
     std::getline(in, line);
     HdrPicture picture;
     if (std::sscanf(line.c_str(), "-Y %d +X %d", &picture.height, &picture.width) != 2 ||
-        picture.height < 1 || picture.width < 1 || picture.height > kMostSide ||
-        picture.width > kMostSide)
+        picture.height < 1 || picture.width < 1 || picture.height > kMaxSide ||
+        picture.width > kMaxSide)
         throw Error(file.string(), "a size like \"-Y 512 +X 1024\"", "\"" + line + "\"");
 
     std::vector<std::array<std::uint8_t, 4>> row(static_cast<std::size_t>(picture.width));

@@ -12,7 +12,7 @@ namespace risorius::media {
 namespace {
 
 // Rec. 709
-constexpr std::array<double, 3> kShare{0.2126, 0.7152, 0.0722};
+constexpr std::array<double, 3> kFraction{0.2126, 0.7152, 0.0722};
 
 using Table = std::array<double, 256>;
 
@@ -24,7 +24,7 @@ const std::array<Table, 3>& luminance_of_byte() {
             for (std::size_t i = 0; i < 256; ++i) {
                 const double v = static_cast<double>(i) / 255.0;
                 out[k][i] =
-                    kShare[k] * (v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+                    kFraction[k] * (v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
             }
         return out;
     }();

@@ -29,7 +29,7 @@ ChainSet::ChainSet(std::vector<std::vector<int>> chains, const Points& rest,
             if (!(segment(rest, chain.node, s).norm() > 0))
                 throw std::invalid_argument("ChainSet: a segment has no length");
         const double whole = length(chain, rest);
-        chain.tendon_m = properties_.tendon_share * whole;
+        chain.tendon_m = properties_.tendon_fraction * whole;
         chain.fibre_m = whole - chain.tendon_m;
         if (!(chain.fibre_m > 0)) throw std::invalid_argument("ChainSet: a chain has no fibres");
         chains_.push_back(std::move(chain));

@@ -27,7 +27,7 @@ struct ChainProperties {
     double f0_n = 0;           ///< F0 of one chain                                [0, inf)
     double rest_stretch = 1;   ///< r                                              (sin alpha, inf)
     double pennation_rad = 0;  ///< alpha                                          [0, pi/2)
-    double tendon_share = 0;   ///< lTs / length of a chain at rest                [0, 1)
+    double tendon_fraction = 0;  ///< lTs / length of a chain at rest                [0, 1)
     bool rigid_tendon = true;
 };
 

@@ -42,7 +42,7 @@ Equilibrium equilibrium(const MuscleParameters& p, const MuscleCurves& curves, d
 double fibre_force(const MuscleParameters& p, const MuscleCurves& curves, double activation,
                    double fibre_m, double fibre_m_per_s) {
     const double l = fibre_m / p.optimal_length_m;
-    const double v = fibre_m_per_s / (p.greatest_speed_hz * p.optimal_length_m);
+    const double v = fibre_m_per_s / (p.max_speed_hz * p.optimal_length_m);
     return p.f0_n * (activation * curves.active.value(l) * curves.velocity.value(v) +
                      curves.passive.value(l) + p.damping * v);
 }

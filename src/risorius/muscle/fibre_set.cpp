@@ -19,10 +19,10 @@ namespace {
 
 // Share of a fully active fibre's resistance to a change of length that the metric counts on. Most fibres are hardly
 // active: with all of it a step of the face takes half as many iterations again, with none it ends before it has converged.
-constexpr double kFastShare = 0.1;
+constexpr double kFastFraction = 0.1;
 
 // Tables of steps: a corner of the velocity curve, at no speed, is the end of a cell, and forces are off by 1e-5 at most.
-constexpr double kGreatestSpeed = 1.5, kGreatestLength = 3;
+constexpr double kMaxSpeed = 1.5, kMaxLength = 3;
 constexpr int kCells = 768;
 
 }  // namespace
@@ -33,8 +33,8 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
       fibres_(std::move(fibres)),
       curves_(shape),
       velocity_(zajac_curves().velocity),
-      velocity_table_(velocity_, -kGreatestSpeed, kGreatestSpeed, kCells),
-      passive_table_(passive_curve(shape), 1.0, kGreatestLength, kCells),
+      velocity_table_(velocity_, -kMaxSpeed, kMaxSpeed, kCells),
+      passive_table_(passive_curve(shape), 1.0, kMaxLength, kCells),
       optimal_length_m_(points_.size(), 0.0) {
     const auto count = static_cast<int>(points_.size());
     body_place_.set_zero(count);
@@ -109,7 +109,7 @@ void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     place_points(x);
     each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
         const double l0 = optimal_length_m_[segment];
-        const double way = h * fibre.greatest_speed_hz * l0;
+        const double way = h * fibre.max_speed_hz * l0;
         in_step_.inverse_optimal[segment] = 1 / l0;
         in_step_.start_m[segment] = length(p);
         in_step_.inverse_way[segment] = 1 / way;
@@ -195,17 +195,17 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
                 const double l0 = optimal_length_m_[static_cast<std::size_t>(p + k)];
                 acts = squared[k] > l0 * l0;
             }
-            Lanes share{};  // of a segment that it pulls with, N/m; none without a direction
+            Lanes fraction{};  // of a segment that it pulls with, N/m; none without a direction
             if (acts) {
                 const Lanes l = solve::sqrt_lanes(squared);
                 const Pulls pull =
                     step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, last, l);
                 for (int k = 0; k < count; ++k) energy += pull.energy_j[k];
-                share = l > 0.0 ? pull.tension_n / l : Lanes{};
+                fraction = l > 0.0 ? pull.tension_n / l : Lanes{};
                 pulls = true;
             }
             for (int k = 0; k < count; ++k) {
-                const Lanes along = share[k] * d[k];
+                const Lanes along = fraction[k] * d[k];
                 force_[p + k] = before - along;
                 before = along;
             }
@@ -229,7 +229,7 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
 void FibreSet::add_metric(solve::MetricBuilder& builder, double h) const {
     for (const Fibre& fibre : fibres_) {
         const double fast =
-            h > 0 ? kFastShare * velocity_.at(0).slope / (fibre.greatest_speed_hz * h) : 0;
+            h > 0 ? kFastFraction * velocity_.at(0).slope / (fibre.max_speed_hz * h) : 0;
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
             int nodes[8];
             double c[8];

@@ -41,11 +41,11 @@ struct FibrePoint {
 
 struct Fibre {
     int first_point = 0;
-    int point_count = 0;            ///< consecutive points, 2 or more
-    int column = 0;                 ///< of the activation vector
-    double f0_n = 0;                ///< F0                                       [0, inf)
-    double rest_stretch = 1;        ///< lam at rest: l0 = rest length / this     (0, inf)
-    double greatest_speed_hz = 10;  ///< vmax                               (0, inf)
+    int point_count = 0;       ///< consecutive points, 2 or more
+    int column = 0;            ///< of the activation vector
+    double f0_n = 0;           ///< F0                                       [0, inf)
+    double rest_stretch = 1;   ///< lam at rest: l0 = rest length / this     (0, inf)
+    double max_speed_hz = 10;  ///< vmax                               (0, inf)
 };
 
 /// One object serves one thread at a time: it keeps scratch arrays.

@@ -49,10 +49,10 @@ Curve toe_curve(double x0, double x1, double height, double k) {
                  x0);
 }
 
-Curve velocity_curve(double a, double most) {
+Curve velocity_curve(double a, double max) {
     std::vector<CurvePiece> pieces = hill_branch(a);
     // The rate that gives both hyperbolas the slope 1 + 1/a at v = 0.
-    pieces.push_back(lengthening_piece(most, (1 + 1 / a) / (most - 1)));
+    pieces.push_back(lengthening_piece(max, (1 + 1 / a) / (max - 1)));
     return Curve(std::move(pieces), 0);
 }
 

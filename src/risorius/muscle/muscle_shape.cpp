@@ -33,9 +33,9 @@ void require_sizes(const std::vector<double>& values, const Points& path,
 }
 
 void check_grid(const MuscleShape& shape, const GridShape& grid) {
-    const int least = shape.form == Form::kRing ? 3 : 2;
-    if (grid.m < least || grid.n < 2 || grid.o < 2)
-        throw Error(shape.place, "a grid of at least " + std::to_string(least) + " x 2 x 2 nodes",
+    const int min = shape.form == Form::kRing ? 3 : 2;
+    if (grid.m < min || grid.n < 2 || grid.o < 2)
+        throw Error(shape.place, "a grid of at least " + std::to_string(min) + " x 2 x 2 nodes",
                     std::to_string(grid.m) + " x " + std::to_string(grid.n) + " x " +
                         std::to_string(grid.o));
 }

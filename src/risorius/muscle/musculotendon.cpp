@@ -49,7 +49,7 @@ void check(const MuscleParameters& p, const std::string& place) {
     check_positive(p.optimal_length_m, place + "/optimal_length_m");
     require(std::isfinite(p.tendon_slack_m) && p.tendon_slack_m >= 0, place + "/tendon_slack_m",
             "[0, inf)", p.tendon_slack_m);
-    check_positive(p.greatest_speed_hz, place + "/greatest_speed_hz");
+    check_positive(p.max_speed_hz, place + "/greatest_speed_hz");
     require(p.pennation_deg >= 0 && p.pennation_deg < 90, place + "/pennation_deg", "[0, 90)",
             p.pennation_deg);
     require(std::isfinite(p.damping) && p.damping >= 0, place + "/damping", "[0, inf)", p.damping);
@@ -62,7 +62,7 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json) {
     p.f0_n = json.at("f0_n").number();
     p.optimal_length_m = json.at("optimal_length_m").number();
     if (const auto v = json.find("tendon_slack_m")) p.tendon_slack_m = v->number();
-    if (const auto v = json.find("greatest_speed_hz")) p.greatest_speed_hz = v->number();
+    if (const auto v = json.find("greatest_speed_hz")) p.max_speed_hz = v->number();
     if (const auto v = json.find("pennation_deg")) p.pennation_deg = v->number();
     if (const auto v = json.find("damping")) p.damping = v->number();
     if (const auto v = json.find("tendon"))
@@ -221,7 +221,7 @@ void Musculotendon::add_force(double t_s, const Points& x, const Points& v, Poin
             const Segment& s = segment(m, c);
             const Line f = fibre(x, m, c);
             const double rate = f.slope * (v.row(j) - v.row(i)).dot(f.direction.transpose());
-            const double vt = rate / (parameters_.greatest_speed_hz * s.optimal_m);
+            const double vt = rate / (parameters_.max_speed_hz * s.optimal_m);
             double tension =
                 curves_.passive.value(f.length / s.optimal_m) + parameters_.damping * vt;
             if (active != 0) tension += active * curves_.velocity.value(vt);
@@ -292,13 +292,13 @@ Musculotendon::Pull Musculotendon::fibre_pull(const ImplicitStep& step, const Li
     if (step.rate_hz() == 0) {
         pull.tension += active;  // its energy is the chain's
     } else {
-        const double greatest = parameters_.greatest_speed_hz * s.optimal_m * step.step_s;
-        const double vt = (now.length - fibre(step.start, m, chain).length) / greatest;
+        const double max = parameters_.max_speed_hz * s.optimal_m * step.step_s;
+        const double vt = (now.length - fibre(step.start, m, chain).length) / max;
         const Curve::Value velocity = curves_.velocity.at(vt);
         const double b = parameters_.damping;
-        pull.energy += greatest * (active * velocity.integral + b * vt * vt / 2);
+        pull.energy += max * (active * velocity.integral + b * vt * vt / 2);
         pull.tension += active * velocity.value + b * vt;
-        pull.slope += (active * velocity.slope + b) / greatest;
+        pull.slope += (active * velocity.slope + b) / max;
     }
     pull.energy *= chain_force_n_;
     pull.tension *= chain_force_n_;
@@ -379,7 +379,7 @@ void Musculotendon::add_chain_block(const Points& x, int chain, double stiffness
 
 void Musculotendon::add_metric(double step_s, solve::MetricBuilder& metric) const {
     const double steepest = curves_.velocity.at(0).slope + parameters_.damping;
-    const double rate = steepest / (parameters_.greatest_speed_hz * step_s);  // 0 in an equilibrium
+    const double rate = steepest / (parameters_.max_speed_hz * step_s);  // 0 in an equilibrium
     const double c[2] = {-1, 1};
     for (int chain = 0; chain < chains(); ++chain) {
         for (int m = 0; m < segments_along(); ++m) {
@@ -439,13 +439,13 @@ Eigen::VectorXd Musculotendon::stretch(const Points& x) const {
 double Musculotendon::segment_spread(const Points& x) const {
     double worst = 0;
     for (int c = 0; c < chains(); ++c) {
-        double least = INFINITY, greatest = 0;
+        double min = INFINITY, max = 0;
         for (int m = 0; m < segments_along(); ++m) {
             const double l = fibre(x, m, c).length / segment(m, c).optimal_m;
-            least = std::min(least, l);
-            greatest = std::max(greatest, l);
+            min = std::min(min, l);
+            max = std::max(max, l);
         }
-        worst = std::max(worst, greatest - least);
+        worst = std::max(worst, max - min);
     }
     return worst;
 }

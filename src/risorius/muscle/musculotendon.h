@@ -45,12 +45,12 @@ namespace risorius::muscle {
 enum class TendonModel { kElastic, kRigid };
 
 struct MuscleParameters {
-    double f0_n = 0;                ///< F0                                        (0, inf)
-    double optimal_length_m = 0;    ///< l0                                        (0, inf)
-    double tendon_slack_m = 0;      ///< lTs; above 0 where elastic tendons are    [0, inf)
-    double greatest_speed_hz = 10;  ///< vmax, optimal lengths per second          (0, inf)
-    double pennation_deg = 0;       ///< alpha                                     [0, 90)
-    double damping = 0.05;          ///< b, ratio of F0 at vmax                    [0, inf)
+    double f0_n = 0;              ///< F0                                        (0, inf)
+    double optimal_length_m = 0;  ///< l0                                        (0, inf)
+    double tendon_slack_m = 0;    ///< lTs; above 0 where elastic tendons are    [0, inf)
+    double max_speed_hz = 10;     ///< vmax, optimal lengths per second          (0, inf)
+    double pennation_deg = 0;     ///< alpha                                     [0, 90)
+    double damping = 0.05;        ///< b, ratio of F0 at vmax                    [0, inf)
     TendonModel tendon = TendonModel::kElastic;  ///< "elastic", "rigid"
     CurveShape curves = {};                      ///< for make_curves
 };

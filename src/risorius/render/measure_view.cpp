@@ -188,12 +188,12 @@ Image draw_measured(const std::vector<ColouredSurface>& surfaces, const std::vec
     return image;
 }
 
-Vec3 scale_colour(double share) {
+Vec3 scale_colour(double fraction) {
     static const std::array<Vec3, 9> kColours{
         Vec3(0.267, 0.005, 0.329), Vec3(0.278, 0.176, 0.483), Vec3(0.231, 0.322, 0.545),
         Vec3(0.173, 0.449, 0.558), Vec3(0.128, 0.567, 0.551), Vec3(0.154, 0.681, 0.505),
         Vec3(0.361, 0.785, 0.388), Vec3(0.667, 0.862, 0.196), Vec3(0.993, 0.906, 0.144)};
-    const double at = std::clamp(share, 0.0, 1.0) * (kColours.size() - 1);
+    const double at = std::clamp(fraction, 0.0, 1.0) * (kColours.size() - 1);
     const std::size_t i = std::min(kColours.size() - 2, static_cast<std::size_t>(at));
     const double t = at - static_cast<double>(i);
     return (1 - t) * kColours[i] + t * kColours[i + 1];

@@ -47,6 +47,6 @@ Image draw_measured(const std::vector<ColouredSurface>& surfaces, const std::vec
 
 /// Dark blue over green to yellow, lightness growing evenly, for 0..1; beyond as its ends. Samples of matplotlib's viridis
 /// (S. van der Walt, N. Smith 2015, CC0).
-Vec3 scale_colour(double share);
+Vec3 scale_colour(double fraction);
 
 }  // namespace risorius::render

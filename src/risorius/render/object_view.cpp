@@ -15,9 +15,9 @@ namespace risorius::render {
 namespace {
 
 ObjectViewOptions checked(const ObjectViewOptions& options) {
-    check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
-    check_range("height_px", options.height_px, kLeastSide_px, kMostSide_px);
-    check_range("supersampling", options.supersampling, 1, kMostSupersampling);
+    check_range("width_px", options.width_px, kMinSide_px, kMaxSide_px);
+    check_range("height_px", options.height_px, kMinSide_px, kMaxSide_px);
+    check_range("supersampling", options.supersampling, 1, kMaxSupersampling);
     check_range("threads", options.threads, 0, 256);
     if (!std::isfinite(options.azimuth_deg))
         throw Error("azimuth_deg", "a number", format_number(options.azimuth_deg));

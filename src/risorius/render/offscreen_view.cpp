@@ -44,9 +44,9 @@ constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamp
                  kCoarseMovedSamples = 0.2, kDraftSkin_m = 0.7e-3;
 
 ViewOptions checked(ViewOptions options) {
-    check_range("width_px", options.width_px, kLeastSide_px, kMostSide_px);
-    check_range("height_px", options.height_px, kLeastSide_px, kMostSide_px);
-    check_range("supersampling", options.supersampling, 1, kMostSupersampling);
+    check_range("width_px", options.width_px, kMinSide_px, kMaxSide_px);
+    check_range("height_px", options.height_px, kMinSide_px, kMaxSide_px);
+    check_range("supersampling", options.supersampling, 1, kMaxSupersampling);
     check_range("threads", options.threads, 0, 256);
     return options;
 }
@@ -476,7 +476,7 @@ Image OffscreenView::skin_texture(const Scene& scene, int side_px) const {
             }
     }
     if (!laid_out) throw Error("skin", "texture coordinates", "none");
-    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
+    check_range("side_px", side_px, kMinSide_px, kMaxSide_px);
     const GlContext::Current current(impl_->context);
     GLuint framebuffer = 0;
     glGenFramebuffers(1, &framebuffer);
@@ -502,7 +502,7 @@ Image OffscreenView::part_texture(const Scene& scene, Material part, int side_px
     const auto named = kParts.find(part);
     if (named == kParts.end())
         throw Error("part", "eyes, teeth, gums or tongue", std::to_string(static_cast<int>(part)));
-    check_range("side_px", side_px, kLeastSide_px, kMostSide_px);
+    check_range("side_px", side_px, kMinSide_px, kMaxSide_px);
     if (!crown_height.empty() && static_cast<long>(crown_height.size()) != scene.rest.rows())
         throw Error("crown_height", std::to_string(scene.rest.rows()) + " rows, or none",
                     std::to_string(crown_height.size()));

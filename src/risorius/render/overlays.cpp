@@ -35,8 +35,8 @@ void draw_line(const Vec3& a, const Vec3& b, double opacity, const SurfacePasses
         const int near = static_cast<int>(std::floor(cross));
         const double beyond = cross - near;
         const int along = static_cast<int>(std::floor(steep ? at.y() : at.x()));
-        for (const auto& [pixel, share] : {std::pair{near, 1 - beyond}, {near + 1, beyond}})
-            blend_at(steep ? pixel : along, steep ? along : pixel, kWireInk, opacity * share,
+        for (const auto& [pixel, fraction] : {std::pair{near, 1 - beyond}, {near + 1, beyond}})
+            blend_at(steep ? pixel : along, steep ? along : pixel, kWireInk, opacity * fraction,
                      image);
     }
 }

@@ -114,9 +114,9 @@ SeenSurface SurfacePasses::look(const Points& positions) const {
     for (Eigen::Index v = 0; v < positions.rows(); ++v) {
         const Eigen::Vector4d clip =
             clip_from_world_ * Vec3(positions.row(v).transpose()).homogeneous();
-        const double share = clip.w() > 0 ? 1 / clip.w() : 0;  // 0: behind the camera
-        corner.row(v) << (clip.x() * share * 0.5 + 0.5) * width_,
-            (0.5 - clip.y() * share * 0.5) * height_, clip.z() * share, share;
+        const double fraction = clip.w() > 0 ? 1 / clip.w() : 0;  // 0: behind the camera
+        corner.row(v) << (clip.x() * fraction * 0.5 + 0.5) * width_,
+            (0.5 - clip.y() * fraction * 0.5) * height_, clip.z() * fraction, fraction;
     }
 
     for (Eigen::Index f = 0; f < triangles_.rows(); ++f) {

@@ -12,9 +12,9 @@ namespace risorius::render {
 namespace {
 
 // CIE L*C*h of a quantity without sign at 0 and 1
-constexpr double kNoneLightness = 90, kMostLightness = 20;
-constexpr double kNoneHue_deg = 95, kMostHue_deg = -50;
-constexpr double kNoneChroma = 6, kMostChroma = 46, kMoreChroma = 38;  ///< more: in the middle
+constexpr double kNoneLightness = 90, kMaxLightness = 20;
+constexpr double kNoneHue_deg = 95, kMaxHue_deg = -50;
+constexpr double kNoneChroma = 6, kMaxChroma = 46, kMoreChroma = 38;  ///< more: in the middle
 
 // And of one with a sign at -1, 0 and 1
 constexpr double kBelowLightness = 16, kZeroLightness = 58, kAboveLightness = 92;
@@ -33,10 +33,10 @@ Vec3 value_colour(double value, double from, double to) {
                                      s * kAboveChroma, kAboveHue_deg);
     }
     const double s = to == from ? 0 : (v - from) / (to - from);
-    return linear_of_lch(kNoneLightness + s * (kMostLightness - kNoneLightness),
-                         kNoneChroma + s * (kMostChroma - kNoneChroma) +
-                             kMoreChroma * std::sin(std::numbers::pi * s),
-                         kNoneHue_deg + s * (kMostHue_deg - kNoneHue_deg));
+    return linear_of_lch(
+        kNoneLightness + s * (kMaxLightness - kNoneLightness),
+        kNoneChroma + s * (kMaxChroma - kNoneChroma) + kMoreChroma * std::sin(std::numbers::pi * s),
+        kNoneHue_deg + s * (kMaxHue_deg - kNoneHue_deg));
 }
 
 Vec3 no_value_colour() { return linear_of_lch(62, 0, 0); }

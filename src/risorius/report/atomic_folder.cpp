@@ -43,7 +43,7 @@ void check_replaceable(const fs::path& folder, const std::string& shown) {
 }
 
 /// The absolute path, without links, "." and a final slash.
-fs::path settled(const fs::path& folder) {
+fs::path canonical_folder(const fs::path& folder) {
     fs::path path = fs::weakly_canonical(fs::absolute(folder)).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
     return path;
@@ -53,7 +53,7 @@ fs::path settled(const fs::path& folder) {
 
 AtomicFolder::AtomicFolder(const fs::path& folder) {
     try {
-        folder_ = settled(folder);
+        folder_ = canonical_folder(folder);
         check_replaceable(folder_, folder.string());
         const std::string mark = std::to_string(::getpid());
         partial_ = folder_.parent_path() / ("." + folder_.filename().string() + ".part-" + mark);

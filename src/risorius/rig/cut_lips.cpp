@@ -250,7 +250,7 @@ class Cut {
         // A furrow may be deep, down to the teeth
         return line_.spans(p.x()) && std::hypot(off.y(), 0.25 * off.z()) < head_.size * kFromLine_m;
     }
-    double share_of_edge(int a, int b) const {
+    double fraction_of_edge(int a, int b) const {
         const double at_a = height_of(a), at_b = height_of(b);
         return at_a / (at_a - at_b);
     }
@@ -261,7 +261,7 @@ class Cut {
             const std::vector<int>& vertex = polygons_[f].vertex;
             for (const auto& [a, b] : edges_of(vertex)) {
                 if (height_of(a) * height_of(b) > 0) continue;
-                const double t = share_of_edge(a, b);
+                const double t = fraction_of_edge(a, b);
                 if (t < kDegenerate && may_be_cut(position(a))) on_line_.insert(a);
                 if (t > 1 - kDegenerate && may_be_cut(position(b))) on_line_.insert(b);
             }
@@ -284,7 +284,7 @@ class Cut {
         const Edge edge = edge_of(a, b);
         const auto known = crossing_.find(edge);
         if (known != crossing_.end()) return known->second;
-        const double t = share_of_edge(edge.first, edge.second);
+        const double t = fraction_of_edge(edge.first, edge.second);
         const Vec3 p = (1 - t) * position(edge.first) + t * position(edge.second);
         const int v = may_be_cut(p) ? add(p) : -1;
         if (v >= 0) on_line_.insert(v);
@@ -306,7 +306,7 @@ class Cut {
         const std::array<Corner, 3> corners{a, b, c};
         const auto between = [&](const Corner& p, const Corner& q) {
             const int v = crossing(p.vertex, q.vertex);
-            const double t = v < 0 ? 0 : share_of_edge(p.vertex, q.vertex);
+            const double t = v < 0 ? 0 : fraction_of_edge(p.vertex, q.vertex);
             return Corner{v, (1 - t) * p.texcoord + t * q.texcoord};
         };
         std::array<Corner, 3> mid;

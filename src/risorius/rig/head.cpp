@@ -160,13 +160,13 @@ void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vec
         }
     }
     const auto distance = [&](int v, const std::vector<int>& teeth) {
-        double least = 1e300;
+        double min = 1e300;
         for (int t : teeth)
-            least = std::min(least, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
-        return std::sqrt(least);
+            min = std::min(min, (head.vertices.row(t) - head.vertices.row(v)).squaredNorm());
+        return std::sqrt(min);
     };
     constexpr double kUnknown = -1.0;
-    std::vector<double> share(piece.size(), kUnknown);
+    std::vector<double> fraction(piece.size(), kUnknown);
     std::vector<char> tongue(piece.size(), 0);
     const double corner = std::abs(head.landmark("ch_l").x());
     for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -174,25 +174,26 @@ void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vec
         const double up = distance(piece[i], upper_teeth), down = distance(piece[i], lower_teeth);
         const double facing = normal[i].normalized().y();
         if (std::min(up, down) < head.mm(2.5)) {
-            share[i] = up < down ? 0.0 : 1.0;
+            fraction[i] = up < down ? 0.0 : 1.0;
         } else if (std::abs(p.x()) < 0.8 * corner && facing > 0.4) {
-            share[i] = 1.0;
+            fraction[i] = 1.0;
             tongue[i] = 1;
         } else if (std::abs(p.x()) < corner && facing < -0.4 && p.y() > head.landmark("sto").y()) {
-            share[i] = 0.0;
+            fraction[i] = 0.0;
         }
     }
     std::vector<double> value(piece.size());
-    for (std::size_t i = 0; i < piece.size(); ++i) value[i] = share[i] == kUnknown ? 0.5 : share[i];
+    for (std::size_t i = 0; i < piece.size(); ++i)
+        value[i] = fraction[i] == kUnknown ? 0.5 : fraction[i];
     for (int sweep = 0; sweep < 300; ++sweep)
         for (std::size_t i = 0; i < piece.size(); ++i) {
-            if (share[i] != kUnknown || neighbours[i].empty()) continue;
+            if (fraction[i] != kUnknown || neighbours[i].empty()) continue;
             double sum = 0;
             for (int j : neighbours[i]) sum += value[j];
             value[i] = sum / static_cast<double>(neighbours[i].size());
         }
     for (std::size_t i = 0; i < piece.size(); ++i) {
-        head.jaw_share[piece[i]] = value[i];
+        head.jaw_fraction[piece[i]] = value[i];
         head.carrier[piece[i]] = tongue[i]        ? Carrier::kTongue
                                  : value[i] > 0.5 ? Carrier::kMandible
                                                   : Carrier::kSkull;
@@ -343,7 +344,7 @@ CarriedVertices choose_carriers(const geom::PolygonMesh& mesh, Head& head) {
     CarriedVertices carried;
     std::vector<std::pair<int, std::vector<int>>> both_jaws;
     head.carrier.assign(static_cast<std::size_t>(mesh.vertex_count()), Carrier::kNone);
-    head.jaw_share.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
+    head.jaw_fraction.assign(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
         const std::string& role = head.role_of_group[g];
         if (role.empty() || role == "hidden") continue;
@@ -351,7 +352,7 @@ CarriedVertices choose_carriers(const geom::PolygonMesh& mesh, Head& head) {
             const Carrier carrier = carrier_of(head, role, piece);
             for (int v : piece) {
                 head.carrier[v] = carrier;
-                head.jaw_share[v] =
+                head.jaw_fraction[v] =
                     carrier == Carrier::kMandible || carrier == Carrier::kTongue ? 1.0 : 0.0;
             }
             if (any_of(role, {"gums_tongue", "gums"}) && spans_both_jaws(head, piece))

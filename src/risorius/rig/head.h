@@ -46,7 +46,7 @@ struct Head {
     Points vertices;               ///< V x 3
     std::vector<Carrier> carrier;  ///< V
     std::vector<double>
-        jaw_share;  ///< V, fraction of the mandible's motion that a vertex of teeth, gums or tongue follows
+        jaw_fraction;  ///< V, fraction of the mandible's motion that a vertex of teeth, gums or tongue follows
     std::vector<std::string> role_of_group;  ///< per mesh group, "" when unused
     Triangles skin;                          ///< outer skin, welded vertex indices
     Triangles lining;         ///< mouth lining and eye sockets, welded vertex indices

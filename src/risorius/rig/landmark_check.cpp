@@ -93,9 +93,9 @@ std::vector<LandmarkPrediction> doubtful_landmarks(std::map<std::string, Vec3> i
             all.begin(), all.end(), [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
         // Of two close neighbours each finds the other wrong: their partners know which it is
         constexpr double kAlike = 0.6;
-        const double least = kAlike * worst->ratio;
+        const double min = kAlike * worst->ratio;
         for (auto p = all.begin(); p != all.end(); ++p)
-            if (p->ratio > least && p->ratio >= limits.ratio && p->off_m >= limits.off_m * size &&
+            if (p->ratio > min && p->ratio >= limits.ratio && p->off_m >= limits.off_m * size &&
                 p->mirror_ratio > 2 * worst->mirror_ratio)
                 worst = p;
         if (worst->ratio < limits.ratio || worst->off_m < limits.off_m * size) break;

@@ -79,9 +79,9 @@ void read_line(const JsonCursor& item, Muscle& muscle) {
     take("l0_mm", 1e-3, {0.5, 500}, muscle.optimal_length_m);
     take("tendon_slack_mm", 1e-3, {0, 500}, muscle.tendon_slack_m);
     take("pennation_deg", 1, {0, 89}, muscle.pennation_deg);
-    take("vmax_l0_per_s", 1, {0.1, 100}, muscle.greatest_speed_hz);
+    take("vmax_l0_per_s", 1, {0.1, 100}, muscle.max_speed_hz);
     take("rest_norm_fibre_length", 1, {0.3, 2}, muscle.rest_stretch);
-    take("max_shortening_frac", 1, {0, 0.9}, muscle.greatest_shortening);
+    take("max_shortening_frac", 1, {0, 0.9}, muscle.max_shortening);
     if (!moves_bone && !item.has("paths")) return;
     for (const JsonCursor& path : item.at("paths").items()) muscle.paths.push_back(read_path(path));
     if (moves_bone && muscle.paths.empty()) item.at("paths").fail("at least one path");

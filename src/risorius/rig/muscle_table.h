@@ -53,9 +53,9 @@ struct Muscle {
     double optimal_length_m = 0;          ///< of its fibres
     double tendon_slack_m = 0;            ///< both tendons together
     double pennation_deg = 0;             ///< at optimal length
-    double greatest_speed_hz = 10;        ///< optimal lengths per second
-    double rest_stretch = 1;  ///< fibre length / optimal length, face at rest and jaw closed
-    double greatest_shortening = 0.3;  ///< published, ratio of the optimal length
+    double max_speed_hz = 10;             ///< optimal lengths per second
+    double rest_stretch = 1;        ///< fibre length / optimal length, face at rest and jaw closed
+    double max_shortening = 0.3;    ///< published, ratio of the optimal length
     std::vector<MusclePath> paths;  ///< of the left side, or from left to right across the midline
 };
 

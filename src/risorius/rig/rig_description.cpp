@@ -34,7 +34,7 @@ void visit_fields(EyesDescription& eyes, Visit visit) {
     visit("lower_lid_per_gaze_up", eyes.lower_lid_per_gaze_up, Range{0, 2});
     visit("lids_per_gaze_aside", eyes.lids_per_gaze_aside, Range{0, 1});
     visit("wide_deg", eyes.wide_deg, Range{0, 45});
-    visit("lid_closed_share", eyes.lid_closed_share, Range{0.5, 1});
+    visit("lid_closed_share", eyes.lid_closed_fraction, Range{0.5, 1});
 }
 template <typename Visit>
 void visit_fields(ActivationDescription& activation, Visit visit) {

@@ -49,7 +49,7 @@ struct EyesDescription {
     double lower_lid_per_gaze_up = 0.19;
     double lids_per_gaze_aside = 0.25;
     double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
-    double lid_closed_share =
+    double lid_closed_fraction =
         0.96;  ///< fraction of the lid fissure that the upper lid travels; the lower lid travels the rest
 };
 

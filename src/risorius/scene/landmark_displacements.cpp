@@ -25,9 +25,10 @@ track::Drive LandmarkDisplacements::drive(const std::string& expression) const {
     return rig::clamped_drive(*expansion, rig_.channels());
 }
 
-Points LandmarkDisplacements::settle(const track::Drive& drive, int iterations) {
+Points LandmarkDisplacements::solve_equilibrium(const track::Drive& drive, int iterations) {
     face_.start([&](double) { return at_rest_; });
-    came_to_rest_ = face_.settle(drive.excitation, drive, {.iterations = iterations}).converged;
+    in_equilibrium_ =
+        face_.solve_equilibrium(drive.excitation, drive, {.iterations = iterations}).converged;
     const Points vertices = face_.pose().vertices;
     Points out(static_cast<long>(ids_.size()), 3);
     for (std::size_t i = 0; i < ids_.size(); ++i)

@@ -31,8 +31,8 @@ class LandmarkDisplacements {
     track::Drive drive(const std::string& expression) const;
     /// Solves the equilibrium of the face under the drive, from rest, and returns the displacements of landmarks(): n x 3, m, at
     /// the size of the atlas head.
-    Points settle(const track::Drive& drive, int iterations = face::kRestIterations);
-    bool came_to_rest() const { return came_to_rest_; }
+    Points solve_equilibrium(const track::Drive& drive, int iterations = face::kRestIterations);
+    bool in_equilibrium() const { return in_equilibrium_; }
 
   private:
     face::Face& face_;
@@ -41,7 +41,7 @@ class LandmarkDisplacements {
     LandmarkPoints points_;
     std::vector<std::string> ids_;
     track::Drive at_rest_;
-    bool came_to_rest_ = true;
+    bool in_equilibrium_ = true;
 };
 
 /// Expression -> landmark -> displacement, m.

@@ -76,7 +76,7 @@ Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
     Points shut = head.vertices;
     const face::LidPose closed{.upper_closure = 1, .lower_closure = 1, .inward = 0.5};
     for (int side = 0; side < 2; ++side) {
-        const face::EyeLids lids(head, side, rig.eyes.lid_closed_share);
+        const face::EyeLids lids(head, side, rig.eyes.lid_closed_fraction);
         for (Eigen::Index v = 0; v < shut.rows(); ++v) {
             const Vec3 p = head.vertices.row(v).transpose();
             if (head.carrier[static_cast<std::size_t>(v)] == rig::Carrier::kSkin &&

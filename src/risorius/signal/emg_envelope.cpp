@@ -20,12 +20,12 @@ std::size_t two_periods(double hz, double rate_hz) {
 }  // namespace
 
 std::size_t padding_of(const EmgFilters& filters, double rate_hz) {
-    std::size_t most = 0;
+    std::size_t max = 0;
     if (filters.band_pass_hz)
-        most = std::max(most, two_periods(filters.band_pass_hz->front(), rate_hz));
-    if (!filters.notch_hz.empty()) most = std::max(most, two_periods(kNotchWidth_hz, rate_hz));
-    if (filters.low_pass_hz) most = std::max(most, two_periods(*filters.low_pass_hz, rate_hz));
-    return most;
+        max = std::max(max, two_periods(filters.band_pass_hz->front(), rate_hz));
+    if (!filters.notch_hz.empty()) max = std::max(max, two_periods(kNotchWidth_hz, rate_hz));
+    if (filters.low_pass_hz) max = std::max(max, two_periods(*filters.low_pass_hz, rate_hz));
+    return max;
 }
 
 std::vector<double> emg_envelope(std::vector<double> samples, double rate_hz,

@@ -10,7 +10,7 @@
 namespace risorius::softbody {
 namespace {
 
-using detail::kMostNodesPerAxis;
+using detail::kMaxNodesPerAxis;
 using detail::not_negative;
 using detail::positive;
 
@@ -53,8 +53,8 @@ tissue::GridShape read_grid(const JsonCursor& json, Kind kind) {
                                   " numbers of nodes, one per axis");
     const auto count = [&](std::size_t axis) {
         // Round a tube two nodes would lie on one line.
-        const int least = kind == Kind::kCylinder && axis == 1 ? 3 : 2;
-        return counts[axis].integer(least, kMostNodesPerAxis);
+        const int min = kind == Kind::kCylinder && axis == 1 ? 3 : 2;
+        return counts[axis].integer(min, kMaxNodesPerAxis);
     };
     return {.m = count(0), .n = axes > 1 ? count(1) : 1, .o = axes > 2 ? count(2) : 1};
 }
@@ -125,7 +125,7 @@ void read_irregular(const JsonCursor& json, BodyDescription& body) {
     if (body.discretisation != Discretisation::kTriangles)
         json.fail("\"triangles\" for its discretisation", "another");
     IrregularDescription irregular;
-    irregular.share = json.at("share").number({0, 0.45});
+    irregular.fraction = json.at("share").number({0, 0.45});
     if (const auto seed = json.find("seed"))
         irregular.seed = static_cast<unsigned>(seed->integer(0, 1000000));
     body.irregular = irregular;
@@ -176,42 +176,42 @@ tissue::SolidMaterial material_of_block(const ModuliDescription& moduli, const V
     return material;
 }
 
-void change_tensor(Mat3& tensor, const MaterialChange& change, double share) {
-    tensor = changed(tensor, change, share);
+void change_tensor(Mat3& tensor, const MaterialChange& change, double fraction) {
+    tensor = changed(tensor, change, fraction);
 }
 
-void change_tensor(double& number, const MaterialChange& change, double share) {
-    number = changed(number, change, share);
+void change_tensor(double& number, const MaterialChange& change, double fraction) {
+    number = changed(number, change, fraction);
 }
 
-void change_tensor(tissue::Mat2& tensor, const MaterialChange& change, double share) {
+void change_tensor(tissue::Mat2& tensor, const MaterialChange& change, double fraction) {
     Mat3 whole = Mat3::Zero();
     whole.topLeftCorner<2, 2>() = tensor;
-    tensor = changed(whole, change, share).topLeftCorner<2, 2>();
+    tensor = changed(whole, change, fraction).topLeftCorner<2, 2>();
 }
 
 /// What all kinds have in common.
 template <typename Material>
-void change_shared(Material& material, const MaterialChange& change, double share) {
-    if (change.quantity == "elastic") change_tensor(material.elastic_n_per_m3, change, share);
-    if (change.quantity == "damping") change_tensor(material.damping_ns_per_m3, change, share);
-    if (change.quantity == "mass") material.mass_kg = changed(material.mass_kg, change, share);
+void change_shared(Material& material, const MaterialChange& change, double fraction) {
+    if (change.quantity == "elastic") change_tensor(material.elastic_n_per_m3, change, fraction);
+    if (change.quantity == "damping") change_tensor(material.damping_ns_per_m3, change, fraction);
+    if (change.quantity == "mass") material.mass_kg = changed(material.mass_kg, change, fraction);
     if (change.quantity == "drag")
-        material.drag_ns_per_m = changed(material.drag_ns_per_m, change, share);
+        material.drag_ns_per_m = changed(material.drag_ns_per_m, change, fraction);
 }
 
-void change_own(tissue::SolidMaterial& material, const MaterialChange& change, double share) {
+void change_own(tissue::SolidMaterial& material, const MaterialChange& change, double fraction) {
     if (change.quantity == "incompressibility")
         material.incompressibility_n_per_m5 =
-            changed(material.incompressibility_n_per_m5, change, share);
+            changed(material.incompressibility_n_per_m5, change, fraction);
 }
 
-void change_own(tissue::SurfaceMaterial& material, const MaterialChange& change, double share) {
-    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, share);
+void change_own(tissue::SurfaceMaterial& material, const MaterialChange& change, double fraction) {
+    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, fraction);
 }
 
-void change_own(tissue::CurveMaterial& material, const MaterialChange& change, double share) {
-    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, share);
+void change_own(tissue::CurveMaterial& material, const MaterialChange& change, double fraction) {
+    if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, fraction);
 }
 
 /// One material, or one per node where regions change it.
@@ -220,10 +220,10 @@ std::vector<Material> material_field(const BodyDescription& description, const M
     if (description.regions.empty()) return {whole};
     std::vector<Material> field(static_cast<std::size_t>(description.grid.size()), whole);
     for_each_change(description.regions, description.grid,
-                    [&](int node, const MaterialChange& change, double share) {
+                    [&](int node, const MaterialChange& change, double fraction) {
                         Material& material = field[static_cast<std::size_t>(node)];
-                        change_shared(material, change, share);
-                        change_own(material, change, share);
+                        change_shared(material, change, fraction);
+                        change_own(material, change, fraction);
                     });
     return field;
 }
@@ -315,7 +315,7 @@ tissue::GridSurface grid_surface(const BodyDescription& description) {
 tissue::TriangleSurface triangle_surface(const BodyDescription& description) {
     const tissue::GridSurface surface = grid_surface(description);
     return description.irregular
-               ? tissue::irregularly_triangulated(surface, description.irregular->share,
+               ? tissue::irregularly_triangulated(surface, description.irregular->fraction,
                                                   description.irregular->seed)
                : tissue::triangulated(surface);
 }
@@ -331,10 +331,10 @@ tissue::GridCurve grid_curve(const BodyDescription& description) {
 std::vector<double> relative_stiffness(const BodyDescription& description) {
     std::vector<double> stiffness;
     if (description.regions.empty()) return stiffness;
-    constexpr double kLeast = 1e-300;  // nothing at all
+    constexpr double kMin = 1e-300;  // nothing at all
     if (description.kind == Kind::kSolid) {
         for (const tissue::SolidMaterial& material : grid_solid(description).material)
-            stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), kLeast)));
+            stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), kMin)));
         return stiffness;
     }
     if (description.kind == Kind::kCurve) return stiffness;
@@ -344,7 +344,7 @@ std::vector<double> relative_stiffness(const BodyDescription& description) {
             bending = bending || change.quantity == "bending";
     for (const tissue::SurfaceMaterial& material : grid_surface(description).material)
         stiffness.push_back(std::log(std::max(
-            (bending ? material.bending_n_per_m : material.elastic_n_per_m3).mean(), kLeast)));
+            (bending ? material.bending_n_per_m : material.elastic_n_per_m3).mean(), kMin)));
     return stiffness;
 }
 

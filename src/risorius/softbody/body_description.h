@@ -50,8 +50,8 @@ struct ModuliDescription {
 
 /// Triangles off the grid, tissue::irregularly_triangulated.
 struct IrregularDescription {
-    double share = 0;   ///< of the spacing      [0, 0.45]
-    unsigned seed = 1;  ///< of the random places
+    double fraction = 0;  ///< of the spacing      [0, 0.45]
+    unsigned seed = 1;    ///< of the random places
 };
 
 struct BodyDescription {

@@ -15,7 +15,7 @@ solve::IntegratorOptions read_integrator(const JsonCursor& json) {
     if (const auto step = json.find("step_s")) options.step_s = positive(*step);
     if (const auto tolerance = json.find("tolerance"))
         options.tolerance = tolerance->number({0, 0.5});
-    if (const auto least = json.find("least_step_s")) options.least_step_s = positive(*least);
+    if (const auto min = json.find("least_step_s")) options.min_step_s = positive(*min);
     if (const auto diverged = json.find("diverged_at")) options.diverged_at = positive(*diverged);
     if (const auto iterations = json.find("newton_iterations"))
         options.newton_iterations = iterations->integer(1, 10000);

@@ -17,15 +17,15 @@ namespace risorius::softbody {
 
 namespace {
 
-using detail::kMostNodesPerAxis;
+using detail::kMaxNodesPerAxis;
 using detail::not_negative;
 using detail::positive;
 
 tissue::GridShape read_grid(const JsonCursor& json) {
     const std::vector<JsonCursor> counts = json.items();
     if (counts.size() != 3) json.fail("three numbers of nodes, one per axis");
-    return {counts[0].integer(2, kMostNodesPerAxis), counts[1].integer(2, kMostNodesPerAxis),
-            counts[2].integer(2, kMostNodesPerAxis)};
+    return {counts[0].integer(2, kMaxNodesPerAxis), counts[1].integer(2, kMaxNodesPerAxis),
+            counts[2].integer(2, kMaxNodesPerAxis)};
 }
 
 void read_sizes(const JsonCursor& json, MuscleDescription& d) {

@@ -10,11 +10,11 @@ namespace risorius::solve {
 
 namespace {
 
-enum class Place { kLeast, kZero, kMost, kBelowZero, kAboveZero };
+enum class Place { kMin, kZero, kMax, kBelowZero, kAboveZero };
 
 Place place_of(const BoxQuadratic& problem, const Eigen::VectorXd& x, long i) {
-    if (x[i] == problem.least[i]) return Place::kLeast;
-    if (x[i] == problem.most[i]) return Place::kMost;
+    if (x[i] == problem.min[i]) return Place::kMin;
+    if (x[i] == problem.max[i]) return Place::kMax;
     if (x[i] == 0 && problem.price[i] > 0) return Place::kZero;
     return x[i] < 0 ? Place::kBelowZero : Place::kAboveZero;
 }
@@ -44,7 +44,7 @@ void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::
         for (long k = 0; k < count; ++k) {
             const long i = unknown(k);
             const bool priced = problem.price[i] > 0;
-            double end = step[k] > 0 ? problem.most[i] : problem.least[i];
+            double end = step[k] > 0 ? problem.max[i] : problem.min[i];
             if (priced && x[i] * step[k] < 0 && x[i] * end < 0) end = 0;
             if (!(std::abs(step[k]) * way > std::abs(end - x[i]))) continue;
             way = (end - x[i]) / step[k];
@@ -62,12 +62,12 @@ void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::
 }  // namespace
 
 int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance, int sweeps) {
-    x = x.cwiseMax(problem.least).cwiseMin(problem.most);
+    x = x.cwiseMax(problem.min).cwiseMin(problem.max);
     Eigen::VectorXd slope = problem.A * x + problem.b;  // without the price
     std::vector<Place> places(static_cast<std::size_t>(x.size())), before;
     bool jumped = false;  // from these places
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
-        double greatest = 0;
+        double max = 0;
         for (long i = 0; i < x.size(); ++i) {
             const double curvature = problem.A(i, i);
             if (!(curvature > 0)) continue;
@@ -75,14 +75,14 @@ int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance, 
             const double free = x[i] - slope[i] / curvature;
             const double drawn = std::max(0.0, std::abs(free) - problem.price[i] / curvature);
             const double next =
-                std::clamp(std::copysign(drawn, free), problem.least[i], problem.most[i]);
+                std::clamp(std::copysign(drawn, free), problem.min[i], problem.max[i]);
             const double change = next - x[i];
             if (change == 0) continue;
             slope += change * problem.A.col(i);
             x[i] = next;
-            greatest = std::max(greatest, std::abs(change));
+            max = std::max(max, std::abs(change));
         }
-        if (greatest <= tolerance) return sweep;
+        if (max <= tolerance) return sweep;
         for (long i = 0; i < x.size(); ++i)
             places[static_cast<std::size_t>(i)] = place_of(problem, x, i);
         if (places != before) {

@@ -15,7 +15,7 @@ namespace risorius::solve {
 
 struct BoxQuadratic {
     Eigen::MatrixXd A;
-    Eigen::VectorXd b, price, least, most;
+    Eigen::VectorXd b, price, min, max;
 };
 
 /// From `x`, which is moved into the box first. Stops when a sweep changes no unknown by more than `tolerance`, or after

@@ -50,8 +50,8 @@ void check(const IntegratorOptions& options) {
             options.tolerance);
     require(is_positive(options.length_scale_m), "length_scale_m", "(0, inf)",
             options.length_scale_m);
-    require(options.least_step_s >= 0 && std::isfinite(options.least_step_s), "least_step_s",
-            "[0, inf)", options.least_step_s);
+    require(options.min_step_s >= 0 && std::isfinite(options.min_step_s), "least_step_s",
+            "[0, inf)", options.min_step_s);
     require(is_positive(options.diverged_at), "diverged_at", "(0, inf)", options.diverged_at);
     require(options.newton_iterations >= 1, "newton_iterations", "at least 1",
             options.newton_iterations);

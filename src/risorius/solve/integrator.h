@@ -51,8 +51,8 @@ struct IntegratorOptions {
     /// Cash-Karp and Bulirsch-Stoer: allowed error of one step, as a share of each coordinate's scale (length_scale_m for
     /// positions, and that over the step for velocities). 0 = fixed step (Bulirsch-Stoer: 1e-6).
     double tolerance = 0;
-    double length_scale_m = 1;   ///< of the body, what errors and divergence are measured by
-    double least_step_s = 1e-9;  ///< a controlled step below this is divergence
+    double length_scale_m = 1;  ///< of the body, what errors and divergence are measured by
+    double min_step_s = 1e-9;   ///< a controlled step below this is divergence
     double diverged_at =
         1e3;  ///< a node farther than this many length scales from its start, or not finite
     int newton_iterations =

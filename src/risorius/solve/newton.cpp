@@ -16,7 +16,7 @@ namespace {
 constexpr double kSufficientDecrease = 1e-4;  ///< Armijo
 constexpr int kHalvings = 60;
 /// A line search that ends below this share of Newton's move gives way to regularised moves
-constexpr double kShortestShare = 1.0 / 64;
+constexpr double kShortestFraction = 1.0 / 64;
 /// Rounding of an energy, as a share of it: decreases below cannot be seen, the gradient must tell
 constexpr double kEnergyRounding = 1e-13;
 constexpr int kPositiveIterations = 3;  ///< after an indefinite exact curvature
@@ -29,7 +29,7 @@ bool all_finite(const Points& x) {
 }
 
 /// Of gradient / mass, m/s^2
-double largest_acceleration(const MotionSystem& system, const Points& gradient) {
+double max_acceleration(const MotionSystem& system, const Points& gradient) {
     double largest = 0;
     for (int i = 0; i < system.size(); ++i)
         if (!system.fixed()[static_cast<std::size_t>(i)])
@@ -133,8 +133,8 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
 
     while (report.iterations < options.iterations) {
         // Conjugate gradients are stopped early far from the minimum and late near it (Nocedal & Wright, 7.1)
-        const double slope_share = std::sqrt(dot(gradient_, gradient_)) / first_slope;
-        const double tolerance = std::clamp(0.1 * std::sqrt(slope_share), 1e-9, 1e-2);
+        const double slope_fraction = std::sqrt(dot(gradient_, gradient_)) / first_slope;
+        const double tolerance = std::clamp(0.1 * std::sqrt(slope_fraction), 1e-9, 1e-2);
         if (first_slope == 0) {
             report.converged = true;
             return report;
@@ -186,9 +186,9 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
             report.converged = true;
             return report;
         }
-        if (t < kShortestShare) {
+        if (t < kShortestFraction) {
             // The mass weight whose move would have had about the length accepted
-            const double added = largest_acceleration(system, gradient_) / (t * move);
+            const double added = max_acceleration(system, gradient_) / (t * move);
             regularised(system, step, target, options, e, added, x, report);
             return report;
         }
@@ -204,8 +204,8 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
     return report;
 }
 
-NewtonReport Newton::settle(const MotionSystem& system, const ImplicitStep& step,
-                            const NewtonOptions& options, Points& x) {
+NewtonReport Newton::solve_equilibrium(const MotionSystem& system, const ImplicitStep& step,
+                                       const NewtonOptions& options, Points& x) {
     assert(!std::isfinite(step.step_s));
     NewtonReport report;
     const double e = evaluate(system, step, x, x, gradient_, report);
@@ -227,7 +227,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
     const double inertia = step.rate_hz() * step.rate_hz();
     if (settling) began_ = x;
     double energy_scale = std::abs(e);
-    double least = 0;
+    double min = 0;
     Curvature curvature = options.curvature;
     int hold = 0;
 
@@ -245,7 +245,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
                 hold = kPositiveIterations;
             } else {
                 ++report.halvings;
-                least = std::max(least, 2 * added);
+                min = std::max(min, 2 * added);
                 added *= 16;
             }
             continue;
@@ -287,9 +287,9 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
         }
         if (!(gain > 0.25)) {
             added *= 4;
-            least = 0;  // that of another place
+            min = 0;  // that of another place
         } else if (gain > 0.75) {
-            added = std::max(added / 16, least);
+            added = std::max(added / 16, min);
         }
         if (hold > 0)
             --hold;

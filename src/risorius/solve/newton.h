@@ -45,14 +45,14 @@ class Newton {
   public:
     /// Minimises Phi for a finite step from x, whose fixed nodes must be in place at step.end_s. `target` is y. Phi never
     /// rises but by rounding. Where Newton's moves are far too long (large steps of what is soft at rest) it goes on as
-    /// settle() does.
+    /// solve_equilibrium() does.
     NewtonReport minimise(const MotionSystem& system, const ImplicitStep& step,
                           const Points& target, const NewtonOptions& options, Points& x);
 
     /// Minimises the energy at step.end_s (the step must be infinite) from x. Newton steps are regularised by mass, as
     /// implicit steps from rest are; that pseudo-time step grows while the quadratic model holds, until it no longer matters.
-    NewtonReport settle(const MotionSystem& system, const ImplicitStep& step,
-                        const NewtonOptions& options, Points& x);
+    NewtonReport solve_equilibrium(const MotionSystem& system, const ImplicitStep& step,
+                                   const NewtonOptions& options, Points& x);
 
     /// One Newton move from x with the exact curvature as it is, indefinite or not; where that is singular, with the
     /// positive one (a halving is counted). False when neither gives a finite move.

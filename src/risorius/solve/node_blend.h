@@ -16,7 +16,7 @@ namespace risorius::solve {
 
 class NodeBlend {
   public:
-    static constexpr int kMost = 12;  ///< two corners of cells and a triangle, with one to spare
+    static constexpr int kMax = 12;  ///< two corners of cells and a triangle, with one to spare
 
     NodeBlend() = default;
     explicit NodeBlend(int node) { add(node, 1.0); }
@@ -34,7 +34,7 @@ class NodeBlend {
                 weights_[i] += weight;
                 return;
             }
-        assert(count_ < kMost);
+        assert(count_ < kMax);
         nodes_[count_] = node;
         weights_[count_++] = weight;
     }
@@ -73,8 +73,8 @@ class NodeBlend {
 
   private:
     int count_ = 0;
-    std::array<int, kMost> nodes_{};
-    std::array<double, kMost> weights_{};
+    std::array<int, kMax> nodes_{};
+    std::array<double, kMax> weights_{};
 };
 
 }  // namespace risorius::solve

@@ -28,9 +28,9 @@ void QuasiNewton::direction(const InverseMetric& metric, Ring<Real>& pairs) {
     along = kept_ > 0 ? dot(pair(kept_ - 1).gradient_change, direction_) : 0;
     for (int age = kept_ - 1; age >= 0; --age) {
         const Pair<Real>& p = pair(age);
-        const double share = p.alpha - p.inverse_product * along;
-        along = age > 0 ? add_and_dot(direction_, share, p.step, pair(age - 1).gradient_change)
-                        : add_and_dot(direction_, share, p.step, direction_);
+        const double fraction = p.alpha - p.inverse_product * along;
+        along = age > 0 ? add_and_dot(direction_, fraction, p.step, pair(age - 1).gradient_change)
+                        : add_and_dot(direction_, fraction, p.step, direction_);
     }
     direction_ = -direction_;
 }
@@ -160,7 +160,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
         report.energy_j = e;
         report.last_step_rms_m = rms_step_m();
         if (report.last_step_rms_m < options.tolerance_rms_m &&
-            report.iterations >= options.least_iterations) {
+            report.iterations >= options.min_iterations) {
             report.converged = true;
             return report;
         }

@@ -27,7 +27,7 @@ using InverseMetric = std::function<void(const Points& b, Points& x)>;
 
 struct QuasiNewtonOptions {
     int iterations = 6;                    ///< at most
-    int least_iterations = 0;              ///< before the tolerance may stop it
+    int min_iterations = 0;                ///< before the tolerance may stop it
     int memory = 6;                        ///< pairs kept
     Precision pairs = Precision::kDouble;  ///< what they are kept in
     double step_cap_m = 6e-3;              ///< longest move of one node in one iteration

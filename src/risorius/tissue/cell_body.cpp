@@ -76,14 +76,14 @@ Points rest_of_nodes(const CellMesh& mesh, const RestShape& rest) {
 /// Spreads `amount` of every cell over its corners, and from hanging corners on to their nodes.
 void share_out(const CellMesh& mesh, std::size_t cell, double amount, Eigen::VectorXd& nodes) {
     const CellMesh::Support support = mesh.support(mesh.cells()[cell]);
-    const Eigen::RowVectorXd shares = support.weight.colwise().sum() * (amount / 8);
+    const Eigen::RowVectorXd fractions = support.weight.colwise().sum() * (amount / 8);
     for (std::size_t k = 0; k < support.node.size(); ++k)
-        nodes[support.node[k]] += shares[static_cast<Eigen::Index>(k)];
+        nodes[support.node[k]] += fractions[static_cast<Eigen::Index>(k)];
 }
 
 }  // namespace
 
-CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares shares,
+CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
                    const RestShape& rest) {
     CellBody body{std::move(mesh), {}, {}, {}, {}, {}};
     body.rest = rest_of_nodes(
@@ -101,7 +101,7 @@ CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares shares,
                                    sampled.back().incompressibility_n_per_m5});
     }
     const Eigen::VectorXd described_drag = node_drag(solid);
-    if (shares == MassShares::kNodes) {
+    if (fractions == MassShares::kNodes) {
         if (!body.mesh.uniform())
             throw std::invalid_argument("the same mass on every node needs a uniform mesh");
         for (int i = 0; i < nodes; ++i) {
@@ -112,9 +112,9 @@ CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares shares,
         }
     } else {
         for (std::size_t c = 0; c < cells.size(); ++c) {
-            const double share = cells[c].size.prod();
-            share_out(body.mesh, c, share * sampled[c].mass_kg, body.mass_kg);
-            share_out(body.mesh, c, share * sampled[c].drag_ns_per_m * solid.grid.size(),
+            const double fraction = cells[c].size.prod();
+            share_out(body.mesh, c, fraction * sampled[c].mass_kg, body.mass_kg);
+            share_out(body.mesh, c, fraction * sampled[c].drag_ns_per_m * solid.grid.size(),
                       body.drag_ns_per_m);
         }
     }

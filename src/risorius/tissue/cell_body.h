@@ -52,7 +52,7 @@ using RestShape = std::function<Vec3(const Vec3& a)>;
 /// The described body on `mesh`. Parameters are read off the description trilinearly at the centres of cells, masses at
 /// nodes or cells; the total mass is the description's. A rest shape finer than the description's grid can be given.
 /// kNodes needs a uniform mesh: throws std::invalid_argument.
-CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares shares,
+CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
                    const RestShape& rest = {});
 /// On the description's own grid, with the thesis' masses.
 CellBody cell_body(const GridSolid& solid);

@@ -19,7 +19,7 @@ using detail::store8;
 namespace {
 
 /// Share of the metric's bound (cell_metric) that the diagonal of the shape's stiffness is, averaged over directions.
-constexpr double kShapeShare = 2.0 / 3.0;
+constexpr double kShapeFraction = 2.0 / 3.0;
 
 /// Eight vectors.
 struct Rows8 {
@@ -135,7 +135,7 @@ CellPreconditioner::CellPreconditioner(const solve::MotionSystem& system,
         const detail::CellScalarMatrix shape =
             detail::cell_metric(law, cell.size, detail::CellCorners(cell, body.rest), rate_hz);
         for (int v = 0; v < 8; ++v)
-            d[cell.vertex[static_cast<std::size_t>(v)]] += kShapeShare * shape(v, v);
+            d[cell.vertex[static_cast<std::size_t>(v)]] += kShapeFraction * shape(v, v);
     }
     for (int i = 0; i < system.size(); ++i)
         p.inverse[i] =

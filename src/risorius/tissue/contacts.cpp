@@ -13,7 +13,7 @@ namespace {
 // What cannot be pushed out is not pushed ever harder: letting go, it would leap. Lips that press as hard as they can need
 // 4 mm of it against each other (20 kPa at the stiffness of a face's contacts). Far from where it began it grows
 // slowly: lips held in what they cannot do would rattle. It shrinks as fast as ever, or lips that part would be pushed on.
-constexpr double kGreatestShift_m = 6e-3;
+constexpr double kMaxShift_m = 6e-3;
 constexpr double kQuickShift_m = 2e-3;  // at twice this it grows a fifth as fast
 // Of a penetration that the shift takes up per solve: with all of it, lips that meet in full motion leap apart by a
 // millimetre, sooner or later by how far the solve has come.
@@ -62,7 +62,7 @@ void Contacts::remember(const Points& x) {
         const double far = contact.shift_m / kQuickShift_m;
         const double change = beyond < 0 ? -kLearning * beyond / (1 + far * far)
                                          : -std::max(kForgetting * beyond, 1e-7);
-        contact.shift_m = std::clamp(contact.shift_m + change, 0.0, kGreatestShift_m);
+        contact.shift_m = std::clamp(contact.shift_m + change, 0.0, kMaxShift_m);
         if (contact.stick_n > 0) {
             const double push = -pull_n(contact, x);
             if (push > 0.1 * contact.stick_n)
@@ -93,7 +93,7 @@ void Contacts::remember_firm(const Points& x) {
         if (contact.slot < 0 || depth <= 0) continue;
         const double shift = pressed(contact, depth).force_n / contact.stiffness_n_per_m - depth;
         if (shift > 0)
-            memory_.push_back({contact.slot, std::min(shift, kGreatestShift_m), std::nullopt});
+            memory_.push_back({contact.slot, std::min(shift, kMaxShift_m), std::nullopt});
     }
     std::sort(memory_.begin(), memory_.end(),
               [](const Memory& a, const Memory& b) { return a.slot < b.slot; });

@@ -41,8 +41,8 @@ class Contacts {
         Vec3 normal = Vec3::UnitZ();       ///< n, length 1, towards node a
         double rest_gap_m = 0;             ///< g <= 0
         double stiffness_n_per_m = 0;      ///< kc
-        int body = 0;      ///< what p rides on or belongs to, as the caller counts bodies
-        double share = 1;  ///< how far the plane stands for what is there, [0, 1]
+        int body = 0;         ///< what p rides on or belongs to, as the caller counts bodies
+        double fraction = 1;  ///< how far the plane stands for what is there, [0, 1]
         int slot = -1;  ///< names the contact from one list to the next; -1: it is not remembered
         double stick_n = 0;                ///< Tmax; 0: it does not stick
         double stick_m = 0;                ///< dc
@@ -74,7 +74,7 @@ class Contacts {
 
     /// Penetration beyond the one at rest as far as the plane stands, m; <= 0 when it does not touch.
     static double depth(const Contact& contact, const Points& x) {
-        return contact.share * (contact.rest_gap_m - gap(contact, x));
+        return contact.fraction * (contact.rest_gap_m - gap(contact, x));
     }
 
     /// Adds the second derivative at x but for what sticks, which has no negative part then; pairs apart are named too, so that the pattern does not

@@ -16,8 +16,8 @@ namespace {
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
 /// A difference of the rows of x.
-template <int kMost>
-Vec3 difference(const int (&node)[kMost], const double (&coefficient)[kMost], int count,
+template <int kMax>
+Vec3 difference(const int (&node)[kMax], const double (&coefficient)[kMax], int count,
                 const Points& x) {
     Vec3 sum = Vec3::Zero();
     for (int k = 0; k < count; ++k) sum += coefficient[k] * x.row(node[k]).transpose();

@@ -69,7 +69,7 @@ double nodal_volume_modulus(double incompressibility_n_per_m5, double rest_volum
     return volume_modulus(incompressibility_n_per_m5, rest_volume_m3) * cells(grid);
 }
 
-double nodal_shear_share(const GridShape& grid, int i, int j) {
+double nodal_shear_fraction(const GridShape& grid, int i, int j) {
     return 1 - 0.5 * (1.0 / grid.along(i) + 1.0 / grid.along(j));
 }
 

@@ -51,6 +51,6 @@ double nodal_volume_modulus(double incompressibility_n_per_m5, double rest_volum
 
 /// The share of mu that finite differences with eq. (10) set against shear between a_i and a_j: only nodes with both forward
 /// neighbours feel it, and eq. (10) counts them as if all did. 2/3 at 3^3, 8/9 at 9^3.
-double nodal_shear_share(const GridShape& grid, int i, int j);
+double nodal_shear_fraction(const GridShape& grid, int i, int j);
 
 }  // namespace risorius::tissue

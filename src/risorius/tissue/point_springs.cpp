@@ -27,8 +27,8 @@ Line line_of(const PointSpring& spring, const Points& x) {
 /// Second derivative of k/2 (l - l0)^2 over the point.
 Mat3 curvature_of(const Line& line, double k, double l0, solve::Curvature curvature) {
     if (l0 == 0) return k * Mat3::Identity();
-    constexpr double kLeast_m = 1e-12;  // where the point meets its tie the energy has a tip
-    double across = k * (1 - l0 / std::max(line.length, kLeast_m));
+    constexpr double kMin_m = 1e-12;  // where the point meets its tie the energy has a tip
+    double across = k * (1 - l0 / std::max(line.length, kMin_m));
     if (curvature == solve::Curvature::kPositive) across = std::max(across, 0.0);
     const Mat3 along = line.direction * line.direction.transpose();
     return k * along + across * (Mat3::Identity() - along);

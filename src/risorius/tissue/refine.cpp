@@ -31,7 +31,7 @@ void check(const RefineOptions& options) {
 }
 
 /// Strains below this share of one are rounding, and refining would only chase it.
-constexpr double kLeastStrain = 1e-12;
+constexpr double kMinStrain = 1e-12;
 
 }  // namespace
 
@@ -93,7 +93,7 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
     // Collapsed to a point, the body has strains of the order of one
     const double one = solid_->energy(state.t_s, Points::Zero(state.x.rows(), 3));
     error_ = 0;
-    if (!(energy > kLeastStrain * kLeastStrain * one)) return false;
+    if (!(energy > kMinStrain * kMinStrain * one)) return false;
     error_ = std::sqrt(squared.sum() / energy);
 
     const double due =
@@ -125,27 +125,27 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
     return changed;
 }
 
-RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+RefineRounds refine_rounds(int rounds, const std::function<bool(SolveStage stage)>& solve,
                            const std::function<bool()>& refine) {
     RefineRounds done;
     // The last round's answer is not refined any more: it would no longer be an equilibrium
     while (done.meshes + 1 < rounds) {
-        if (!settle(Settling::kOnTheWay)) return done;
+        if (!solve(SolveStage::kIntermediate)) return done;
         ++done.meshes;
         if (!refine()) {
             done.satisfied = true;
             break;
         }
     }
-    done.settled = settle(Settling::kFinal);
-    if (done.settled && !done.satisfied) ++done.meshes;
+    done.converged = solve(SolveStage::kFinal);
+    if (done.converged && !done.satisfied) ++done.meshes;
     return done;
 }
 
-RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
-                               solve::MotionState& state) {
+RefineRounds solve_and_refine(AdaptiveSolid& solid, const SolveSolid& solve, int rounds,
+                              solve::MotionState& state) {
     return refine_rounds(
-        rounds, [&](Settling settling) { return settle(solid.solid(), settling, state); },
+        rounds, [&](SolveStage stage) { return solve(solid.solid(), stage, state); },
         [&] { return solid.refine(state); });
 }
 

@@ -66,26 +66,26 @@ class AdaptiveSolid {
 };
 
 /// How well an equilibrium is needed: to see where the strain is, or to be the answer.
-enum class Settling { kOnTheWay, kFinal };
+enum class SolveStage { kIntermediate, kFinal };
 
 /// Moves `state` to equilibrium under what acts on the solid; false where that fails. Systems, which differ from mesh to
 /// mesh, and the solver are of the caller's choice.
-using SettleSolid = std::function<bool(const std::shared_ptr<CellSolid>& solid, Settling settling,
-                                       solve::MotionState& state)>;
+using SolveSolid = std::function<bool(const std::shared_ptr<CellSolid>& solid, SolveStage stage,
+                                      solve::MotionState& state)>;
 
 struct RefineRounds {
     int meshes = 0;          ///< on which an equilibrium was found
-    bool settled = false;    ///< every one was found, the final one too
+    bool converged = false;  ///< every one was found, the final one too
     bool satisfied = false;  ///< nothing is left to refine; false when the rounds were over before
 };
 
 /// The rounds of settling and refining, of whatever body.
-RefineRounds refine_rounds(int rounds, const std::function<bool(Settling settling)>& settle,
+RefineRounds refine_rounds(int rounds, const std::function<bool(SolveStage stage)>& solve,
                            const std::function<bool()>& refine);
 
 /// Settles and refines in turn until nothing is refined any more, or `rounds` are over. The state left is the equilibrium
 /// of the last mesh.
-RefineRounds settle_and_refine(AdaptiveSolid& solid, const SettleSolid& settle, int rounds,
-                               solve::MotionState& state);
+RefineRounds solve_and_refine(AdaptiveSolid& solid, const SolveSolid& solve, int rounds,
+                              solve::MotionState& state);
 
 }  // namespace risorius::tissue

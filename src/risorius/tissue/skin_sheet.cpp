@@ -202,7 +202,7 @@ double SkinSheet::bending_energy(Work<Real>& work) {
     using Lane = typename solve::LanesOf<Real>::Lane;
     using Point = typename solve::LanesOf<Real>::Point;
     constexpr int kWidth = solve::LanesOf<Real>::kWidth;
-    const Lane least = Lane{} + std::numeric_limits<Real>::min();
+    const Lane min = Lane{} + std::numeric_limits<Real>::min();
     Lanes energy{};
     for (const HingeGroup<Real>& g : work.hinges) {
         // l = sum c_i x_i: the c_i add up to zero, so that three differences of displacement do
@@ -221,7 +221,7 @@ double SkinSheet::bending_energy(Work<Real>& work) {
         solve::add_lanes(energy, g.w * Real(0.5) * stretch * stretch);
 
         // w (s - S) / s; where S = 0 nothing pulls at s = 0
-        const Lane pull = g.w * (stretch / (s > least ? s : least));
+        const Lane pull = g.w * (stretch / (s > min ? s : min));
         for (int i = 0; i < 3; ++i) l[i] *= pull;
         Point sum[kWidth] = {};
         for (int k = 0; k < 3; ++k) {

@@ -29,7 +29,7 @@ void check_not_folded(const GridSurface& surface, const std::string& place) {
     const SurfaceGrid& grid = surface.grid;
     const double size =
         (surface.rest.colwise().maxCoeff() - surface.rest.colwise().minCoeff()).maxCoeff();
-    const double least_area = 1e-12 * size * size / grid.size();
+    const double min_area = 1e-12 * size * size / grid.size();
     std::vector<Vec3> normals;
     const auto named = [](int i, int j) {
         return "cell [" + std::to_string(i) + ", " + std::to_string(j) + "]";
@@ -42,7 +42,7 @@ void check_not_folded(const GridSurface& surface, const std::string& place) {
         const Vec3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1));
         for (int k = 0; k < 4; ++k) {
             const Vec3 area = (corner(k + 1) - corner(k)).cross(corner(k + 3) - corner(k));
-            if (!(area.norm() > least_area))
+            if (!(area.norm() > min_area))
                 throw Error(place, "a shape with an area in each corner of every cell",
                             "none in " + named(i, j));
             if (!(area.dot(normal) > 0))

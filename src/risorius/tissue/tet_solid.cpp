@@ -306,10 +306,10 @@ double TetSolid::volume(const Points& x) const {
 }
 
 double TetSolid::min_relative_volume(const Points& x) const {
-    double least = size() == 0 ? 1.0 : signed_volume(x, 0) / rest_volume_[0];
+    double min = size() == 0 ? 1.0 : signed_volume(x, 0) / rest_volume_[0];
     for (int tet = 1; tet < size(); ++tet)
-        least = std::min(least, signed_volume(x, tet) / rest_volume_[tet]);
-    return least;
+        min = std::min(min, signed_volume(x, tet) / rest_volume_[tet]);
+    return min;
 }
 
 Eigen::VectorXd TetSolid::lumped_mass(double density_kg_per_m3, int nodes) const {

@@ -133,9 +133,9 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
         const Mat3 P = curvature_change(x_edges * a_edges.inverse());
         const Vec3 stiffness(zeta(0, 0), zeta(1, 1), zeta(0, 1));
         // A direction without stiffness of its own gets next to none, so that the matrix can be inverted.
-        constexpr double kLeastStiffness = 1e-6;
+        constexpr double kMinStiffness = 1e-6;
         const Mat3 C = area_of(a) * P.transpose() *
-                       stiffness.cwiseMax(kLeastStiffness * stiffness.maxCoeff()).asDiagonal() * P;
+                       stiffness.cwiseMax(kMinStiffness * stiffness.maxCoeff()).asDiagonal() * P;
 
         Bend bend;
         bend.triangle = static_cast<int>(t);
@@ -157,10 +157,10 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
             const auto fold_of = [&](const Vec2& corner) -> Vec3 {
                 const Vec2 r = corner - from;
                 const double length = (x.col((k + 1) % 3) - from).norm();
-                const double share = r.dot(along) / length;
+                const double fraction = r.dot(along) / length;
                 const double distance = std::abs(r.dot(outward));
-                return (height_by_curvature(corner) - (1 - share) * height_by_curvature(from) -
-                        share * height_by_curvature(x.col((k + 1) % 3))) /
+                return (height_by_curvature(corner) - (1 - fraction) * height_by_curvature(from) -
+                        fraction * height_by_curvature(x.col((k + 1) % 3))) /
                        distance;
             };
             B.conservativeResize(bend.count + 1, 3);
@@ -171,14 +171,14 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
         if (bend.count == 0) continue;
         // Least energy 1/2 kappa C kappa with B kappa = theta: 1/2 theta (B C^-1 B^T)^-1 theta. Folds that nearly depend
         // on each other (six corners near one conic) would make it stiff without bound.
-        constexpr double kLeastShare = 1e-3;
+        constexpr double kMinFraction = 1e-3;
         using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
         const Small compliance = B * C.inverse() * B.transpose();
         const SymmetricEigen eigen = symmetric_eigen(compliance);
-        const double least = kLeastShare * eigen.values.maxCoeff();
+        const double min = kMinFraction * eigen.values.maxCoeff();
         const Small vectors = eigen.vectors;
-        const Small Q = vectors * eigen.values.cwiseMax(least).cwiseInverse().asDiagonal() *
-                        vectors.transpose();
+        const Small Q =
+            vectors * eigen.values.cwiseMax(min).cwiseInverse().asDiagonal() * vectors.transpose();
         for (int e = 0; e < bend.count; ++e)
             for (int f = 0; f < bend.count; ++f) bend.Q(e, f) = signs[e] * signs[f] * Q(e, f);
         const Small by_fold = P * C.inverse() * B.transpose() * Q;

@@ -44,11 +44,11 @@ TriangleSurface with_material(const GridSurface& surface, const Triangles& trian
         SurfaceMaterial mean;
         mean.mass_kg = 0;
         // Across the seam of a tube a2 goes on beyond 1.
-        int most = 0;
-        for (int k = 0; k < 3; ++k) most = std::max(most, triangles(t, k) % grid.n);
+        int max = 0;
+        for (int k = 0; k < 3; ++k) max = std::max(max, triangles(t, k) % grid.n);
         for (int k = 0; k < 3; ++k) {
             const int node = triangles(t, k);
-            const bool beyond = grid.closed && node % grid.n == 0 && most == grid.n - 1;
+            const bool beyond = grid.closed && node % grid.n == 0 && max == grid.n - 1;
             out.coordinates(t, 2 * k) = a(node, 0);
             out.coordinates(t, 2 * k + 1) = a(node, 1) + (beyond ? 1 : 0);
             const SurfaceMaterial& material = material_of(surface, node);
@@ -64,11 +64,12 @@ TriangleSurface with_material(const GridSurface& surface, const Triangles& trian
 }
 
 /// Moves inner nodes by up to `share` of the spacing, over the cell that they move into.
-void shake(const GridSurface& surface, double share, unsigned seed, Points& rest, Coordinates& a) {
+void shake(const GridSurface& surface, double fraction, unsigned seed, Points& rest,
+           Coordinates& a) {
     const SurfaceGrid& grid = surface.grid;
     std::mt19937 random(seed);
     // Not std::uniform_real_distribution, whose numbers are the library's own affair
-    const auto part = [&] { return share * (2 * (random() / 4294967295.0) - 1); };
+    const auto part = [&] { return fraction * (2 * (random() / 4294967295.0) - 1); };
     const auto at = [&](int i, int j) {
         return point(surface.rest, grid.index(i, (j + grid.n) % grid.n));
     };
@@ -114,10 +115,11 @@ TriangleSurface triangulated(const GridSurface& surface) {
                          grid_coordinates(surface.grid));
 }
 
-TriangleSurface irregularly_triangulated(const GridSurface& surface, double share, unsigned seed) {
+TriangleSurface irregularly_triangulated(const GridSurface& surface, double fraction,
+                                         unsigned seed) {
     Points rest = surface.rest;
     Coordinates a = grid_coordinates(surface.grid);
-    shake(surface, share, seed, rest, a);
+    shake(surface, fraction, seed, rest, a);
     Triangles triangles = surface_triangles(surface.grid);
     cut_by_angles(rest, triangles);
     return with_material(surface, triangles, rest, a);
@@ -175,13 +177,13 @@ void check(const TriangleSurface& surface, const std::string& place) {
         const Vec3 p = point(surface.rest, surface.triangles(t, 0));
         const Vec3 e1 = point(surface.rest, surface.triangles(t, 1)) - p;
         const Vec3 e2 = point(surface.rest, surface.triangles(t, 2)) - p;
-        constexpr double kLeastShape = 1e-9;  // area over squared edges
-        if (!(e1.cross(e2).norm() > kLeastShape * (e1.squaredNorm() + e2.squaredNorm())))
+        constexpr double kMinShape = 1e-9;  // area over squared edges
+        if (!(e1.cross(e2).norm() > kMinShape * (e1.squaredNorm() + e2.squaredNorm())))
             throw Error(triangle, "an area at rest", "none");
         const Flat a = coordinates_of(surface, t);
         const double squared =
             (a.col(1) - a.col(0)).squaredNorm() + (a.col(2) - a.col(0)).squaredNorm();
-        if (!(area_of(a) > kLeastShape * squared))
+        if (!(area_of(a) > kMinShape * squared))
             throw Error(place + "/coordinates/" + std::to_string(t),
                         "an area in material coordinates", a.allFinite() ? "none" : "NaN");
     }

@@ -30,7 +30,8 @@ TriangleSurface triangulated(const GridSurface& surface);
 /// The same surface on irregular triangles: inner nodes moved at random by up to `share` (0 to 0.45) of the spacing, in a
 /// and in space alike, and cells cut the way that leaves the wider angles (Delaunay's rule). Nodes keep their index and
 /// their material.
-TriangleSurface irregularly_triangulated(const GridSurface& surface, double share, unsigned seed);
+TriangleSurface irregularly_triangulated(const GridSurface& surface, double fraction,
+                                         unsigned seed);
 
 /// Metres along and across a direction that each triangle is given (F x 3, not normal to it): lambda is then k in N/m,
 /// zeta is D in N m and mass is in kg/m^2.

@@ -12,18 +12,18 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string_
 
 double& value(KinematicValues& values, Kinematic k) { return values[static_cast<std::size_t>(k)]; }
 
-MuscleShare read_share(const JsonCursor& json, const std::string& name,
-                       const ChannelTable& channels) {
-    MuscleShare share = muscle_named(json, name, channels);
-    share.weight = json.number({channels.find(share.muscle)->min, 1.0});
-    return share;
+MuscleShare read_fraction(const JsonCursor& json, const std::string& name,
+                          const ChannelTable& channels) {
+    MuscleShare fraction = muscle_named(json, name, channels);
+    fraction.weight = json.number({channels.find(fraction.muscle)->min, 1.0});
+    return fraction;
 }
 
 std::vector<MuscleShare> read_shares(const JsonCursor& json, const ChannelTable& channels) {
-    std::vector<MuscleShare> shares;
+    std::vector<MuscleShare> fractions;
     for (const std::string& name : json.keys())
-        shares.push_back(read_share(json.at(name), name, channels));
-    return shares;
+        fractions.push_back(read_fraction(json.at(name), name, channels));
+    return fractions;
 }
 
 JawShare read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
@@ -258,31 +258,31 @@ void Expansion::add(const Expansion& part, double weight) {
     for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
 }
 
-Expansion expand(const MuscleShare& share, const ChannelTable& channels) {
+Expansion expand(const MuscleShare& fraction, const ChannelTable& channels) {
     Expansion expansion = Expansion::none(channels);
     for (Side side : {Side::kLeft, Side::kRight})
-        if (!share.side || *share.side == side)
-            expansion.excitation[channels.column(share.muscle, side)] = share.weight;
+        if (!fraction.side || *fraction.side == side)
+            expansion.excitation[channels.column(fraction.muscle, side)] = fraction.weight;
     return expansion;
 }
 
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels) {
     Expansion expansion = Expansion::none(channels);
     for (const MuscleShare& muscle : unit.muscles) {
-        MuscleShare share = muscle;
+        MuscleShare fraction = muscle;
         const bool paired = channels.find(muscle.muscle)->paired;
-        if (side && !paired) share.weight /= 2;
-        if (side && paired && !share.side) share.side = side;
-        expansion.add(expand(share, channels), 1.0);
+        if (side && !paired) fraction.weight /= 2;
+        if (side && paired && !fraction.side) fraction.side = side;
+        expansion.add(expand(fraction, channels), 1.0);
     }
     for (int i = 0; i < kKinematicCount; ++i) {
         const auto k = static_cast<Kinematic>(i);
-        double share = 1.0;
+        double fraction = 1.0;
         if (side && (is_left_eye(k) || is_right_eye(k)))
-            share = is_left_eye(k) == (*side == Side::kLeft) ? 1.0 : 0.0;
+            fraction = is_left_eye(k) == (*side == Side::kLeft) ? 1.0 : 0.0;
         else if (side)
-            share = 0.5;
-        value(expansion.kinematic, k) = share * unit.kinematic[static_cast<std::size_t>(i)];
+            fraction = 0.5;
+        value(expansion.kinematic, k) = fraction * unit.kinematic[static_cast<std::size_t>(i)];
     }
     return expansion;
 }
@@ -291,10 +291,10 @@ Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTa
     Expansion expansion = Expansion::none(channels);
     for (const UnitUse& use : shape.units)
         expansion.add(expand(*facs.find(use.unit), use.side, channels), use.value);
-    for (const MuscleShare& share : shape.muscles)
+    for (const MuscleShare& fraction : shape.muscles)
         for (Side side : {Side::kLeft, Side::kRight})
-            if (!share.side || *share.side == side)
-                expansion.excitation[channels.column(share.muscle, side)] = share.weight;
+            if (!fraction.side || *fraction.side == side)
+                expansion.excitation[channels.column(fraction.muscle, side)] = fraction.weight;
     apply_jaw(shape.jaw, facs.ranges, expansion.kinematic);
     if (shape.tongue_out_mm)
         value(expansion.kinematic, Kinematic::kTongueOut) =

@@ -108,7 +108,7 @@ struct Expansion {
     void add(const Expansion& part, double weight);
 };
 
-Expansion expand(const MuscleShare& share, const ChannelTable& channels);
+Expansion expand(const MuscleShare& fraction, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);
 Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels);
 

@@ -16,8 +16,8 @@ namespace risorius::track {
 namespace {
 
 constexpr double kLongest_s = 3600;
-constexpr double kGreatestGravity_m_s2 = 50;
-constexpr double kMostAsymmetry = 0.5;
+constexpr double kMaxGravity_m_s2 = 50;
+constexpr double kMaxAsymmetry = 0.5;
 constexpr double kLatestSide_s =
     0.040;  // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart
 constexpr double kBlinkApart_s = 0.3;  // of idle blinks from those a script writes
@@ -79,9 +79,8 @@ ScriptView read_view(const JsonCursor& json) {
 std::optional<Vec3> read_gravity(const JsonCursor& json) {
     if (json.is_array()) {
         const Vec3 gravity = json.vec3();
-        if (!(gravity.norm() <= kGreatestGravity_m_s2))
-            json.fail("an acceleration of at most " + format_number(kGreatestGravity_m_s2) +
-                      " m/s^2");
+        if (!(gravity.norm() <= kMaxGravity_m_s2))
+            json.fail("an acceleration of at most " + format_number(kMaxGravity_m_s2) + " m/s^2");
         return gravity;
     }
     if (!json.json().is_boolean()) json.fail("true, false or [x, y, z] in m/s^2");
@@ -172,7 +171,7 @@ class Reader {
         event.hold_s = optional_number(json, "hold_s", usual->hold_s, {0, kLongest_s});
         event.offset_s = optional_number(json, "offset_s", usual->offset_s, {0, 60});
         event.side = read_side(json);
-        event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMostAsymmetry});
+        event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMaxAsymmetry});
         // Chance is drawn the same way by every standard library
         std::seed_seq seed{header.seed, number};
         std::mt19937 random(seed);
@@ -183,9 +182,9 @@ class Reader {
             // A unit that is one-sided in the table moves over to the side the event asks for.
             const std::optional<Side> side = event.side ? event.side : part.use.side;
             const ActionUnit& unit = *facs_.find(part.use.unit);
-            const auto add = [&](std::optional<Side> on, double share, double delay) {
+            const auto add = [&](std::optional<Side> on, double fraction, double delay) {
                 Expansion drives = Expansion::none(channels_);
-                const double value = share * part.use.value * event.intensity;
+                const double value = fraction * part.use.value * event.intensity;
                 drives.add(expand(unit, on, channels_), value);
                 event.parts.push_back(
                     {std::move(drives), std::min(delay, 0.9), {part.use.unit, on, value}});

@@ -70,8 +70,8 @@ Eigen::VectorXd SimulatedEmg::at(double t_s) {
 
     Eigen::VectorXd value = envelope(sample);
     if (!is_sample) {
-        const double share = place - static_cast<double>(sample);
-        value = (1 - share) * value + share * envelope(sample + 1);
+        const double fraction = place - static_cast<double>(sample);
+        value = (1 - fraction) * value + fraction * envelope(sample + 1);
     }
     return value.cwiseMax(0.0).cwiseMin(1.0);
 }

@@ -72,8 +72,8 @@ Drive Timeline::together_at(double t_s) const {
     for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
         for (const ExpressionEvent::Part& part : event.parts)
-            if (const double share = expression_profile(event, part.delay, t_s); share > 0)
-                sum.add(part.drives, share);
+            if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0)
+                sum.add(part.drives, fraction);
     for (const BlinkEvent& blink : blinks_) {
         const double end_s = blink.start_s + blink.duration_s - kBlinkReopening_s;
         if (t_s < blink.start_s || t_s >= end_s) continue;

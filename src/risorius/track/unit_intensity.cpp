@@ -30,12 +30,12 @@ UnitIntensity::UnitIntensity(const ScriptDescription& script, const FacsTable& f
     }
 }
 
-void UnitIntensity::add(const UnitUse& use, double share, std::vector<double>& sums) const {
+void UnitIntensity::add(const UnitUse& use, double fraction, std::vector<double>& sums) const {
     for (const Unit& unit : units_) {
         if (unit.id != use.unit) continue;
         const auto first = static_cast<std::size_t>(unit.first);
-        if (!unit.sided || use.side != Side::kRight) sums[first] += share * use.value;
-        if (unit.sided && use.side != Side::kLeft) sums[first + 1] += share * use.value;
+        if (!unit.sided || use.side != Side::kRight) sums[first] += fraction * use.value;
+        if (unit.sided && use.side != Side::kLeft) sums[first + 1] += fraction * use.value;
     }
 }
 

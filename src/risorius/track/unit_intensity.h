@@ -23,7 +23,7 @@ class UnitIntensity {
     std::vector<double> at(double t_s) const;
 
   private:
-    void add(const UnitUse& use, double share, std::vector<double>& sums) const;
+    void add(const UnitUse& use, double fraction, std::vector<double>& sums) const;
 
     struct UnitTrack {
         Curve curve;

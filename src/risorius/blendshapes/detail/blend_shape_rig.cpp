@@ -53,8 +53,8 @@ FieldError error_between(const Points& one, const Points& other, const Eigen::Ve
         const double distance = (one.row(v) - other.row(v)).norm();
         sum += area[v] * distance * distance;
         whole += area[v];
-        if (distance > out.greatest_m) {
-            out.greatest_m = distance;
+        if (distance > out.max_m) {
+            out.max_m = distance;
             out.where = v;
         }
     }
@@ -66,7 +66,7 @@ std::pair<Points, Points> left_and_right(const Points& rest, const Points& field
                                          double half_width_m) {
     Points left = field, right = field;
     for (long v = 0; v < rest.rows(); ++v) {
-        left.row(v) *= left_share(rest(v, 0), half_width_m);
+        left.row(v) *= left_fraction(rest(v, 0), half_width_m);
         right.row(v) -= left.row(v);
     }
     return {left, right};

@@ -52,7 +52,7 @@ struct BlendShapeRig {
 
 /// Distances between two lists of vertices, m: RMS weighted by `area`, and the largest where it is positive.
 struct FieldError {
-    double rms_m = 0, greatest_m = 0;
+    double rms_m = 0, max_m = 0;
     long where = 0;  ///< vertex of the largest
 };
 FieldError error_between(const Points& one, const Points& other, const Eigen::VectorXd& area);

@@ -2,12 +2,13 @@
 #include "risorius/blendshapes/detail/low_rank.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include "risorius/core/dense_algebra.h"
 
 namespace risorius::blendshapes {
 
@@ -84,38 +85,38 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
     Eigen::MatrixXd half = stack.column;
     Eigen::VectorXd root(half.rows());
     for (std::size_t i = 0; i < stack.vertex.size(); ++i) {
-        const double share = left_share(rest(stack.vertex[i], 0), how.half_width_m);
-        half.middleRows<3>(3 * static_cast<long>(i)) *= left ? share : 1 - share;
+        const double fraction = left_fraction(rest(stack.vertex[i], 0), how.half_width_m);
+        half.middleRows<3>(3 * static_cast<long>(i)) *= left ? fraction : 1 - fraction;
         root.segment<3>(3 * static_cast<long>(i)).setConstant(root_area[stack.vertex[i]]);
     }
     // Singular vectors on the right of  root half root_use: there are far fewer drivers than vertices
     const Eigen::MatrixXd weighted = root.asDiagonal() * half * root_use.asDiagonal();
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(half.cols(), half.cols());
     gram.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+    const SymmetricEigen eigen = symmetric_eigen(gram);
     const long all = gram.cols();
-    const double least = kOfLargest * kOfLargest * eigen.eigenvalues()[all - 1];
+    const double min = kOfLargest * kOfLargest * eigen.values[all - 1];
     long count = 0;
     while (count < std::min<long>(all, how.most_of_a_side) &&
-           eigen.eigenvalues()[all - 1 - count] > std::max(0.0, least))
+           eigen.values[all - 1 - count] > std::max(0.0, min))
         ++count;
     HalfCorrectives out;
     out.of_drivers.resize(count, all);
     for (long c = 0; c < count; ++c) {
-        Eigen::VectorXd right = eigen.eigenvectors().col(all - 1 - c);
+        Eigen::VectorXd right = eigen.vectors.col(all - 1 - c);
         // A singular vector has no sign of its own: its largest number is positive
         Eigen::Index where;
         right.cwiseAbs().maxCoeff(&where);
         if (right[where] < 0) right = -right;
-        Eigen::VectorXd shares = right.cwiseQuotient(root_use);
+        Eigen::VectorXd fractions = right.cwiseQuotient(root_use);
         // So that its greatest weight in use is 1
-        double greatest = right.cwiseAbs().maxCoeff();
-        if (frames.rows() > 0)
-            greatest = std::max(greatest, (frames * shares).cwiseAbs().maxCoeff());
-        const Eigen::VectorXd field = greatest * (half * root_use.cwiseProduct(right));
-        shares /= greatest;
-        const double counts = kShareCounts * shares.cwiseAbs().maxCoeff();
-        out.of_drivers.row(c) = (shares.array().abs() < counts).select(0.0, shares).transpose();
+        double max = right.cwiseAbs().maxCoeff();
+        if (frames.rows() > 0) max = std::max(max, (frames * fractions).cwiseAbs().maxCoeff());
+        const Eigen::VectorXd field = max * (half * root_use.cwiseProduct(right));
+        fractions /= max;
+        const double counts = kShareCounts * fractions.cwiseAbs().maxCoeff();
+        out.of_drivers.row(c) =
+            (fractions.array().abs() < counts).select(0.0, fractions).transpose();
         Points& moved = out.field.emplace_back(Points::Zero(rest.rows(), 3));
         for (std::size_t i = 0; i < stack.vertex.size(); ++i)
             moved.row(stack.vertex[i]) = field.segment<3>(3 * static_cast<long>(i)).transpose();

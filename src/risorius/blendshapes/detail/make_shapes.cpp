@@ -46,16 +46,16 @@ track::Drive both(const track::Drive& one, const track::Drive& other,
 }
 
 // What shuts, over the jaw of what it shuts. The lips' own muscles of the other are not wanted.
-track::Drive over_jaw(const track::Drive& shuts, const track::Drive& opens, double share) {
+track::Drive over_jaw(const track::Drive& shuts, const track::Drive& opens, double fraction) {
     track::Drive out = shuts;
     for (const Kinematic k : {Kinematic::kJawOpen, Kinematic::kJawForward, Kinematic::kJawSide})
-        out.kinematic[static_cast<std::size_t>(k)] = share * opens.at(k);
+        out.kinematic[static_cast<std::size_t>(k)] = fraction * opens.at(k);
     return out;
 }
 
-track::Drive part_of_drive(track::Drive drive, double share) {
-    drive.excitation *= share;
-    for (double& value : drive.kinematic) value *= share;
+track::Drive part_of_drive(track::Drive drive, double fraction) {
+    drive.excitation *= fraction;
+    for (double& value : drive.kinematic) value *= fraction;
     return drive;
 }
 
@@ -74,9 +74,9 @@ Plan plan_of(const ShapeSet& set, const track::ChannelTable& channels) {
             own.push_back(add(goal.drive));
         } else {
             const track::Drive& opens = set.goals[static_cast<std::size_t>(goal.on_top_of)].drive;
-            for (const double share : kShutTries) {
-                own.push_back(add(over_jaw(goal.drive, opens, share)));
-                under.push_back(add(part_of_drive(opens, share)));
+            for (const double fraction : kShutTries) {
+                own.push_back(add(over_jaw(goal.drive, opens, fraction)));
+                under.push_back(add(part_of_drive(opens, fraction)));
             }
         }
         if (goal.sides == Sides::kHalves && goal.left)
@@ -241,11 +241,11 @@ class Maker {
                        const std::vector<SolvedPose>& poses) const {
         if (tries.size() == 1) return 0;
         std::size_t best = 0;
-        double least = kInfinity;
+        double min = kInfinity;
         for (std::size_t i = 0; i < tries.size(); ++i) {
             const double gap = lip_gap_m(poses[tries[i]].moved);
             if (gap <= kShutLips_m) return i;
-            if (gap < least) std::tie(least, best) = std::tuple(gap, i);
+            if (gap < min) std::tie(min, best) = std::tuple(gap, i);
         }
         return best;
     }
@@ -268,9 +268,9 @@ class Maker {
             if (!head_.eyes[static_cast<std::size_t>(s)].present ||
                 !shuts_eye(made.goal.drive, channels_, side))
                 continue;
-            const face::EyeLids lids(head_, s, files_.rig.eyes.lid_closed_share);
+            const face::EyeLids lids(head_, s, files_.rig.eyes.lid_closed_fraction);
             certificate.lid_gap_m = std::max(certificate.lid_gap_m.value_or(0.0),
-                                             face::largest_lid_gap_m(head_, lids, shown));
+                                             face::max_lid_gap_m(head_, lids, shown));
         }
         if (made.goal.on_top_of >= 0) certificate.lip_gap_m = lip_gap_m(solved.moved);
         const std::size_t partner =

@@ -15,10 +15,10 @@ namespace {
 class Dice {
   public:
     explicit Dice(unsigned seed) : random_(seed) {}
-    double share() { return static_cast<double>(random_()) / 4294967296.0; }
-    double between(double least, double most) { return least + (most - least) * share(); }
+    double fraction() { return static_cast<double>(random_()) / 4294967296.0; }
+    double between(double min, double max) { return min + (max - min) * fraction(); }
     std::size_t index(std::size_t count) {
-        return static_cast<std::size_t>(share() * static_cast<double>(count));
+        return static_cast<std::size_t>(fraction() * static_cast<double>(count));
     }
 
   private:
@@ -72,7 +72,7 @@ std::vector<Event> random_events(double duration_s, Dice& dice) {
     std::vector<Event> out;
     // It has begun before the first frame
     for (double t_s = -2;;) {
-        t_s -= kEvery_s * std::log(1 - dice.share());
+        t_s -= kEvery_s * std::log(1 - dice.fraction());
         if (t_s > duration_s) return out;
         Event one;
         one.unit = kUnits[dice.index(kUnits.size())];
@@ -81,7 +81,7 @@ std::vector<Event> random_events(double duration_s, Dice& dice) {
         one.hold_s = dice.between(0.1, 0.6);
         one.offset_s = dice.between(0.3, 0.8);
         one.intensity = dice.between(0.1, 1);
-        const double side = dice.share();
+        const double side = dice.fraction();
         one.left = side < (1 + kBothSides) / 2;
         one.right = side < kBothSides || !one.left;
         const int kind = alternatives(one.unit);
@@ -104,9 +104,9 @@ std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames
         for (int n = 0; n < kAtATime; ++n) {
             const std::size_t i = dice.index(shapes.list.size());
             const ShapeGoal& goal = shapes.list[i].goal;
-            const double weight = shapes.list[i].solved_at * dice.share();
+            const double weight = shapes.list[i].solved_at * dice.fraction();
             const bool both =
-                dice.share() < 0.7;  // faces are more often alike on both sides than not
+                dice.fraction() < 0.7;  // faces are more often alike on both sides than not
             if (goal.sides == Sides::kOpposed && weights[goal.partner] != 0) continue;
             weights[static_cast<long>(i)] = weight;
             if (goal.sides == Sides::kHalves && both) weights[goal.partner] = weight;

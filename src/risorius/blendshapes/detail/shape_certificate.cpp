@@ -30,22 +30,15 @@ Json ShapeCertificate::json() const {
     const auto mm = [](const std::optional<double>& value) {
         return value ? Json(1e3 * *value) : Json();
     };
-    return {{"volume_change", volume_change},
-            {"lip_depth_mm", 1e3 * lip_depth_m},
-            {"eye_depth_mm", 1e3 * eye_depth_m},
-            {"bone_depth_mm", 1e3 * bone_depth_m},
-            {"lid_gap_mm", mm(lid_gap_m)},
-            {"lip_gap_mm", mm(lip_gap_m)},
-            {"asymmetry_mm", mm(asymmetry_m)},
-            {"asymmetry_as_solved_mm", mm(asymmetry_as_solved_m)},
-            {"largest_stretch", stretch.greatest},
-            {"stretch_of_99_percent", stretch.greatest_of_99},
-            {"least_stretch", stretch.least},
-            {"peak_mm", 1e3 * peak_m},
-            {"moved_vertices", moved_vertices},
-            {"converged", converged},
-            {"inverted_tets", inverted_tets},
-            {"complaints", complaints()}};
+    return {
+        {"volume_change", volume_change},    {"lip_depth_mm", 1e3 * lip_depth_m},
+        {"eye_depth_mm", 1e3 * eye_depth_m}, {"bone_depth_mm", 1e3 * bone_depth_m},
+        {"lid_gap_mm", mm(lid_gap_m)},       {"lip_gap_mm", mm(lip_gap_m)},
+        {"asymmetry_mm", mm(asymmetry_m)},   {"asymmetry_as_solved_mm", mm(asymmetry_as_solved_m)},
+        {"largest_stretch", stretch.max},    {"stretch_of_99_percent", stretch.max_of_99},
+        {"least_stretch", stretch.min},      {"peak_mm", 1e3 * peak_m},
+        {"moved_vertices", moved_vertices},  {"converged", converged},
+        {"inverted_tets", inverted_tets},    {"complaints", complaints()}};
 }
 
 }  // namespace risorius::blendshapes

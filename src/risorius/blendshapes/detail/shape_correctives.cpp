@@ -28,11 +28,11 @@ struct Candidate {
 /// seen, so that a rare pair counts like one that is always there.
 double met(const Unit& a, const Unit& b, const Eigen::MatrixXd& played) {
     if (played.rows() == 0) return 0;
-    double most = 0;
+    double max = 0;
     for (const int i : a.parts)
         for (const int j : b.parts)
-            most = std::max(most, played.col(i).cwiseProduct(played.col(j)).maxCoeff());
-    return most * most;
+            max = std::max(max, played.col(i).cwiseProduct(played.col(j)).maxCoeff());
+    return max * max;
 }
 
 // How much two shapes may get in each other's way: as far as both move the same skin, where that is farthest. Over 280 pairs simulated
@@ -87,7 +87,7 @@ CloserLook poses_closer_by(const std::vector<Candidate>& candidates, const std::
         const Unit &a = units[candidates[c].a], &b = units[candidates[c].b];
         const bool half = candidates[c].a == candidates[c].b;
         if (!half && !options.bent_pairs) continue;
-        if (half || tried[c].greatest_m >= kBentPair_m) out.of[c].on_its_way = out.drives.size();
+        if (half || tried[c].max_m >= kBentPair_m) out.of[c].on_its_way = out.drives.size();
         if (half)
             for (const double weight : {0.25, 0.75})
                 out.drives.push_back(sum_of(rest, a.drive, weight, channels));
@@ -95,7 +95,7 @@ CloserLook poses_closer_by(const std::vector<Candidate>& candidates, const std::
             for (const PairOnItsWay& at : kPairsOnTheirWay)
                 out.drives.push_back(
                     sum_of(sum_of(rest, a.drive, at.a, channels), b.drive, at.b, channels));
-        if (half || tried[c].greatest_m < kOneSidedPair_m) continue;
+        if (half || tried[c].max_m < kOneSidedPair_m) continue;
         out.of[c].one_sided = out.drives.size();
         for (const OneSidedPair& at : one_sided_pairs(a, b))
             out.drives.push_back(sum_of(at.a_alone ? drive_of(a.of_side(at.side)) : a.drive,
@@ -165,10 +165,10 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
         TriedCorrective& tried = out.tried.emplace_back();
         tried.name = half ? a.name + "~half" : a.name + "*" + b.name;
         const blendshapes::FieldError error = blendshapes::error_between(poses[c].moved, sum, area);
-        tried.greatest_m = error.greatest_m;
+        tried.max_m = error.max_m;
         tried.rms_m = error.rms_m;
         tried.at_rest = poses[c].figures.converged;
-        tried.put_right = tried.at_rest && error.greatest_m >= options.tolerance_m;
+        tried.put_right = tried.at_rest && error.max_m >= options.tolerance_m;
         lacking.push_back(tried.put_right ? Points(poses[c].moved - sum) : Points());
     }
 
@@ -241,18 +241,18 @@ TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig
     }
     out.play_s = playing.seconds() / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     const auto add = [&](const blendshapes::BlendShapeRig& linear, std::size_t f, double& squares,
-                         double& greatest) {
-        const double before = greatest;
+                         double& max) {
+        const double before = max;
         Points moved = Points::Zero(head.vertices.rows(), 3);
         linear.add_to(moved, weights[f]);
         const blendshapes::FieldError error =
             blendshapes::error_between(moved, poses[f].moved, area);
         squares += error.rms_m * error.rms_m / static_cast<double>(drives.size());
-        greatest = std::max(greatest, error.greatest_m);
-        return greatest > before ? std::optional(error.where) : std::nullopt;
+        max = std::max(max, error.max_m);
+        return max > before ? std::optional(error.where) : std::nullopt;
     };
     for (std::size_t f = 0; f < drives.size(); ++f) {
-        if (const std::optional<long> where = add(rig, f, out.rms_m, out.greatest_m)) {
+        if (const std::optional<long> where = add(rig, f, out.rms_m, out.max_m)) {
             out.worst = static_cast<int>(f);
             out.worst_vertex = *where;
         }

@@ -30,7 +30,7 @@ CorrectiveOptions correctives_of_set(const std::string& set);
 /// A pair of shapes, or a half shape, that was simulated.
 struct TriedCorrective {
     std::string name;
-    double greatest_m = 0, rms_m = 0;  ///< error of the sum
+    double max_m = 0, rms_m = 0;  ///< error of the sum
     bool at_rest = true;     ///< the simulation reached equilibrium; else the error is not known
     bool put_right = false;  ///< there are correctives for it
 };
@@ -58,9 +58,9 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
 struct TrackError {
     std::string name;
     int frames = 0;
-    double rms_m = 0, greatest_m = 0;              ///< of all frames
+    double rms_m = 0, max_m = 0;                   ///< of all frames
     double plain_rms_m = 0, plain_greatest_m = 0;  ///< without correctives
-    int worst = 0;                                 ///< frame and vertex of greatest_m
+    int worst = 0;                                 ///< frame and vertex of max_m
     long worst_vertex = 0;
     std::vector<long> of_track = {};  ///< which frames of the track they are; empty: all
     long frame_of(int frame) const {

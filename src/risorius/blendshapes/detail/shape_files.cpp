@@ -123,8 +123,8 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
     for (const blendshapes::Corrective& corrective : linear.correctives) {
         model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
         Json of_drivers = Json::array();
-        for (const double share : corrective.of_drivers)
-            of_drivers.push_back(static_cast<float>(share));
+        for (const double fraction : corrective.of_drivers)
+            of_drivers.push_back(static_cast<float>(fraction));
         correctives.push_back({{"name", corrective.name}, {"of_terms", of_drivers}});
     }
     Json on_top = Json::object();

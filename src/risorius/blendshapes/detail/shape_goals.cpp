@@ -117,8 +117,8 @@ void collect_units(const rig::RigDescription& rig, Collector& out) {
             continue;
         }
         bool of_face = std::any_of(unit.muscles.begin(), unit.muscles.end(),
-                                   [&](const track::MuscleShare&share) {
-                                       return !moves_jaw_alone(rig, share.muscle);
+                                   [&](const track::MuscleShare&fraction) {
+                                       return !moves_jaw_alone(rig, fraction.muscle);
                                    }),
              of_head = false;
         for (int k = 0; k < track::kKinematicCount; ++k)

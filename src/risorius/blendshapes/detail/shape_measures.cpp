@@ -30,11 +30,10 @@ Stretch stretch_of(const Triangles& triangles, const Points& rest, const Points&
         const Eigen::Matrix<double, 3, 2> F = now * flat.inverse();
         const Eigen::Matrix2d C = F.transpose() * F;
         const double mean = C.trace() / 2, spread = std::hypot((C(0, 0) - C(1, 1)) / 2, C(0, 1));
-        const double greatest = std::sqrt(mean + spread),
-                     least = std::sqrt(std::max(0.0, mean - spread));
-        out.greatest = std::max(out.greatest, greatest);
-        out.least = std::min(out.least, least);
-        by_stretch.emplace_back(greatest, twice_area);
+        const double max = std::sqrt(mean + spread), min = std::sqrt(std::max(0.0, mean - spread));
+        out.max = std::max(out.max, max);
+        out.min = std::min(out.min, min);
+        by_stretch.emplace_back(max, twice_area);
         area += twice_area;
     }
     std::sort(by_stretch.begin(), by_stretch.end());
@@ -42,7 +41,7 @@ Stretch stretch_of(const Triangles& triangles, const Points& rest, const Points&
     for (const auto& [stretch, part] : by_stretch) {
         below += part;
         if (below < 0.99 * area) continue;
-        out.greatest_of_99 = std::max(1.0, stretch);
+        out.max_of_99 = std::max(1.0, stretch);
         break;
     }
     return out;

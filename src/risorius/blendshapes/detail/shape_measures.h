@@ -13,8 +13,8 @@ namespace risorius::blendshapes {
 
 /// Ratios of length, the principal stretches of triangles.
 struct Stretch {
-    double greatest = 1, least = 1;
-    double greatest_of_99 = 1;  ///< stretch that 99 % of the area do not exceed
+    double max = 1, min = 1;
+    double max_of_99 = 1;  ///< stretch that 99 % of the area do not exceed
 };
 
 /// Leaves out triangles with almost no area at rest.

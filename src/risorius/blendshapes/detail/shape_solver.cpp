@@ -21,9 +21,9 @@ track::Drive at_rest(const track::ChannelTable& channels) {
     return drive;
 }
 
-track::Drive scaled(track::Drive drive, double share) {
-    drive.excitation *= share;
-    for (double& value : drive.kinematic) value *= share;
+track::Drive scaled(track::Drive drive, double fraction) {
+    drive.excitation *= fraction;
+    for (double& value : drive.kinematic) value *= fraction;
     return drive;
 }
 
@@ -64,11 +64,12 @@ SolvedPose ShapeSolver::pose(face::Face& face, const track::Drive& drive, const 
         face.start([&](double) { return rest; });
         for (int step = 1; step <= so_many; ++step) {
             const track::Drive part = scaled(drive, static_cast<double>(step) / so_many);
-            out.figures = face.settle(part.excitation, part,
-                                      {.iterations = how.again ? kIterations : kIterationsOnce,
-                                       .tolerance_m = kTolerance_m,
-                                       .planes_m = kPlanes_m,
-                                       .stopped = stopped});
+            out.figures =
+                face.solve_equilibrium(part.excitation, part,
+                                       {.iterations = how.again ? kIterations : kIterationsOnce,
+                                        .tolerance_m = kTolerance_m,
+                                        .planes_m = kPlanes_m,
+                                        .stopped = stopped});
             if (stopped && stopped()) throw Interrupted();
         }
         out.inverted_tets = face.inverted_tets();

@@ -21,7 +21,7 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
     track::Drive rest;
     rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
     face.start([&](double) { return rest; });
-    face.settle(rest.excitation, rest);
+    face.solve_equilibrium(rest.excitation, rest);
     std::vector<int> columns(static_cast<std::size_t>(channels.column_count()));
     std::iota(columns.begin(), columns.end(), 0);
     std::vector<track::Kinematic> moving;
@@ -62,8 +62,8 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
     const double scale = problem_.A.diagonal().maxCoeff();
     problem_.A.diagonal().array() += kWeightRidge * scale;
     problem_.price = kWeightPrice * problem_.A.diagonal();
-    problem_.least = Eigen::VectorXd::Zero(S.cols());
-    problem_.most = Eigen::VectorXd::Ones(S.cols());
+    problem_.min = Eigen::VectorXd::Zero(S.cols());
+    problem_.max = Eigen::VectorXd::Ones(S.cols());
 }
 
 Eigen::VectorXd ShapeWeights::vector_of(const track::Drive& drive) const {
@@ -77,7 +77,7 @@ Eigen::VectorXd ShapeWeights::vector_of(const track::Drive& drive) const {
 Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
     solve::BoxQuadratic problem = problem_;
     problem.b = -by_drive_ * vector_of(drive);
-    Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.least.size());
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.min.size());
     // What lies on another shape goes no farther than that: once it is held there the other may give way, hence in turns
     for (int turn = 0; turn < kHoldingTurns; ++turn) {
         solve::minimise(problem, out, 1e-5);
@@ -86,7 +86,7 @@ Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
             if (on_top_of_[s] < 0) continue;
             const auto at = static_cast<long>(s);
             held = held && out[at] <= out[on_top_of_[s]];
-            problem.most[at] = std::min(problem.most[at], out[on_top_of_[s]]);
+            problem.max[at] = std::min(problem.max[at], out[on_top_of_[s]]);
         }
         if (held) break;
     }

@@ -33,14 +33,10 @@ const char* const kHeads[] = {"moves, mm",       "volume, %",     "lip in lip, m
                               "stretch",         "99 % below"};
 
 std::vector<std::string> numbers_of(const ShapeCertificate& of) {
-    return {rounded(1e3 * of.peak_m, 1),
-            rounded(100 * of.volume_change, 2),
-            in_mm(of.lip_depth_m),
-            in_mm(of.eye_depth_m),
-            in_mm(of.lid_gap_m),
-            in_mm(of.asymmetry_m),
-            rounded(of.stretch.greatest, 2),
-            rounded(of.stretch.greatest_of_99, 2)};
+    return {rounded(1e3 * of.peak_m, 1), rounded(100 * of.volume_change, 2),
+            in_mm(of.lip_depth_m),       in_mm(of.eye_depth_m),
+            in_mm(of.lid_gap_m),         in_mm(of.asymmetry_m),
+            rounded(of.stretch.max, 2),  rounded(of.stretch.max_of_99, 2)};
 }
 
 void write_all(report::HtmlWriter& html, const ShapesReport& report) {
@@ -109,7 +105,7 @@ void write_linear(report::HtmlWriter& html, const ShapesReport& report) {
             html.open("tr").element("td", track.name);
             for (const std::string& number :
                  {std::to_string(track.frames), rounded(1e3 * track.rms_m, 2),
-                  rounded(1e3 * track.greatest_m, 2), rounded(1e3 * track.plain_rms_m, 2),
+                  rounded(1e3 * track.max_m, 2), rounded(1e3 * track.plain_rms_m, 2),
                   rounded(1e3 * track.plain_greatest_m, 2)})
                 html.element("td", number, {{"class", "number"}});
             html.close();
@@ -133,7 +129,7 @@ void write_linear(report::HtmlWriter& html, const ShapesReport& report) {
         for (const TriedCorrective& one : report.correctives.tried) {
             if (!one.put_right) continue;
             html.open("tr").element("td", one.name);
-            html.element("td", rounded(1e3 * one.greatest_m, 2), {{"class", "number"}});
+            html.element("td", rounded(1e3 * one.max_m, 2), {{"class", "number"}});
             html.element("td", rounded(1e3 * one.rms_m, 2), {{"class", "number"}});
             html.element("td", "").close();
         }

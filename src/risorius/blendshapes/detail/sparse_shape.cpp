@@ -37,12 +37,13 @@ SparseShape sparse(const Points& field) {
 
 void fade_out(Points& field, const Fade& fade) {
     for (long v = 0; v < field.rows(); ++v) {
-        const double size = field.row(v).norm(), share = smooth_rise(size, fade.none_m, fade.all_m);
-        field.row(v) *= share * size < 0.2 * fade.none_m ? 0.0 : share;
+        const double size = field.row(v).norm(),
+                     fraction = smooth_rise(size, fade.none_m, fade.all_m);
+        field.row(v) *= fraction * size < 0.2 * fade.none_m ? 0.0 : fraction;
     }
 }
 
-double left_share(double x_m, double half_width_m) {
+double left_fraction(double x_m, double half_width_m) {
     return smooth_rise(x_m, -half_width_m, half_width_m);
 }
 
@@ -50,9 +51,9 @@ void share_the_rest(const Points& rest, const Points& whole, double half_width_m
                     Points& right) {
     for (long v = 0; v < rest.rows(); ++v) {
         const Vec3 left_over = (whole.row(v) - left.row(v) - right.row(v)).transpose();
-        const double share = left_share(rest(v, 0), half_width_m);
-        left.row(v) += share * left_over.transpose();
-        right.row(v) += (1 - share) * left_over.transpose();
+        const double fraction = left_fraction(rest(v, 0), half_width_m);
+        left.row(v) += fraction * left_over.transpose();
+        right.row(v) += (1 - fraction) * left_over.transpose();
     }
 }
 

@@ -29,7 +29,7 @@ struct Fade {
 void fade_out(Points& field, const Fade& fade = {});
 
 /// Weight of the left side (x > 0) at x: 0 to 1, smooth over 2 `half_width_m`.
-double left_share(double x_m, double half_width_m);
+double left_fraction(double x_m, double half_width_m);
 
 /// Corrects two halves that were solved separately, near where they meet, so that left + right is the whole.
 void share_the_rest(const Points& rest, const Points& whole, double half_width_m, Points& left,

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAlong[3] = {-1, 1, 0};
 
 /// How the side that corner i's turn runs along depends on corner j: b - c, c - a, a - b.
-double side_share(int i, int j) { return j == i ? 0.0 : (j == (i + 1) % 3 ? 1.0 : -1.0); }
+double side_fraction(int i, int j) { return j == i ? 0.0 : (j == (i + 1) % 3 ? 1.0 : -1.0); }
 
 }  // namespace
 
@@ -47,17 +47,19 @@ Mat3 CarriedFrame::second_slope(const Vec3& y, int first, int second) const {
     if (first == 0) return dY;
     const int i = first - 1, j = second - 1;
     const Vec3 e1 = axes_.col(0), e2 = axes_.col(1), e3 = axes_.col(2);
-    const double share = second == 0 ? 1.0 : -weights_(j);
-    const Mat3 dm = -cross_matrix(offset_) * dY + share * cross_matrix(Y);
+    const double fraction = second == 0 ? 1.0 : -weights_(j);
+    const Mat3 dm = -cross_matrix(offset_) * dY + fraction * cross_matrix(Y);
     Mat3 sum = -weights_(i) * dY + spin_[first].transpose() * dm;
     if (second == 0) return sum;
 
     // ... and what changes in spin_i itself
     const Mat3 de3 = -cross_matrix(e3) * spin, de2 = -cross_matrix(e2) * spin;
-    const Vec3 area_share = -e3.cross(turn_[j]);  // gradient of the area by corner j, over the area
+    const Vec3 area_fraction =
+        -e3.cross(turn_[j]);  // gradient of the area by corner j, over the area
     const double k = kAlong[i] / length_, tip = e3.dot(m);
     sum -= turn_[i].dot(m) * de3;
-    sum -= e3 * (side_share(i, j) / twice_area_ * m - turn_[i].dot(m) * area_share).transpose();
+    sum -=
+        e3 * (side_fraction(i, j) / twice_area_ * m - turn_[i].dot(m) * area_fraction).transpose();
     sum += k * tip * de2;
     sum -= k / length_ * tip * kAlong[j] * e2 * e1.transpose();
     sum += k * e2 * (de3.transpose() * m).transpose();

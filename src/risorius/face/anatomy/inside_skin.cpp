@@ -32,15 +32,15 @@ bool InsideSkin::outside(const Vec3& p) const {
 }
 
 double InsideSkin::depth(const Vec3& skin, const Vec3& direction, double wanted_m,
-                         double least_m) const {
+                         double min_m) const {
     constexpr double kShrink = 0.9, kNearest = 0.5;
     double t = wanted_m;
-    while (t > least_m) {
+    while (t > min_m) {
         const Vec3 p = skin - t * direction;
         if (!tree_.closest(p, kNearest * t) && !outside(p)) return t;
         t *= kShrink;
     }
-    return std::min(wanted_m, least_m);
+    return std::min(wanted_m, min_m);
 }
 
 }  // namespace risorius::face

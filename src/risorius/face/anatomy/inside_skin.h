@@ -21,8 +21,8 @@ class InsideSkin {
     /// Whether p lies on the outer side of the skin. Beyond the border of the skin nothing is outside.
     bool outside(const Vec3& p) const;
     /// The largest depth along `direction` (unit, outwards) at which no other skin is nearer than half of it, m; at most `wanted_m`, at
-    /// least `least_m`.
-    double depth(const Vec3& skin, const Vec3& direction, double wanted_m, double least_m) const;
+    /// least `min_m`.
+    double depth(const Vec3& skin, const Vec3& direction, double wanted_m, double min_m) const;
     /// Outward unit normal at a skin vertex, mean of its triangles.
     const Vec3& normal(int vertex) const { return normal_[static_cast<std::size_t>(vertex)]; }
 

@@ -7,7 +7,7 @@
 
 namespace risorius::face {
 
-double largest_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices) {
+double max_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices) {
     constexpr int kPlaces = 90, kAngles = 900;
     constexpr double kLowest = -1.0, kAngle = 0.002;  // rad
     std::vector<std::vector<char>> covered(kPlaces, std::vector<char>(kAngles, 0));

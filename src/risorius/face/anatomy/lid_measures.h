@@ -12,7 +12,7 @@
 namespace risorius::face {
 
 /// Height of the largest opening between the lids through which the eye's centre is visible, m, over the whole fissure and beyond.
-double largest_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices);
+double max_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices);
 
 /// How much deeper than at rest the skin around the eyes reaches into the eyes' surfaces, m; 0 where it does not. `turn`: rotation of each eye.
 double depth_in_eyes_m(const rig::Head& head, const std::array<Mat3, 2>& turn,

@@ -20,8 +20,8 @@ double place_at(int i) { return kFirstPlace + (kLastPlace - kFirstPlace) * i / (
 
 }  // namespace
 
-EyeLids::EyeLids(const rig::Head& head, int side, double upper_share)
-    : upper_share_(upper_share), to_left_(side == 0 ? 1.0 : -1.0), millimetre_(head.mm(1)) {
+EyeLids::EyeLids(const rig::Head& head, int side, double upper_fraction)
+    : upper_fraction_(upper_fraction), to_left_(side == 0 ? 1.0 : -1.0), millimetre_(head.mm(1)) {
     const std::string suffix = side == 0 ? "_l" : "_r";
     const auto at = [&](const char* id) { return head.landmark(id + suffix); };
     centre_ = head.eyes[side].centre;
@@ -107,7 +107,7 @@ void EyeLids::measure_margins(const rig::Head& head) {
     upper_angle_.assign(kPlaces, 0.0);
     lower_angle_.assign(kPlaces, 0.0);
     std::vector<char> open(kPlaces, 0);
-    constexpr double kLeastOpening = 0.012;  // rad, about 0.15 mm
+    constexpr double kMinOpening = 0.012;  // rad, about 0.15 mm
     for (int i = 0; i < kPlaces; ++i) {
         const double middle =
             0.5 * (margin_angle(upper_, place_at(i)) + margin_angle(lower_, place_at(i)));
@@ -119,7 +119,7 @@ void EyeLids::measure_margins(const rig::Head& head) {
                 end = a;
             }
         }
-        open[i] = longest * kAngle > kLeastOpening;
+        open[i] = longest * kAngle > kMinOpening;
         lower_angle_[i] = kLowest + (end - longest + 0.5) * kAngle;
         upper_angle_[i] = kLowest + (end + 0.5) * kAngle;
     }
@@ -176,9 +176,9 @@ LidMember EyeLids::member(const Vec3& p) const {
     const Vec3 r = p - centre_;
     const double from_axis = (r - r.dot(axis_) * axis_).norm();
     // A crease that comes close to the margin still leaves the lid some skin
-    const double least = 3.0 * millimetre_ / std::max(from_axis, 3.0 * millimetre_);
+    const double min = 3.0 * millimetre_ / std::max(from_axis, 3.0 * millimetre_);
     member.height = member.upper
-                        ? std::max(0.0, angle - upper) / std::max(crease_angle_ - upper, least)
+                        ? std::max(0.0, angle - upper) / std::max(crease_angle_ - upper, min)
                         : std::max(0.0, lower - angle) * from_axis / lower_reach_m_;
     member.beyond = beyond_m(member.place);
     // What lies between the lids (the caruncle) goes with both; beyond the canthi upper lid passes into lower lid
@@ -186,7 +186,7 @@ LidMember EyeLids::member(const Vec3& p) const {
     const double half = std::max(
         {0.5 * (upper - lower), 1e-6, 0.4 * geom::smoothstep(0, 2.0 * millimetre_, member.beyond)});
     const double between = std::clamp(0.5 + 0.5 * (angle - middle) / half, 0.0, 1.0);
-    member.share = member.beyond > 0 ? geom::smoothstep(0.0, 1.0, between) : between;
+    member.fraction = member.beyond > 0 ? geom::smoothstep(0.0, 1.0, between) : between;
     return member;
 }
 
@@ -213,7 +213,7 @@ EyeLids::Curves EyeLids::curves(double place, const LidPose& pose) const {
                          gaze_turn(place, pose.lower_gaze_rad, pose.upper_gaze_rad);
     const double upper = std::max(
         lower, upper_angle(place) - gaze_turn(place, pose.upper_gaze_rad, pose.lower_gaze_rad));
-    const double meeting = lower + (1.0 - upper_share_) * (upper - lower);
+    const double meeting = lower + (1.0 - upper_fraction_) * (upper - lower);
     // Shut lids press their margins into each other, or a coarse mesh would leave slits
     const double press = 0.08 * millimetre_ / zone_m_;
     return {upper + pose.upper_closure * (meeting - press - upper),
@@ -236,7 +236,7 @@ double EyeLids::upper_turn(const LidMember& member, const LidPose& pose) const {
     const double gaze = -gaze_turn(s, pose.upper_gaze_rad, pose.lower_gaze_rad);
     const double moved = s + slide_m(s, true, pose) / fissure_m_;
     const double margin = curves(moved, pose).upper - upper_angle(s) - gaze;
-    const double above = -pose.upper_closure * upper_share_ * at(wide_gap_, s);
+    const double above = -pose.upper_closure * upper_fraction_ * at(wide_gap_, s);
     const double over = geom::smoothstep(0.0, 0.4, q);
     const double unrolls = 1.0 - geom::smoothstep(0.08, 1.1, q);
     const double plate = (1.0 - 0.2 * std::min(1.0, q)) * (1.0 - geom::smoothstep(0.75, 1.25, q));
@@ -252,14 +252,14 @@ double EyeLids::lower_turn(const LidMember& member, const LidPose& pose) const {
 
 Vec3 EyeLids::ride(const Vec3& rest, const LidMember& member, const LidPose& pose) const {
     double turn = 0.0, slide = 0.0;  // about the axis, positive up; along it
-    if (member.share > 0) {
-        turn += member.share * upper_turn(member, pose);
-        slide += member.share * slide_m(member.place, true, pose) *
+    if (member.fraction > 0) {
+        turn += member.fraction * upper_turn(member, pose);
+        slide += member.fraction * slide_m(member.place, true, pose) *
                  (1.0 - geom::smoothstep(0.08, 1.2, member.upper ? member.height : 0.0));
     }
-    if (member.share < 1) {
-        turn += (1 - member.share) * lower_turn(member, pose);
-        slide += (1 - member.share) * slide_m(member.place, false, pose) *
+    if (member.fraction < 1) {
+        turn += (1 - member.fraction) * lower_turn(member, pose);
+        slide += (1 - member.fraction) * slide_m(member.place, false, pose) *
                  (1.0 - geom::smoothstep(0.0, 1.0, member.upper ? 0.0 : member.height));
     }
     if (turn == 0.0 && slide == 0.0) return Vec3::Zero();

@@ -34,15 +34,15 @@ struct LidPose {
 /// Position of a point on a lid.
 struct LidMember {
     bool upper = true;
-    double place = 0.0;   ///< s
-    double height = 0.0;  ///< q, 0 on the margin and before it
-    double share = 1.0;   ///< fraction of the upper lid's motion; the rest is the lower lid's
-    double beyond = 0.0;  ///< distance beyond the canthi, m
+    double place = 0.0;     ///< s
+    double height = 0.0;    ///< q, 0 on the margin and before it
+    double fraction = 1.0;  ///< fraction of the upper lid's motion; the rest is the lower lid's
+    double beyond = 0.0;    ///< distance beyond the canthi, m
 };
 
 class EyeLids {
   public:
-    EyeLids(const rig::Head& head, int side, double upper_share);
+    EyeLids(const rig::Head& head, int side, double upper_fraction);
 
     LidMember member(const Vec3& p) const;
     /// How firmly a point is attached to its tarsal plate: 1 on the margin, 0 where the lid ends and beyond the canthi. The bounds are
@@ -84,7 +84,7 @@ class EyeLids {
     Vec3 centre_, axis_, forward_, up_;
     double inner_, outer_;  // places of the canthi along the axis, m
     double fissure_m_, zone_m_;
-    double upper_share_;
+    double upper_fraction_;
     double to_left_;                       // along the axis
     double millimetre_;                    // of the atlas head, on this head, m
     double crease_angle_, lower_reach_m_;  // where the lids end

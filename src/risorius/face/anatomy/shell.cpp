@@ -86,19 +86,19 @@ class Cavities {
         int open = 0;
         for (const Vec3& ray : rays_)
             open += !tree_.cast(origin, ray.x() * u + ray.y() * w + ray.z() * normal, across_m_);
-        return open < kLeastOpen * kRays;
+        return open < kMinOpen * kRays;
     }
 
   private:
     static constexpr int kRays = 64;
-    static constexpr double kLeastOpen = 0.35;  // at the very edge of a cavity it is a half
+    static constexpr double kMinOpen = 0.35;  // at the very edge of a cavity it is a half
     geom::SurfaceTree tree_;
     double across_m_;
     std::vector<Vec3> rays_;
 };
 
 // Largest connected piece of a triangle list.
-Triangles largest_piece(const Triangles& triangles, long vertex_count) {
+Triangles max_piece(const Triangles& triangles, long vertex_count) {
     std::vector<int> parent(static_cast<std::size_t>(vertex_count));
     for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
     const auto find = [&](int v) {
@@ -308,7 +308,7 @@ Triangles ShellMaker::facing_triangles() const {
 void ShellMaker::keep_what_faces_outwards() {
     const Triangles facing = facing_triangles();
     if (!mirror_.found()) {
-        shell_.fine = largest_piece(without_bow_ties(facing), count_);
+        shell_.fine = max_piece(without_bow_ties(facing), count_);
         return;
     }
     // Fans that are dropped may have held others
@@ -316,8 +316,8 @@ void ShellMaker::keep_what_faces_outwards() {
     for (long before = -1; half_.rows() != before;) {
         before = half_.rows();
         const Triangles whole = geom::with_mirror_image(half_, mirror_);
-        half_ = geom::paired_half(largest_piece(without_bow_ties(whole), count_), head_.vertices,
-                                  mirror_);
+        half_ =
+            geom::paired_half(max_piece(without_bow_ties(whole), count_), head_.vertices, mirror_);
     }
     shell_.fine = geom::with_mirror_image(half_, mirror_);
 }
@@ -430,14 +430,14 @@ Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vec
         for (int v = 0; v < count; ++v)
             if (held[v]) out.mirrored.push_back(index[shell.mirrored[v]]);
     const auto nearest = [&](int v) {
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         int best = -1;
         for (int w : neighbours[v]) {
             const double squared =
                 (head.vertices.row(shell.vertex[w]) - head.vertices.row(shell.vertex[v]))
                     .squaredNorm();
-            if (!held[w] || squared >= least) continue;
-            least = squared;
+            if (!held[w] || squared >= min) continue;
+            min = squared;
             best = w;
         }
         return best;

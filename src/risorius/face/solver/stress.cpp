@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 struct Goal {
     track::Kinematic channel;
-    double least, most;
+    double min, max;
 };
 // Shaking, nodding, chewing and looking about, each as fast as people do it
 constexpr Goal kGoals[] = {
@@ -41,10 +41,11 @@ double chance(int seed, unsigned stream, long row, long column) {
 }
 
 // The least of the values that so large a share of them does not exceed; 0 of none.
-double share_below(std::vector<double> values, double share) {
+double fraction_below(std::vector<double> values, double fraction) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());
-    const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+    const auto at =
+        static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
     return values[std::max<std::size_t>(at, 1) - 1];
 }
 
@@ -59,24 +60,24 @@ DriveAt stress_drive(const track::ChannelTable& channels, const StressOptions& o
         if (t_s >= end_s) return drive;
         const long hold = static_cast<long>(t_s / kHold_s);
         for (long c = 0; c < columns; ++c)
-            if (chance(options.seed, 1, hold, c) < options.active_share)
+            if (chance(options.seed, 1, hold, c) < options.active_fraction)
                 drive.excitation[c] = min[c] + (1 - min[c]) * chance(options.seed, 2, hold, c);
         const long swing = static_cast<long>(t_s / kSwing_s);
         const double place = t_s / kSwing_s - static_cast<double>(swing);
-        const double share = 0.5 * (1 - std::cos(kPi * place));
+        const double fraction = 0.5 * (1 - std::cos(kPi * place));
         long column = 0;
         for (const Goal& goal : kGoals) {
             // From rest, and back to it at the end
             const auto value = [&](long at) {
                 if (at == 0 || static_cast<double>(at) * kSwing_s > end_s - kSwing_s) return 0.0;
                 const double x =
-                    goal.least + (goal.most - goal.least) * chance(options.seed, 3, at, column);
+                    goal.min + (goal.max - goal.min) * chance(options.seed, 3, at, column);
                 const bool within = goal.channel == track::Kinematic::kJawOpen ||
                                     goal.channel == track::Kinematic::kJawForward;
                 return within ? std::max(0.0, x) : x;
             };
             drive.kinematic[static_cast<std::size_t>(goal.channel)] =
-                (1 - share) * value(swing) + share * value(swing + 1);
+                (1 - fraction) * value(swing) + fraction * value(swing + 1);
             ++column;
         }
         return drive;
@@ -103,7 +104,7 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
         }
         const int inverted = face.inverted_tets();
         in_a_row = inverted > 0 ? in_a_row + 1 : 0;
-        report.most_inverted_tets = std::max(report.most_inverted_tets, inverted);
+        report.max_inverted_tets = std::max(report.max_inverted_tets, inverted);
         report.longest_inverted_steps = std::max(report.longest_inverted_steps, in_a_row);
         report.mean_inverted_tets += static_cast<double>(inverted) / options.steps;
         report.furthest_m = std::max(report.furthest_m, (now - rest).rowwise().norm().maxCoeff());
@@ -112,13 +113,13 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
         bone_m.push_back(penetration.bone_m);
         eyeball_m.push_back(penetration.eyeball_m);
     }
-    report.usual_penetration = {share_below(lips_m, 0.99), share_below(bone_m, 0.99),
-                                share_below(eyeball_m, 0.99)};
-    report.deepest_penetration = {share_below(lips_m, 1), share_below(bone_m, 1),
-                                  share_below(eyeball_m, 1)};
-    for (int step = 0; step < options.settle_steps; ++step) face.step(drive);
+    report.usual_penetration = {fraction_below(lips_m, 0.99), fraction_below(bone_m, 0.99),
+                                fraction_below(eyeball_m, 0.99)};
+    report.deepest_penetration = {fraction_below(lips_m, 1), fraction_below(bone_m, 1),
+                                  fraction_below(eyeball_m, 1)};
+    for (int step = 0; step < options.rest_steps; ++step) face.step(drive);
     report.inverted_at_rest = face.inverted_tets();
-    report.left_at_rest_m = (face.skin_nodes() - rest).rowwise().norm().maxCoeff();
+    report.residual_displacement_m = (face.skin_nodes() - rest).rowwise().norm().maxCoeff();
     return report;
 }
 

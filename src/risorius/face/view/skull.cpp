@@ -136,7 +136,7 @@ class TissueDepth {
 /// Takes the grid's steps out of a surface and keeps its size (Taubin 1995).
 void smooth(geom::NetSurface& net) {
     const geom::SurfaceEdges edges = geom::surface_edges(net.triangles);
-    for (const double share : {0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53}) {
+    for (const double fraction : {0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53}) {
         Points sum = Points::Zero(net.vertices.rows(), 3);
         std::vector<int> count(static_cast<std::size_t>(net.vertices.rows()), 0);
         for (const auto& [a, b] : edges.vertices) {
@@ -147,7 +147,7 @@ void smooth(geom::NetSurface& net) {
         }
         for (long v = 0; v < net.vertices.rows(); ++v)
             net.vertices.row(v) +=
-                share * (sum.row(v) / count[static_cast<std::size_t>(v)] - net.vertices.row(v));
+                fraction * (sum.row(v) / count[static_cast<std::size_t>(v)] - net.vertices.row(v));
     }
 }
 
@@ -238,9 +238,9 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
             low = low.cwiseMin(at);
             high = high.cwiseMax(at);
         }
-        const Vec3 least = head.mm(1) * (low_mm - Vec3::Constant(15)),
-                   most = head.mm(1) * (high_mm + Vec3::Constant(15));
-        return std::pair<Vec3, Vec3>(low.cwiseMax(least), high.cwiseMin(most));
+        const Vec3 min = head.mm(1) * (low_mm - Vec3::Constant(15)),
+                   max = head.mm(1) * (high_mm + Vec3::Constant(15));
+        return std::pair<Vec3, Vec3>(low.cwiseMax(min), high.cwiseMin(max));
     };
     const SkullShapes& shapes = standard_skull_shapes();
     const auto skull_at = [&](const Vec3& p_mm) { return skull_fields(shapes, p_mm); };

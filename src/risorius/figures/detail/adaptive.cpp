@@ -53,16 +53,16 @@ void read_watch(const JsonCursor& json, Case& one) {
 
 RefinedRun read_refine(const JsonCursor& json) {
     json.allow_keys({"tolerance", "merge_below", "deepest_level", "rounds"});
-    const auto share = [](const JsonCursor& value, bool zero) {
+    const auto fraction = [](const JsonCursor& value, bool zero) {
         const double number = value.number({0, 1});
         if (number == 1 || (number == 0 && !zero))
             value.fail(zero ? "a number in [0, 1)" : "a number in (0, 1)");
         return number;
     };
     RefinedRun run;
-    run.options.tolerance = share(json.at("tolerance"), /*zero=*/false);
+    run.options.tolerance = fraction(json.at("tolerance"), /*zero=*/false);
     if (const auto merge = json.find("merge_below"))
-        run.options.merge_below = share(*merge, /*zero=*/true);
+        run.options.merge_below = fraction(*merge, /*zero=*/true);
     run.options.deepest_level = json.at("deepest_level").integer(0, 8);
     run.rounds = json.at("rounds").integer(1, 100);
     return run;
@@ -117,7 +117,7 @@ struct Work {
         multiplications += other.multiplications;
     }
     /// The greater of both counts' shares: a cost of any weights is less.
-    double share_of(const Work& whole) const {
+    double fraction_of(const Work& whole) const {
         return std::max(assembled_cells / whole.assembled_cells,
                         multiplications / whole.multiplications);
     }
@@ -139,15 +139,16 @@ struct Series {
 };
 
 /// Brings one case to rest on one mesh after the other and notes what it cost.
-class Settler {
+class EquilibriumSolver {
   public:
-    Settler(const Case& one, const solve::IntegratorOptions& options, const RunOptions& run)
+    EquilibriumSolver(const Case& one, const solve::IntegratorOptions& options,
+                      const RunOptions& run)
         : case_(one), options_(options), run_(run) {
         length_m_ =
             (one.solid.rest.colwise().maxCoeff() - one.solid.rest.colwise().minCoeff()).maxCoeff();
     }
 
-    bool operator()(const std::shared_ptr<tissue::CellSolid>& solid, tissue::Settling settling,
+    bool operator()(const std::shared_ptr<tissue::CellSolid>& solid, tissue::SolveStage stage,
                     solve::MotionState& state) {
         run_.monitor.throw_if_stopped();
         std::vector<softbody::NodeSelection> pushed;
@@ -161,7 +162,7 @@ class Settler {
         solve::NewtonOptions newton;
         newton.iterations = options_.newton_iterations;
         newton.tolerance_m =
-            length_m_ * (settling == tissue::Settling::kFinal
+            length_m_ * (stage == tissue::SolveStage::kFinal
                              ? options_.newton_tolerance
                              : std::max(options_.newton_tolerance, kToleranceOnTheWay));
         newton.curvature = options_.curvature;
@@ -169,7 +170,7 @@ class Settler {
         newton.first_step_s = options_.step_s;
         newton.farthest_m = options_.diverged_at * length_m_;
         const Points start = state.x;
-        const solve::NewtonReport report = solve::Newton().settle(
+        const solve::NewtonReport report = solve::Newton().solve_equilibrium(
             system, {.end_s = state.t_s, .step_s = kInfinity, .start = start}, newton, state.x);
         note(*solid, system, moved, state, report);
         return report.converged;
@@ -244,8 +245,8 @@ std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
                 std::sqrt(std::max(0.0, (mixed * mixed).trace()));
         }
     }
-    const double most = *std::max_element(shade.begin(), shade.end());
-    for (double& value : shade) value = most > 0 ? std::sqrt(value / most) : 0.0;
+    const double max = *std::max_element(shade.begin(), shade.end());
+    for (double& value : shade) value = max > 0 ? std::sqrt(value / max) : 0.0;
     return shade;
 }
 
@@ -269,29 +270,29 @@ Shape shape_of(const Case& one, const tissue::CellSolid& solid, const Points& x,
 Series run_uniform(const Case& one, const solve::IntegratorOptions& options,
                    const RunOptions& run) {
     tissue::AdaptiveSolid solid(one.solid, {.deepest_level = one.uniform_levels});
-    Settler settler(one, options, run);
+    EquilibriumSolver solver(one, options, run);
     solve::MotionState state = solid.start();
     bool converged = true;
     for (int level = 0; converged && level <= one.uniform_levels; ++level) {
         solid.refine_where(
             [&](const tissue::CellMesh::Cell& cell) { return cell.place.level < level; }, &state);
-        converged = settler(
-            solid.solid(),
-            level < one.uniform_levels ? tissue::Settling::kOnTheWay : tissue::Settling::kFinal,
-            state);
+        converged = solver(solid.solid(),
+                           level < one.uniform_levels ? tissue::SolveStage::kIntermediate
+                                                      : tissue::SolveStage::kFinal,
+                           state);
     }
-    return {.rests = settler.rests, .converged = converged};
+    return {.rests = solver.rests, .converged = converged};
 }
 
 Series run_refined(const Case& one, const RefinedRun& refined,
                    const solve::IntegratorOptions& options, const RunOptions& run) {
     tissue::AdaptiveSolid solid(one.solid, refined.options);
-    Settler settler(one, options, run);
+    EquilibriumSolver solver(one, options, run);
     solve::MotionState state = solid.start();
     const tissue::RefineRounds rounds =
-        tissue::settle_and_refine(solid, std::ref(settler), refined.rounds, state);
-    return {.rests = settler.rests,
-            .converged = rounds.settled,
+        tissue::solve_and_refine(solid, std::ref(solver), refined.rounds, state);
+    return {.rests = solver.rests,
+            .converged = rounds.converged,
             .shape = shape_of(one, *solid.solid(), state.x, one.name, one.caption)};
 }
 
@@ -352,8 +353,8 @@ void measure(const Case& one, const Series& uniform, const Series& refined, cons
     add("converged", "", uniform.converged && refined.converged && reference.converged ? 1 : 0);
     add("difference_percent", "%", difference_percent(last.answers, finest.answers));
     add("energy_difference_percent", "%", difference_percent(last.energy_j, finest.energy_j));
-    add("work_share", "", last.all.share_of(finest.all));
-    add("work_share_of_last", "", last.all.share_of(finest.own));
+    add("work_share", "", last.all.fraction_of(finest.all));
+    add("work_share_of_last", "", last.all.fraction_of(finest.own));
     add("uniform_error_percent", "%", difference_percent(finest.answers, truth));
     add("adaptive_error_percent", "%", difference_percent(last.answers, truth));
     add("mass_change_ratio", "", std::abs(last.mass_kg / finest.mass_kg - 1));

@@ -10,7 +10,7 @@
 namespace risorius::figures {
 namespace {
 
-constexpr int kMostNodesPerAxis = 1000;
+constexpr int kMaxNodesPerAxis = 1000;
 
 Vec3 plane_centre(const tissue::GridShape& grid, const Points& x, int axis, bool last) {
     Vec3 sum = Vec3::Zero();
@@ -49,14 +49,14 @@ std::vector<tissue::GridShape> read_grids(const JsonCursor& json) {
     std::vector<tissue::GridShape> grids;
     for (const JsonCursor& entry : json.items()) {
         if (!entry.is_array()) {
-            const int count = entry.integer(2, kMostNodesPerAxis);
+            const int count = entry.integer(2, kMaxNodesPerAxis);
             grids.push_back({count, count, count});
             continue;
         }
         const auto counts = entry.items();
         if (counts.size() != 3) entry.fail("a number of nodes, or three");
         const auto count = [&](std::size_t axis) {
-            return counts[axis].integer(2, kMostNodesPerAxis);
+            return counts[axis].integer(2, kMaxNodesPerAxis);
         };
         grids.push_back({count(0), count(1), count(2)});
     }
@@ -123,10 +123,10 @@ Shape shape_of(const softbody::BodyDescription& description, const softbody::Sof
                 .fixed = body.fixed};
     const std::vector<double> stiffness = softbody::relative_stiffness(description);
     if (stiffness.empty()) return shape;
-    const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
-    if (!(*most > *least)) return shape;
+    const auto [min, max] = std::minmax_element(stiffness.begin(), stiffness.end());
+    if (!(*max > *min)) return shape;
     shape.shade_ends = {"softest", "stiffest"};
-    for (const double value : stiffness) shape.shade.push_back((value - *least) / (*most - *least));
+    for (const double value : stiffness) shape.shade.push_back((value - *min) / (*max - *min));
     return shape;
 }
 

@@ -221,12 +221,12 @@ Vec3 ContactScene::load_on_first_n() const {
     return force.topRows(bodies_.front().system.size()).colwise().sum().transpose();
 }
 
-double ContactScene::least_gap_m() const {
-    double least = kInfinity;
+double ContactScene::min_gap_m() const {
+    double min = kInfinity;
     for (const auto& term : on_obstacles_)
-        least = std::min(least, term->least_gap_m(state_.t_s, state_.x));
-    for (const auto& term : between_) least = std::min(least, term->least_gap_m(state_.x));
-    return least;
+        min = std::min(min, term->min_gap_m(state_.t_s, state_.x));
+    for (const auto& term : between_) min = std::min(min, term->min_gap_m(state_.x));
+    return min;
 }
 
 Shape ContactScene::shape(const ContactSceneDescription& description) const {

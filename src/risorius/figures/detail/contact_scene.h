@@ -60,8 +60,8 @@ class ContactScene {
 
     Vec3 support_n() const;        ///< of all obstacles on all bodies, friction included
     Vec3 load_on_first_n() const;  ///< of the other bodies on body 0, friction included
-    double least_gap_m() const;    ///< of all contacts, negative: penetration
-    double greatest_speed_m_per_s() const { return state_.v.rowwise().norm().maxCoeff(); }
+    double min_gap_m() const;      ///< of all contacts, negative: penetration
+    double max_speed_m_per_s() const { return state_.v.rowwise().norm().maxCoeff(); }
 
     Shape shape(const ContactSceneDescription& description) const;
 

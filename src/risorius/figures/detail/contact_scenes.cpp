@@ -93,8 +93,8 @@ void measure_slope(const Slope& slope, const RunOptions& options, Progress& prog
                       .y = {.label = "acceleration (m/s^2)"}};
     plot::Series law{.label = "Coulomb", .x = {}, .y = {}, .mark = plot::Mark::kLine};
     constexpr double kStep_deg = 0.5;
-    const auto [least, most] = std::minmax_element(slope.degrees.begin(), slope.degrees.end());
-    for (double degrees = *least; degrees <= *most; degrees += kStep_deg) {
+    const auto [min, max] = std::minmax_element(slope.degrees.begin(), slope.degrees.end());
+    for (double degrees = *min; degrees <= *max; degrees += kStep_deg) {
         law.x.push_back(degrees);
         law.y.push_back(coulomb_acceleration(degrees * std::numbers::pi / 180,
                                              slope.contact.friction, gravity));
@@ -144,7 +144,7 @@ void run_contact_scenes(const JsonCursor& experiment, const RunOptions& options,
     struct Result {
         Shape shape;
         solve::IntegratorReport report;
-        double weight_n = 0, support_ratio = 0, load_ratio = 0, least_gap_m = 0, speed_m_per_s = 0;
+        double weight_n = 0, support_ratio = 0, load_ratio = 0, min_gap_m = 0, speed_m_per_s = 0;
         int bodies = 0;
     };
     std::vector<Result> results(scenes.size());
@@ -157,8 +157,8 @@ void run_contact_scenes(const JsonCursor& experiment, const RunOptions& options,
         for (int b = 0; b < built.body_count(); ++b) result.weight_n += built.weight_n(b);
         result.support_ratio = built.support_n().z() / result.weight_n;
         result.load_ratio = -built.load_on_first_n().z() / (result.weight_n - built.weight_n(0));
-        result.least_gap_m = built.least_gap_m();
-        result.speed_m_per_s = built.greatest_speed_m_per_s();
+        result.min_gap_m = built.min_gap_m();
+        result.speed_m_per_s = built.max_speed_m_per_s();
         result.shape = built.shape(scene);
         progress.done(1, scene.name);
     });
@@ -173,11 +173,11 @@ void run_contact_scenes(const JsonCursor& experiment, const RunOptions& options,
         outcome.figure.shapes.push_back(result.shape);
         outcome.measured.add("support_ratio/" + name, "", result.support_ratio);
         if (result.bodies > 1) outcome.measured.add("load_ratio/" + name, "", result.load_ratio);
-        outcome.measured.add("least_gap_m/" + name, "m", result.least_gap_m);
+        outcome.measured.add("least_gap_m/" + name, "m", result.min_gap_m);
         outcome.measured.add("speed_m_per_s/" + name, "m/s", result.speed_m_per_s);
         outcome.measured.add("diverged/" + name, "", result.report.diverged ? 1 : 0);
         table.row_names.push_back(name);
-        table.rows.push_back({result.support_ratio, result.least_gap_m, result.speed_m_per_s,
+        table.rows.push_back({result.support_ratio, result.min_gap_m, result.speed_m_per_s,
                               static_cast<double>(result.report.steps),
                               static_cast<double>(result.report.evaluations),
                               static_cast<double>(result.report.linear_solves)});

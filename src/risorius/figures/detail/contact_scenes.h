@@ -8,7 +8,7 @@
 ///             "runs": [{"name": "explicit", "label": "...", "integrator": {...}, "slip_speed_m_per_s": 0.01}]}
 ///
 /// A scene is measured as support_ratio/<name> (vertical force of the obstacles over all weight), load_ratio/<name> (force
-/// between the bodies over the weight of all but the first; scenes of several bodies), least_gap_m/<name>, speed_m_per_s/<name>
+/// between the bodies over the weight of all but the first; scenes of several bodies), min_gap_m/<name>, speed_m_per_s/<name>
 /// and diverged/<name>. The slope as acceleration_error_percent/<run>: the largest difference from Coulomb's law, over g.
 /// Gravity is tilted rather than the plane z = 0, so the body's own gravity gives its size alone.
 #pragma once

@@ -18,7 +18,7 @@ constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 struct Case {
     std::string name, caption, picture;
     softbody::BodyDescription body;
-    bool settles = true;
+    bool to_equilibrium = true;
 };
 
 /// "length_along" has to be an axis the body has.
@@ -42,7 +42,7 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
         one.body = changed_body(experiment.at("body"), json.find("change"), one.name);
         check_axis(experiment, one.body);
         if (const auto at = json.find("at"))
-            one.settles = at->one_of({"rest", "equilibrium"}) == "equilibrium";
+            one.to_equilibrium = at->one_of({"rest", "equilibrium"}) == "equilibrium";
         cases.push_back(std::move(one));
     }
     if (cases.empty()) experiment.at("cases").fail("at least one case");
@@ -51,8 +51,8 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
 
 struct Result {
     Shape shape;
-    Settled settled;
-    double volume_change_percent = kUnmeasured, greatest_move_m = 0;
+    EquilibriumRun equilibrium;
+    double volume_change_percent = kUnmeasured, max_move_m = 0;
     Extent extent{kUnmeasured, kUnmeasured};
 };
 
@@ -88,14 +88,15 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         const Case& one = cases[static_cast<std::size_t>(i)];
         Result& result = results[static_cast<std::size_t>(i)];
         const softbody::SoftBody body = softbody::build_body(one.body);
-        result.settled.x = body.rest;
-        if (one.settles) result.settled = settle(body, integrator, duration_s, options);
-        const Points& x = result.settled.x;
+        result.equilibrium.x = body.rest;
+        if (one.to_equilibrium)
+            result.equilibrium = run_to_equilibrium(body, integrator, duration_s, options);
+        const Points& x = result.equilibrium.x;
         result.shape = shape_of(one.body, body, x, one.picture, one.caption);
-        if (one.settles) result.shape.outline = rest_outline(body);
+        if (one.to_equilibrium) result.shape.outline = rest_outline(body);
         if (body.kind == softbody::Kind::kSolid)
             result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
-        result.greatest_move_m = (x - body.rest).rowwise().norm().maxCoeff();
+        result.max_move_m = (x - body.rest).rowwise().norm().maxCoeff();
         if (axis >= 0) result.extent = extent_along(body, x, axis);
         progress.done(1, one.name);
     });
@@ -107,9 +108,9 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         .rows = {}};
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const Result& result = results[i];
-        const Settled& settled = result.settled;
+        const EquilibriumRun& equilibrium = result.equilibrium;
         outcome.figure.shapes.push_back(result.shape);
-        if (!cases[i].settles) continue;
+        if (!cases[i].to_equilibrium) continue;
         const std::string& name = cases[i].name;
         if (axis >= 0) {
             outcome.measured.add("length_ratio/" + name, "", result.extent.length_ratio);
@@ -118,16 +119,16 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         if (cases[i].body.kind == softbody::Kind::kSolid)
             outcome.measured.add("volume_change_percent/" + name, "%",
                                  result.volume_change_percent);
-        outcome.measured.add("greatest_move_m/" + name, "m", result.greatest_move_m);
-        outcome.measured.add("force_ratio/" + name, "", settled.force_ratio);
-        outcome.measured.add("diverged/" + name, "", settled.report.diverged ? 1 : 0);
+        outcome.measured.add("greatest_move_m/" + name, "m", result.max_move_m);
+        outcome.measured.add("force_ratio/" + name, "", equilibrium.force_ratio);
+        outcome.measured.add("diverged/" + name, "", equilibrium.report.diverged ? 1 : 0);
         table.row_names.push_back(name);
         table.rows.push_back({result.extent.length_ratio, result.extent.drift_ratio,
-                              result.volume_change_percent, result.greatest_move_m,
-                              settled.force_ratio, settled.speed_ratio,
-                              static_cast<double>(settled.report.steps),
-                              static_cast<double>(settled.report.evaluations),
-                              static_cast<double>(settled.report.linear_solves)});
+                              result.volume_change_percent, result.max_move_m,
+                              equilibrium.force_ratio, equilibrium.speed_ratio,
+                              static_cast<double>(equilibrium.report.steps),
+                              static_cast<double>(equilibrium.report.evaluations),
+                              static_cast<double>(equilibrium.report.linear_solves)});
     }
     drop_unmeasured(table);
     outcome.figure.tables.push_back(std::move(table));

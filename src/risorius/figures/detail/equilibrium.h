@@ -7,7 +7,7 @@
 ///   "length_along": "a3"
 ///
 /// "at": "rest" draws the case undeformed. Cases that follow each other with one "picture" stand side by side in it. "length_along" measures the length across an axis. A case is measured as
-/// length_ratio/<name>, drift_ratio/<name>, volume_change_percent/<name>, greatest_move_m/<name>, force_ratio/<name> (what
+/// length_ratio/<name>, drift_ratio/<name>, volume_change_percent/<name>, max_move_m/<name>, force_ratio/<name> (what
 /// is left out of balance) and diverged/<name> (0 or 1).
 #pragma once
 

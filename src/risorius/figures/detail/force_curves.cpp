@@ -73,13 +73,12 @@ double place_of(const NamedCurve& curve, int sample) {
     return curve.drawn.min + (curve.drawn.max - curve.drawn.min) * sample / (kSamples - 1);
 }
 
-double greatest_slope_jump(const muscle::Curve& curve) {
+double max_slope_jump(const muscle::Curve& curve) {
     constexpr double kBeside = 1e-9;
-    double greatest = 0;
+    double max = 0;
     for (const double x : curve.joints())
-        greatest =
-            std::max(greatest, std::abs(curve.at(x + kBeside).slope - curve.at(x - kBeside).slope));
-    return greatest;
+        max = std::max(max, std::abs(curve.at(x + kBeside).slope - curve.at(x - kBeside).slope));
+    return max;
 }
 
 void measure_curve(const CurveSet& set, const NamedCurve& named, const std::vector<double>& places,
@@ -92,7 +91,7 @@ void measure_curve(const CurveSet& set, const NamedCurve& named, const std::vect
     const muscle::PublishedTable points = points_for(named.name, /*all=*/false);
     for (const auto& [x, f] : points) distance = std::max(distance, std::abs(curve.value(x) - f));
     if (!points.empty()) measured.add("table_distance" + of, "F0", distance);
-    measured.add("slope_jump" + of, "", greatest_slope_jump(curve));
+    measured.add("slope_jump" + of, "", max_slope_jump(curve));
 }
 
 /// Curves over the same axis together, a colour for each set.

@@ -98,11 +98,12 @@ void run_hanging_curve(const JsonCursor& experiment, const RunOptions& options, 
         softbody::read_integrator(experiment.at("integrator"));
     const double duration_s = experiment.at("duration_s").number({0, 1e6});
 
-    std::vector<Settled> settled(bodies.size());
+    std::vector<EquilibriumRun> equilibrium(bodies.size());
     Progress progress(options, static_cast<double>(bodies.size()));
     parallel_for(static_cast<int>(bodies.size()), options.threads, [&](int i) {
         const auto at = static_cast<std::size_t>(i);
-        settled[at] = settle(softbody::build_body(bodies[at]), integrator, duration_s, options);
+        equilibrium[at] =
+            run_to_equilibrium(softbody::build_body(bodies[at]), integrator, duration_s, options);
         progress.done(1, names[at] + " nodes");
     });
 
@@ -121,7 +122,7 @@ void run_hanging_curve(const JsonCursor& experiment, const RunOptions& options, 
     plot::Series distances{.label = "greatest distance of a node", .mark = plot::Mark::kLinePoints};
     plot::Series second_order{.label = "h^2, from the first", .mark = plot::Mark::kDashed};
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const Points& x = settled[i].x;
+        const Points& x = equilibrium[i].x;
         const softbody::SoftBody body = softbody::build_body(bodies[i]);
         const int nodes = static_cast<int>(x.rows());
         const double length = length_of(body.rest);
@@ -134,9 +135,10 @@ void run_hanging_curve(const JsonCursor& experiment, const RunOptions& options, 
         outcome.measured.add("sag_error_percent/" + names[i], "%", 100 * (sag / exact_sag - 1));
         outcome.measured.add("distance_ratio/" + names[i], "", distance);
         outcome.measured.add("stretch_percent/" + names[i], "%", 100 * (length_of(x) / length - 1));
-        outcome.measured.add("force_ratio/" + names[i], "", settled[i].force_ratio);
+        outcome.measured.add("force_ratio/" + names[i], "", equilibrium[i].force_ratio);
         table.rows.push_back({static_cast<double>(nodes), sag, 100 * (sag / exact_sag - 1),
-                              distance, 100 * (length_of(x) / length - 1), settled[i].force_ratio});
+                              distance, 100 * (length_of(x) / length - 1),
+                              equilibrium[i].force_ratio});
         distances.x.push_back(nodes);
         distances.y.push_back(distance);
         second_order.x.push_back(nodes);

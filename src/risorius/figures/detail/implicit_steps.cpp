@@ -156,11 +156,12 @@ void add_ratios(const Plan& plan, const std::vector<Found>& found, Outcome& outc
 }
 
 // The bodies in equilibrium, as a table and as shapes.
-Table equilibrium_table(const Plan& plan, const std::vector<Settled>& rest, Outcome& outcome) {
-    Table settled{.name = "rest", .columns = {"force_ratio", "speed_per_s"}, .rows = {}};
+Table equilibrium_table(const Plan& plan, const std::vector<EquilibriumRun>& rest,
+                        Outcome& outcome) {
+    Table equilibrium{.name = "rest", .columns = {"force_ratio", "speed_per_s"}, .rows = {}};
     for (std::size_t g = 0; g < plan.grids.size(); ++g) {
-        settled.row_names.push_back(plan.grids[g]);
-        settled.rows.push_back({rest[g].force_ratio, rest[g].speed_ratio});
+        equilibrium.row_names.push_back(plan.grids[g]);
+        equilibrium.rows.push_back({rest[g].force_ratio, rest[g].speed_ratio});
         outcome.measured.add("rest_force_ratio/" + plan.grids[g], "", rest[g].force_ratio);
         const softbody::BodyDescription description = softbody::read_body(plan.bodies[g]);
         const softbody::SoftBody body = softbody::build_body(description);
@@ -169,7 +170,7 @@ Table equilibrium_table(const Plan& plan, const std::vector<Settled>& rest, Outc
                                                  "At rest, " + plan.grids[g] + " nodes"));
         outcome.figure.shapes.back().outline = rest_outline(body);
     }
-    return settled;
+    return equilibrium;
 }
 
 }  // namespace
@@ -186,11 +187,11 @@ void run_implicit_steps(const JsonCursor& experiment, const RunOptions& options,
                 changed_body(plan.bodies[g], method.change, plan.grids[g] + " " + method.name));
 
     Progress progress(options, static_cast<double>(grids * (methods + 1)));
-    std::vector<Settled> rest(grids);
+    std::vector<EquilibriumRun> rest(grids);
     parallel_for(static_cast<int>(grids), options.threads, [&](int g) {
         const auto at = static_cast<std::size_t>(g);
         const softbody::SoftBody body = softbody::build_body(softbody::read_body(plan.bodies[at]));
-        rest[at] = settle(body, plan.to_rest, plan.rest_duration_s, options);
+        rest[at] = run_to_equilibrium(body, plan.to_rest, plan.rest_duration_s, options);
         progress.done(1, "rest at " + plan.grids[at]);
     });
     std::vector<Found> found(grids * methods);

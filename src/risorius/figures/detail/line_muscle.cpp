@@ -75,7 +75,7 @@ double line_moving_tension(const softbody::MuscleDescription& muscle, double fib
     const muscle::MuscleParameters& p = muscle.musculotendon;
     const double force_n = muscle::fibre_force(p, muscle::make_curves(p.curves), activation,
                                                fibre_length * p.optimal_length_m,
-                                               speed * p.greatest_speed_hz * p.optimal_length_m);
+                                               speed * p.max_speed_hz * p.optimal_length_m);
     return cos_pennation(muscle, fibre_length) * force_n / p.f0_n;
 }
 

@@ -21,13 +21,13 @@ double largest(const Eigen::Matrix4cd& matrix) {
             doubled(4 + i, j) = matrix(i, j).imag();
             doubled(i, 4 + j) = -matrix(i, j).imag();
         }
-    double most = 0;
-    for (const Complex& value : eigenvalues(doubled)) most = std::max(most, std::abs(value));
-    return most;
+    double max = 0;
+    for (const Complex& value : eigenvalues(doubled)) max = std::max(max, std::abs(value));
+    return max;
 }
 
 /// Largest root of z^4 = c3 z^3 + c2 z^2 + c1 z + c0.
-double largest_root(Complex c3, Complex c2, Complex c1, Complex c0) {
+double max_root(Complex c3, Complex c2, Complex c1, Complex c0) {
     Eigen::Matrix4cd companion = Eigen::Matrix4cd::Zero();
     companion.row(0) << c3, c2, c1, c0;
     companion(1, 0) = companion(2, 1) = companion(3, 2) = 1;
@@ -104,13 +104,13 @@ double growth_per_step(solve::Method method, Complex lambda, double step_s) {
         case solve::Method::kVerlet:
             return verlet_growth(lambda, step_s);
         case solve::Method::kAdamsBashforth:
-            return largest_root(1.0 + 55.0 / 24 * z, -59.0 / 24 * z, 37.0 / 24 * z, -9.0 / 24 * z);
+            return max_root(1.0 + 55.0 / 24 * z, -59.0 / 24 * z, 37.0 / 24 * z, -9.0 / 24 * z);
         case solve::Method::kAdamsMoulton: {
             // Predict, evaluate, correct, evaluate.
             const Complex p = 9.0 / 24 * z;
-            return largest_root(1.0 + p * (1.0 + 55.0 / 24 * z) + 19.0 / 24 * z,
-                                -p * 59.0 / 24.0 * z - 5.0 / 24 * z,
-                                p * 37.0 / 24.0 * z + 1.0 / 24 * z, -p * 9.0 / 24.0 * z);
+            return max_root(1.0 + p * (1.0 + 55.0 / 24 * z) + 19.0 / 24 * z,
+                            -p * 59.0 / 24.0 * z - 5.0 / 24 * z, p * 37.0 / 24.0 * z + 1.0 / 24 * z,
+                            -p * 9.0 / 24.0 * z);
         }
         default:
             throw std::invalid_argument(
@@ -120,9 +120,9 @@ double growth_per_step(solve::Method method, Complex lambda, double step_s) {
 
 bool stays_bounded(solve::Method method, const std::vector<Complex>& lambdas, double step_s,
                    double duration_s, double factor) {
-    const double most = std::log(factor) * step_s / duration_s;
+    const double max = std::log(factor) * step_s / duration_s;
     for (const Complex& lambda : lambdas)
-        if (std::log(growth_per_step(method, lambda, step_s)) > most) return false;
+        if (std::log(growth_per_step(method, lambda, step_s)) > max) return false;
     return true;
 }
 

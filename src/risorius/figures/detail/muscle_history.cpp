@@ -111,14 +111,14 @@ void measure_release(const std::vector<MuscleSample>& samples, double release_s,
                      const std::string& of, Measurements& measured) {
     std::size_t at = 0;
     while (at + 1 < samples.size() && samples[at + 1].t_s <= release_s * (1 + 1e-12)) ++at;
-    const auto least = static_cast<std::size_t>(
+    const auto min = static_cast<std::size_t>(
         std::min_element(samples.begin() + static_cast<long>(at), samples.end(), weaker) -
         samples.begin());
     const double final_f0 = samples.back().tension_f0;
     measured.add("before_f0" + of, "F0", samples[at].tension_f0);
-    measured.add("least_f0" + of, "F0", samples[least].tension_f0);
-    const auto back_s = [&](double share) {
-        return time_of(samples, least, share * final_f0, /*rising=*/true) - release_s;
+    measured.add("least_f0" + of, "F0", samples[min].tension_f0);
+    const auto back_s = [&](double fraction) {
+        return time_of(samples, min, fraction * final_f0, /*rising=*/true) - release_s;
     };
     measured.add("t50_s" + of, "s", back_s(0.5));
     measured.add("t90_s" + of, "s", back_s(0.9));
@@ -135,17 +135,17 @@ void measure_pulses(const std::vector<MuscleSample>& samples, const Pulses& puls
     if (pulses.count < 2) return;
     // From the last pulse but one to the last
     const double from_s = pulses.start_s(pulses.count - 2), to_s = pulses.start_s(pulses.count - 1);
-    double least = std::numeric_limits<double>::infinity(), most = 0, sum = 0, time_s = 0;
+    double min = std::numeric_limits<double>::infinity(), max = 0, sum = 0, time_s = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const MuscleSample& now = samples[i];
         if (now.t_s <= from_s || now.t_s > to_s) continue;
         const double step_s = now.t_s - samples[i - 1].t_s;
-        least = std::min(least, now.tension_f0);
-        most = std::max(most, now.tension_f0);
+        min = std::min(min, now.tension_f0);
+        max = std::max(max, now.tension_f0);
         sum += step_s * now.tension_f0;
         time_s += step_s;
     }
-    measured.add("fusion" + of, "", least / most);
+    measured.add("fusion" + of, "", min / max);
     measured.add("mean_f0" + of, "F0", sum / time_s);
 }
 

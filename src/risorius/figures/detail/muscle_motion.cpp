@@ -96,7 +96,7 @@ MuscleMotion move_muscle(const softbody::MuscleDescription& description, const M
             }
             MuscleSample now = sample(state);
             now.speed = (now.stretch - motion.samples.back().stretch) /
-                        ((now.t_s - before_s) * parameters.greatest_speed_hz);
+                        ((now.t_s - before_s) * parameters.max_speed_hz);
             motion.samples.push_back(now);
             if (plan.ended && plan.ended(now)) return motion;
         }

@@ -30,18 +30,17 @@ double length_with_fibres(const softbody::MuscleDescription& muscle, double fibr
 
 /// Between the two samples beside the length, whichever way it is passed.
 Passing passing_of(const softbody::MuscleDescription& muscle, MuscleMotion motion, double at) {
-    const double greatest_m_per_s =
-        muscle.musculotendon.greatest_speed_hz * muscle.musculotendon.optimal_length_m;
+    const double max_m_per_s =
+        muscle.musculotendon.max_speed_hz * muscle.musculotendon.optimal_length_m;
     Passing passing;
     const std::vector<MuscleSample>& samples = motion.samples;
     for (std::size_t i = 2; i < samples.size() && !passing.found; ++i) {
         const MuscleSample &a = samples[i - 1], &b = samples[i];
         if ((a.stretch - at) * (b.stretch - at) > 0 || a.stretch == b.stretch) continue;
-        const double share = (at - a.stretch) / (b.stretch - a.stretch);
-        passing.force_f0 = a.tension_f0 + share * (b.tension_f0 - a.tension_f0);
-        passing.speed = a.speed + share * (b.speed - a.speed);
-        passing.plate_speed =
-            (b.lengthening_m - a.lengthening_m) / ((b.t_s - a.t_s) * greatest_m_per_s);
+        const double fraction = (at - a.stretch) / (b.stretch - a.stretch);
+        passing.force_f0 = a.tension_f0 + fraction * (b.tension_f0 - a.tension_f0);
+        passing.speed = a.speed + fraction * (b.speed - a.speed);
+        passing.plate_speed = (b.lengthening_m - a.lengthening_m) / ((b.t_s - a.t_s) * max_m_per_s);
         passing.found = true;
     }
     passing.found = passing.found && motion.converged && !motion.diverged;
@@ -63,7 +62,7 @@ Passing released_at_speed(const softbody::MuscleDescription& muscle, const Relea
     const double from = length_with_fibres(
         muscle, bench.at_fibre_length + (shortens ? bench.reach : -bench.reach), bench.activation);
     const double from_m = lengthening_m(muscle, from);
-    const double m_per_s = speed * p.greatest_speed_hz * p.optimal_length_m;
+    const double m_per_s = speed * p.max_speed_hz * p.optimal_length_m;
     const double time_s = bench.reach * p.optimal_length_m / std::abs(m_per_s);
     MotionPlan plan{.task = {.activation = [a = bench.activation](double) { return a; },
                              .lengthening_m = [=](double t_s) { return from_m + m_per_s * t_s; }},
@@ -79,7 +78,7 @@ Passing released_with_load(const softbody::MuscleDescription& muscle, const Rele
     const double expected =
         std::abs(line_speed(muscle, load_f0, bench.at_fibre_length, bench.activation));
     const double time_s =
-        bench.reach / (std::max(kSlowest, std::min(expected, 1.0)) * p.greatest_speed_hz);
+        bench.reach / (std::max(kSlowest, std::min(expected, 1.0)) * p.max_speed_hz);
     const double force_n = load_f0 * p.f0_n, mass_kg = force_n / kGravity_m_per_s2;
     const double stiffness = line_tendon_stiffness(muscle);
     const double step_s =
@@ -103,7 +102,7 @@ Hill hill_through(const std::vector<double>& force_f0, const std::vector<double>
     }
     const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
     const double first = (sy - slope * sx) / n;
-    return {.a_f0 = first / slope, .greatest_speed = 1 / first};
+    return {.a_f0 = first / slope, .max_speed = 1 / first};
 }
 
 }  // namespace risorius::figures

@@ -36,7 +36,7 @@ Passing released_with_load(const softbody::MuscleDescription& muscle, const Rele
 
 /// (P + a)(v + b) = (F0 + a) b of shortening muscles by least squares, P in F0, v > 0 in vmax l0.
 struct Hill {
-    double a_f0 = 0, greatest_speed = 0;
+    double a_f0 = 0, max_speed = 0;
 };
 Hill hill_through(const std::vector<double>& force_f0, const std::vector<double>& speed);
 

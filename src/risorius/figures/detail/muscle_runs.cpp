@@ -116,10 +116,10 @@ double normalised_length(const softbody::MuscleDescription& muscle, double lengt
 }
 
 bool is_at_rest(const softbody::MuscleBody& muscle, const solve::MotionState& state) {
-    constexpr double kShare = 1e-9;
+    constexpr double kFraction = 1e-9;
     Points force;
     muscle.body.system.force(state.t_s, state.x, Points::Zero(state.x.rows(), 3), force);
-    return force.rowwise().norm().maxCoeff() < kShare * muscle.musculotendon->parameters().f0_n;
+    return force.rowwise().norm().maxCoeff() < kFraction * muscle.musculotendon->parameters().f0_n;
 }
 
 Shape muscle_shape(const softbody::MuscleBody& muscle, double t_s, const Points& x,

@@ -79,7 +79,7 @@ Contraction contract(const MuscleRun& run, double activation, double shortening,
     solve::MotionState state = body.start();
     Contraction found;
     found.rest = muscle_shape(muscle, 0, state.x, run.name, run.label + ", at rest");
-    const auto settle = [&] {
+    const auto solve_equilibrium = [&] {
         options.monitor.throw_if_stopped();
         const solve::IntegratorReport report =
             solve::equilibrium(body.system, state,
@@ -94,12 +94,12 @@ Contraction contract(const MuscleRun& run, double activation, double shortening,
     constexpr int kActivations = 3;
     for (int i = 1; i <= kActivations; ++i) {
         activated = activation * i / kActivations;
-        settle();
+        solve_equilibrium();
     }
     const int steps = static_cast<int>(std::ceil(shortening / kStep - 1e-9));
     for (int i = 1; i <= steps; ++i) {
         moved_m = -shortening * l0 * i / steps;
-        settle();
+        solve_equilibrium();
     }
     found.contracted = muscle_shape(muscle, 0, state.x, run.name, "contracted");
     found.bulge = bulge(body, state.x);

@@ -16,7 +16,7 @@
 namespace risorius::figures {
 namespace {
 
-constexpr int kFewestNodes = 2, kMostNodes = 40;  // per edge
+constexpr int kFewestNodes = 2, kMaxNodes = 40;  // per edge
 /// What linear theory lets a motion grow by before it counts as unstable.
 constexpr double kGrowthToInstability = 1e6;
 
@@ -52,7 +52,7 @@ std::string key(const std::string& what, solve::Method method, int edge) {
 std::vector<int> read_edges(const JsonCursor& json) {
     std::vector<int> edges;
     for (const JsonCursor& edge : json.items())
-        edges.push_back(edge.integer(kFewestNodes, kMostNodes));
+        edges.push_back(edge.integer(kFewestNodes, kMaxNodes));
     if (edges.empty()) json.fail("at least one number of nodes per edge");
     return edges;
 }
@@ -88,7 +88,7 @@ Plan read_plan(const JsonCursor& experiment) {
     }
     if (const auto v = experiment.find("tension")) {
         v->allow_keys({"nodes_per_edge", "method", "shortest_s", "duration_s"});
-        plan.tension_edge = v->at("nodes_per_edge").integer(kFewestNodes, kMostNodes);
+        plan.tension_edge = v->at("nodes_per_edge").integer(kFewestNodes, kMaxNodes);
         std::vector<std::string_view> names;
         for (const solve::Method method : plan.methods) names.push_back(solve::name_of(method));
         plan.tension_method = solve::method_named(v->at("method").one_of(names));

@@ -16,7 +16,7 @@
 namespace risorius::figures {
 namespace {
 
-constexpr int kMostLengths = 1000;
+constexpr int kMaxLengths = 1000;
 
 struct Picture {
     std::size_t run;
@@ -41,7 +41,7 @@ std::vector<double> read_lengths(const JsonCursor& json) {
         const double from = json.at("from").number(kNormalisedLengths);
         const double to = json.at("to").number({from, kNormalisedLengths.max});
         const double step =
-            json.at("step").number({(to - from) / kMostLengths, kNormalisedLengths.max});
+            json.at("step").number({(to - from) / kMaxLengths, kNormalisedLengths.max});
         // Steps are counted, so that a length is the number its decimals say
         const int count = step > 0 ? static_cast<int>(std::floor((to - from) / step + 1e-9)) : 0;
         for (int i = 0; i <= count; ++i)
@@ -101,7 +101,7 @@ struct StaticsResults {
     std::vector<Shape> shapes;
 };
 
-StaticsResults settle_all(const StaticsPlan& plan, const RunOptions& options) {
+StaticsResults solve_equilibria(const StaticsPlan& plan, const RunOptions& options) {
     StaticsResults results;
     results.runs.resize(plan.runs.size());
     results.shapes.resize(plan.pictures.size());
@@ -324,7 +324,7 @@ std::vector<plot::Chart> over_parameter(const StaticsPlan& plan,
 
 void run_muscle_statics(const JsonCursor& experiment, const RunOptions& options, Outcome& outcome) {
     const StaticsPlan plan = read_statics(experiment);
-    StaticsResults results = settle_all(plan, options);
+    StaticsResults results = solve_equilibria(plan, options);
     outcome.figure.shapes = std::move(results.shapes);
     std::vector<TensionCurves> solids;
     for (std::size_t r = 0; r < plan.runs.size(); ++r)

@@ -111,7 +111,7 @@ void measure(const ReleasePlan& plan, const MuscleRun& run, const std::vector<Pa
     const auto best =
         std::max_element(found.power.begin(), found.power.end()) - found.power.begin();
     outcome.measured.add("hill_a_f0/" + run.name, "F0", hill.a_f0);
-    outcome.measured.add("hill_vmax/" + run.name, "vmax", hill.greatest_speed);
+    outcome.measured.add("hill_vmax/" + run.name, "vmax", hill.max_speed);
     outcome.measured.add("power/" + run.name, "F0 vmax l0",
                          found.power[static_cast<std::size_t>(best)]);
     outcome.measured.add("power_speed/" + run.name, "vmax",

@@ -9,7 +9,7 @@
 
 namespace risorius::figures {
 
-struct Settled {
+struct EquilibriumRun {
     Points x;
     solve::IntegratorReport report;
     double speed_ratio = 0;  ///< fastest node times 1 s over the body's length
@@ -18,7 +18,8 @@ struct Settled {
 };
 
 /// Moves for `duration_s`; the quasi-static method needs one call whatever the duration.
-Settled settle(const softbody::SoftBody& body, solve::IntegratorOptions integrator,
-               double duration_s, const RunOptions& options);
+EquilibriumRun run_to_equilibrium(const softbody::SoftBody& body,
+                                  solve::IntegratorOptions integrator, double duration_s,
+                                  const RunOptions& options);
 
 }  // namespace risorius::figures

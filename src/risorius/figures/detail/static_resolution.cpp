@@ -12,7 +12,7 @@ namespace risorius::figures {
 namespace {
 
 struct Result {
-    Settled settled;
+    EquilibriumRun equilibrium;
     Extent extent{};
     double volume_change_percent = 0;
 };
@@ -49,10 +49,10 @@ void run_static_resolution(const JsonCursor& experiment, const RunOptions& optio
         const std::size_t at = load.order[static_cast<std::size_t>(i)];
         const softbody::SoftBody body = softbody::build_body(runs[at].body);
         Result& result = results[at];
-        result.settled = settle(body, runs[at].integrator, duration_s, options);
-        result.extent = extent_along(body, result.settled.x, axis);
+        result.equilibrium = run_to_equilibrium(body, runs[at].integrator, duration_s, options);
+        result.extent = extent_along(body, result.equilibrium.x, axis);
         result.volume_change_percent =
-            100 * (body.volume(result.settled.x) / body.volume(body.rest) - 1);
+            100 * (body.volume(result.equilibrium.x) / body.volume(body.rest) - 1);
         progress.done(load.work[at], runs[at].name + " " + grid_name(runs[at].body.grid));
     });
 
@@ -63,28 +63,28 @@ void run_static_resolution(const JsonCursor& experiment, const RunOptions& optio
     for (std::size_t k = 0; k < runs.size(); ++k) {
         const Result& result = results[k];
         const std::string of = runs[k].name + "/" + grid_name(runs[k].body.grid);
-        const auto linear_solves = static_cast<double>(result.settled.report.linear_solves);
+        const auto linear_solves = static_cast<double>(result.equilibrium.report.linear_solves);
         outcome.measured.add("length_ratio/" + of, "", result.extent.length_ratio);
         outcome.measured.add("drift_ratio/" + of, "", result.extent.drift_ratio);
         outcome.measured.add("volume_change_percent/" + of, "%", result.volume_change_percent);
-        outcome.measured.add("force_ratio/" + of, "", result.settled.force_ratio);
+        outcome.measured.add("force_ratio/" + of, "", result.equilibrium.force_ratio);
         outcome.measured.add("linear_solves/" + of, "", linear_solves);
         table.row_names.push_back(of);
         table.rows.push_back(
             {static_cast<double>(runs[k].body.grid.size()), result.extent.length_ratio,
-             result.extent.drift_ratio, result.volume_change_percent, result.settled.force_ratio,
-             static_cast<double>(result.settled.report.steps),
-             static_cast<double>(result.settled.report.evaluations), linear_solves});
+             result.extent.drift_ratio, result.volume_change_percent,
+             result.equilibrium.force_ratio, static_cast<double>(result.equilibrium.report.steps),
+             static_cast<double>(result.equilibrium.report.evaluations), linear_solves});
     }
     for (std::size_t k = 0; k < runs.size();) {
-        double least = kInfinity, most = 0;
+        double min = kInfinity, max = 0;
         std::size_t end = k;
         for (; end < runs.size() && runs[end].name == runs[k].name; ++end) {
-            least = std::min(least, results[end].extent.length_ratio);
-            most = std::max(most, results[end].extent.length_ratio);
+            min = std::min(min, results[end].extent.length_ratio);
+            max = std::max(max, results[end].extent.length_ratio);
         }
         outcome.measured.add("length_spread_percent/" + runs[k].name, "%",
-                             200 * (most - least) / (most + least));
+                             200 * (max - min) / (max + min));
         k = end;
     }
     outcome.figure.tables.push_back(std::move(table));

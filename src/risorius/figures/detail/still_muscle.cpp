@@ -11,9 +11,9 @@ namespace {
 
 /// Where a curve through points first falls below a height from its greatest to the left (-1) or the right (+1); its last
 /// point if it never does.
-double crossing(const std::vector<double>& x, const std::vector<double>& y, std::size_t greatest,
+double crossing(const std::vector<double>& x, const std::vector<double>& y, std::size_t max,
                 int direction, double height) {
-    std::size_t i = greatest;
+    std::size_t i = max;
     for (;;) {
         if (direction < 0 ? i == 0 : i + 1 == x.size()) return x[i];
         const std::size_t next = direction < 0 ? i - 1 : i + 1;
@@ -32,7 +32,7 @@ StillMuscle::StillMuscle(const softbody::MuscleDescription& description, double 
       state_(muscle_.body.start()),
       rest_volume_(muscle_.body.volume(muscle_.body.rest)) {}
 
-bool StillMuscle::settle() {
+bool StillMuscle::solve_equilibrium() {
     const solve::IntegratorReport report =
         solve::equilibrium(muscle_.body.system, state_,
                            {.method = solve::Method::kQuasiStatic,
@@ -44,7 +44,7 @@ bool StillMuscle::settle() {
 Still StillMuscle::at(double length) {
     *plate_m_ = lengthening_m(description_, length);
     Still still;
-    still.converged = is_at_rest(muscle_, state_) || settle();
+    still.converged = is_at_rest(muscle_, state_) || solve_equilibrium();
     still.tension_f0 = muscle_.tension(0, state_.x);
     still.stretch = muscle_.musculotendon->stretch(state_.x).mean();
     still.spread = muscle_.musculotendon->segment_spread(state_.x);
@@ -76,7 +76,7 @@ std::vector<Still> still_over(const softbody::MuscleDescription& muscle, double 
 }
 
 TensionPeak peak_of(const std::vector<double>& lengths, const std::vector<double>& force_f0,
-                    double share) {
+                    double fraction) {
     const std::vector<double>&x = lengths, &y = force_f0;
     const auto i = static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin());
     TensionPeak peak{.force_f0 = y[i], .length = x[i]};
@@ -90,7 +90,7 @@ TensionPeak peak_of(const std::vector<double>& lengths, const std::vector<double
             peak.force_f0 = y[i] + slope * at / 2;
         }
     }
-    const double height = share * peak.force_f0;
+    const double height = fraction * peak.force_f0;
     peak.range = crossing(x, y, i, 1, height) - crossing(x, y, i, -1, height);
     return peak;
 }

@@ -34,7 +34,7 @@ class StillMuscle {
     Shape shape(const std::string& name, const std::string& caption) const;
 
   private:
-    bool settle();
+    bool solve_equilibrium();
 
     softbody::MuscleDescription description_;
     std::shared_ptr<double> plate_m_ = std::make_shared<double>(0);
@@ -54,6 +54,6 @@ struct TensionPeak {
     double range = 0;   ///< of lengths where force is above a share of that
 };
 TensionPeak peak_of(const std::vector<double>& lengths, const std::vector<double>& force_f0,
-                    double share);
+                    double fraction);
 
 }  // namespace risorius::figures

@@ -83,9 +83,9 @@ Features features_of(const std::vector<double>& percent, double sample_s) {
     const std::size_t tail = std::max<std::size_t>(1, percent.size() / 10);
     features.last = std::accumulate(percent.end() - static_cast<long>(tail), percent.end(), 0.0) /
                     static_cast<double>(tail);
-    constexpr double kSettledShare = 0.05;
+    constexpr double kSettledFraction = 0.05;
     for (std::size_t i = 0; i < percent.size(); ++i)
-        if (std::abs(percent[i] - features.last) > kSettledShare * std::abs(features.peak))
+        if (std::abs(percent[i] - features.last) > kSettledFraction * std::abs(features.peak))
             features.settled_s = static_cast<double>(i + 1) * sample_s;
     return features;
 }

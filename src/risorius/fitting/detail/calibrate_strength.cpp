@@ -47,7 +47,8 @@ std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigD
             face.scale_muscle(muscle.muscle, strength / muscle.strength);
             muscle.strength = strength;
             muscle.converged =
-                face.settle(activation, rest, {.iterations = kTrialIterations}).converged;
+                face.solve_equilibrium(activation, rest, {.iterations = kTrialIterations})
+                    .converged;
             muscle.stretch = face.mean_stretch(muscle.muscle);
             const double miss = muscle.stretch - muscle.target_stretch;
             if (std::abs(miss) < kTolerance) break;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFarthestFromSkin_mm = 15, kOffSkin_mm = 5;
-constexpr double kLeastFissure_mm = 3;  // between the lids of an eye that can close
+constexpr double kMinFissure_mm = 3;  // between the lids of an eye that can close
 constexpr double kSamePlace_mm = 0.2, kApart_mm = 5;
 constexpr double kRefusedRatio = 4.5,
                  kRefused_mm = 12;      // required ones reach 2.5 on heads of two sigma
@@ -118,10 +118,10 @@ void check_sides(const LandmarkPositions& landmarks, const rig::Atlas& atlas,
     for (const char* side : {"_l", "_r"}) {
         const std::string upper = std::string("ps") + side, lower = std::string("pi") + side;
         const double open_mm = 1e3 * (landmarks.at(upper) - landmarks.at(lower)).norm() / size;
-        if (open_mm < kLeastFissure_mm)
+        if (open_mm < kMinFissure_mm)
             throw Error(place + "/" + upper,
-                        "an open eye, \"" + lower + "\" at least " +
-                            format_number(kLeastFissure_mm) + " mm below",
+                        "an open eye, \"" + lower + "\" at least " + format_number(kMinFissure_mm) +
+                            " mm below",
                         format_number(std::round(10 * open_mm) / 10) +
                             " mm (a head with closed eyes has no lids to move)");
     }

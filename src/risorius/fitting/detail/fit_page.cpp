@@ -11,7 +11,7 @@
 namespace risorius::fitting {
 namespace {
 
-constexpr std::size_t kMostWorthGiving = 10;
+constexpr std::size_t kMaxWorthGiving = 10;
 
 std::string rounded(double value, int digits) {
     char text[32];
@@ -70,7 +70,7 @@ std::string page_of(const FitReport& report, const rig::RigDescription& rig) {
     }
     if (!report.worth_giving.empty()) {
         html.element("h2", "Landmarks that would help most").open("table");
-        for (std::size_t i = 0; i < std::min(kMostWorthGiving, report.worth_giving.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(kMaxWorthGiving, report.worth_giving.size()); ++i) {
             const rig::AtlasLandmark* landmark = rig.atlas.landmark(report.worth_giving[i]);
             row(html, landmark->id, landmark->name);
         }

@@ -91,8 +91,8 @@ std::string text_of(const char* format, double a, double b = 0, double c = 0) {
 
 BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig,
                            const face::Shell& shell) {
-    const std::array<face::EyeLids, 2> lids{face::EyeLids(head, 0, rig.eyes.lid_closed_share),
-                                            face::EyeLids(head, 1, rig.eyes.lid_closed_share)};
+    const std::array<face::EyeLids, 2> lids{face::EyeLids(head, 0, rig.eyes.lid_closed_fraction),
+                                            face::EyeLids(head, 1, rig.eyes.lid_closed_fraction)};
     const face::Jaw jaw(head, rig.jaw);
     const face::TissueMesh tissue = face::build_tissue_mesh(head, rig, shell, lids);
     BoneEstimate out;
@@ -105,8 +105,8 @@ BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig
         out.skin.row(v) = tissue.nodes.row(face::node_of(node, face::kSkin));
         out.bone.row(v) = tissue.nodes.row(face::node_of(node, face::kDeep));
         out.thickness_m.push_back((out.skin.row(v) - out.bone.row(v)).norm());
-        out.jaw_share.push_back(jaw.weight(out.bone.row(v).transpose(),
-                                           shell.over_bite_m[static_cast<std::size_t>(v)]));
+        out.jaw_fraction.push_back(jaw.weight(out.bone.row(v).transpose(),
+                                              shell.over_bite_m[static_cast<std::size_t>(v)]));
     }
     return out;
 }
@@ -139,7 +139,7 @@ Image fit_picture(const rig::Head& head, const BoneEstimate& bone, const rig::Ri
     }
     std::vector<MarkedLine> lines{{face::lip_line(head), kSeam, 2.5}};
     for (int side = 0; side < 2; ++side) {
-        const face::EyeLids lids(head, side, rig.eyes.lid_closed_share);
+        const face::EyeLids lids(head, side, rig.eyes.lid_closed_fraction);
         lines.push_back({lids.upper_margin(), kLid, 2});
         lines.push_back({lids.lower_margin(), kLid, 2});
     }
@@ -156,8 +156,8 @@ Image fit_picture(const rig::Head& head, const BoneEstimate& bone, const rig::Ri
 
     // Bone, and skin over it
     ColouredSurface bones{bone.bone, bone.triangles, {}};
-    for (const double share : bone.jaw_share)
-        bones.colours.push_back((1 - share) * kSkull + share * kMandible);
+    for (const double fraction : bone.jaw_fraction)
+        bones.colours.push_back((1 - fraction) * kSkull + fraction * kMandible);
     ColouredSurface veil{head.vertices, head.skin, all_of(kSkin, head.vertices.rows()), 0.28};
 
     Image image(4 * kPanel_px, kPanelHeight_px + kCaption_px);

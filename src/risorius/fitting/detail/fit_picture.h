@@ -20,7 +20,7 @@ struct BoneEstimate {
     Triangles triangles;              ///< over both
     std::vector<double> thickness_m;  ///< N
     std::vector<double>
-        jaw_share;  ///< N, fraction of the mandible's motion: 1 on the mandible, 0 on the skull
+        jaw_fraction;  ///< N, fraction of the mandible's motion: 1 on the mandible, 0 on the skull
 };
 BoneEstimate bone_estimate(const rig::Head& head, const rig::RigDescription& rig,
                            const face::Shell& shell);

@@ -14,11 +14,11 @@ namespace risorius::fitting {
 
 namespace {
 
-constexpr double kGreatest = 1.0;  // of z
+constexpr double kMax = 1.0;  // of z
 constexpr double kLongestStep = 0.5;
 constexpr double kDifference = 0.02;  // of z, for slopes
 constexpr int kIterations = 200;      // of the solver, per expression
-constexpr double kLeastRatio = 0.1;   // what is as near as that counts by its square
+constexpr double kMinRatio = 0.1;     // what is as near as that counts by its square
 constexpr double kIdle = 0.02;        // a muscle that is less active hardly shows in an expression
 
 constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPressure);
@@ -78,8 +78,8 @@ class Fit {
             if (round == options_.rounds) break;
             const Eigen::VectorXd step =
                 Eigen::VectorXd::Constant(best.size(), reach * kLongestStep);
-            problem.least = (best - step).cwiseMax(-kGreatest);
-            problem.most = (best + step).cwiseMin(kGreatest);
+            problem.min = (best - step).cwiseMax(-kMax);
+            problem.max = (best + step).cwiseMin(kMax);
             Eigen::VectorXd next = best;
             solve::minimise(problem, next, 1e-6, 400);
             set(next);
@@ -127,7 +127,7 @@ class Fit {
                 (round + static_cast<double>(e) / static_cast<double>(expressions_.size())) /
                     (options_.rounds + 1),
                 one.name);
-            const Points miss = ways_.settle(scaled(one.drive), kIterations) - one.goal;
+            const Points miss = ways_.solve_equilibrium(scaled(one.drive), kIterations) - one.goal;
             const double length = one.goal.norm(), ratio = miss.norm() / length;
             const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
             const Points way = miss + one.goal;
@@ -137,12 +137,12 @@ class Fit {
             sum += ratio / static_cast<double>(expressions_.size());
             if (model == nullptr) continue;
             const Eigen::MatrixXd J = slopes(one.drive);
-            const double weight = 1 / (length * length * std::max(ratio, kLeastRatio));
+            const double weight = 1 / (length * length * std::max(ratio, kMinRatio));
             model->A += weight * (J.transpose() * J);
             model->b += weight * (J.transpose() * (r - J * z_));
             if (!(u.norm() > 0)) continue;
             const Eigen::VectorXd slope = J.transpose() * u / (u.norm() * length);
-            const double heavy = options_.length / std::max(std::abs(longer), kLeastRatio);
+            const double heavy = options_.length / std::max(std::abs(longer), kMinRatio);
             model->A += heavy * slope * slope.transpose();
             model->b += heavy * slope * (longer - slope.dot(z_));
         }

@@ -138,9 +138,9 @@ HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tab
         for (const MeasureScore& m : measure_head(model, tables, identity.sex))
             within = within && std::abs(m.deviation) <= kLargestDeviation;
         if (within || step == kSteps) return model;
-        const double share = 1.0 - static_cast<double>(step + 1) / kSteps;
+        const double fraction = 1.0 - static_cast<double>(step + 1) / kSteps;
         for (auto& [parameter, value] : identity.shape)
-            value = std::round(100 * share * wanted.shape.at(parameter)) / 100 + 0.0;
+            value = std::round(100 * fraction * wanted.shape.at(parameter)) / 100 + 0.0;
     }
 }
 

@@ -124,14 +124,14 @@ void HalfMesh::relax(int iterations, double rate, const std::function<Vec3(const
     }
 }
 
-void HalfMesh::smooth(int iterations, const std::vector<double>& share) {
+void HalfMesh::smooth(int iterations, const std::vector<double>& fraction) {
     constexpr double kShrink = 0.5, kGrow = -0.53;
     const auto around = neighbours();
     std::vector<Vec3> moved = point;
     for (int step = 0; step < 2 * iterations; ++step) {
         const double rate = step % 2 == 0 ? kShrink : kGrow;
         for (std::size_t v = 0; v < point.size(); ++v) {
-            if (share[v] <= 0) continue;
+            if (fraction[v] <= 0) continue;
             Vec3 sum = Vec3::Zero();
             double weight = 0;
             for (const int n : around[v]) {
@@ -140,7 +140,7 @@ void HalfMesh::smooth(int iterations, const std::vector<double>& share) {
                 sum += w * p;
                 weight += w;
             }
-            moved[v] = point[v] + share[v] * rate * (sum / weight - point[v]);
+            moved[v] = point[v] + fraction[v] * rate * (sum / weight - point[v]);
             if (midline[v]) moved[v].x() = 0;
         }
         point = moved;

@@ -70,7 +70,7 @@ struct HalfMesh {
     std::vector<Vec3> normals() const;
 
     /// Removes ripples without shrinking (Taubin 1995). The second argument is the weight of each vertex, 0..1.
-    void smooth(int iterations, const std::vector<double>& share);
+    void smooth(int iterations, const std::vector<double>& fraction);
 
     /// Moves vertices towards the mean of their neighbours; `project` puts vertices on the head back onto it.
     void relax(int iterations, double rate, const std::function<Vec3(const Vec3&)>& project,

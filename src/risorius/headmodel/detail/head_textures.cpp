@@ -76,9 +76,9 @@ Image lash_opacity(int side_px) {
 std::vector<std::string> write_head_textures(const render::Scene& scene, int side_px,
                                              const std::vector<double>& crown_height,
                                              const std::filesystem::path& folder) {
-    constexpr int kLeast_px = 256, kMost_px = 4096;
-    if (side_px < kLeast_px || side_px > kMost_px)
-        throw Error("texture_px", std::to_string(kLeast_px) + ".." + std::to_string(kMost_px),
+    constexpr int kMin_px = 256, kMax_px = 4096;
+    if (side_px < kMin_px || side_px > kMax_px)
+        throw Error("texture_px", std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
                     std::to_string(side_px));
     // The square of the skin holds a head of 0.6 m from ear to ear over the crown, and the view is as fine; the others hold less.
     const render::OffscreenView view(scene, {.width_px = side_px / 2, .height_px = side_px / 2});

@@ -100,11 +100,11 @@ std::vector<FlatTriangle> flat_triangles(const std::vector<Vec3>& points,
             const double length = std::max(along.norm(), 1e-6);
             const double height = along.cross(other).norm() / length;
             t.at = {Vec2(0, 0), Vec2(length, 0), Vec2(along.dot(other) / length, height)};
-            constexpr double kMost = 20;  // cotangent of an angle of three degrees
+            constexpr double kMax = 20;  // cotangent of an angle of three degrees
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
                 const double cross = a.cross(b).norm();
-                t.weight[k] = 0.25 * std::clamp(a.dot(b) / std::max(cross, 1e-9), 0.02, kMost);
+                t.weight[k] = 0.25 * std::clamp(a.dot(b) / std::max(cross, 1e-9), 0.02, kMax);
             }
             triangles.push_back(t);
         }
@@ -183,9 +183,9 @@ bool place_border(std::vector<int>& loop, const std::vector<int>& local,
                        : round * static_cast<double>(k) / static_cast<double>(longest));
             at[i] = 300 * Vec2(std::cos(angle), std::sin(angle));
         } else {
-            const double share = static_cast<double>(k - longest) /
-                                 std::max(1.0, static_cast<double>(loop.size() - longest - 1));
-            at[i] = 300 * Vec2(0, 1 - 2 * share);
+            const double fraction = static_cast<double>(k - longest) /
+                                    std::max(1.0, static_cast<double>(loop.size() - longest - 1));
+            at[i] = 300 * Vec2(0, 1 - 2 * fraction);
         }
     }
     return lined;

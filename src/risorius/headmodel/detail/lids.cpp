@@ -72,11 +72,11 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
     };
     // The upper lid folds in along a crease some millimetres above its margin, and hangs over it a little.
     const double peak = (tables.landmarks.at("ucr_l") - tables.landmarks.at("ps_l")).norm();
-    const auto lid_height = [&](int k, double share) {
+    const auto lid_height = [&](int k, double fraction) {
         const int along = k >= kOuter ? k - kOuter : k < kInner ? k + kLoop - kOuter : -1;
         if (along < 0) return 0.0;
         const double u = static_cast<double>(along) / (kLoop + kInner - kOuter);
-        return share * peak * std::pow(std::sin(M_PI * u), 0.7);
+        return fraction * peak * std::pow(std::sin(M_PI * u), 0.7);
     };
     const auto on_lid = [&](int k, double height, double raise) {
         Vec3 p = head.project(margin[k] + height * outwards(k));
@@ -105,11 +105,11 @@ void add_lids(Skin& skin, const std::vector<int>& block, const DesignTables& tab
                     1.3);
                 mesh.hold[v] = Hold::kPinned;
             }
-        constexpr double kShare[] = {0, 0, 0, 1.35, 0.98, 0.62},
+        constexpr double kFraction[] = {0, 0, 0, 1.35, 0.98, 0.62},
                          kRaise[] = {0, 0, 0, 0.5, -0.9, 0.0};
-        if (kShare[r] == 0) continue;
+        if (kFraction[r] == 0) continue;
         for (int k = 0; k < kLoop; ++k) {
-            const double height = lid_height(k, kShare[r]);
+            const double height = lid_height(k, kFraction[r]);
             if (height < 2.6 ||
                 mesh.hold[static_cast<std::size_t>(ids[static_cast<std::size_t>(k)])] ==
                     Hold::kPinned)

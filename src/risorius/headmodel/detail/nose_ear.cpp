@@ -29,7 +29,7 @@ Vec3 ear_relief(const std::map<std::string, std::vector<ReliefPoint>>& features,
     constexpr double kSharpness = 3;  // of the joint where two ridges meet
     double ridges = 0, pits = 0, lean = 0;
     for (const auto& [name, line] : features) {
-        double greatest = 0, leaning = 0;
+        double max = 0, leaning = 0;
         for (std::size_t k = 0; k + 1 < std::max<std::size_t>(line.size(), 2); ++k) {
             const ReliefPoint &a = line[k], &b = line[std::min(k + 1, line.size() - 1)];
             const Vec2 along = b.place - a.place, from = p.head<2>() - a.place;
@@ -37,12 +37,12 @@ Vec3 ear_relief(const std::map<std::string, std::vector<ReliefPoint>>& features,
             const double t = length > 0 ? std::clamp(from.dot(along) / length, 0.0, 1.0) : 0.0;
             const double width = a.width_mm + t * (b.width_mm - a.width_mm),
                          height = a.height_mm + t * (b.height_mm - a.height_mm);
-            const double share = std::exp(-(from - t * along).squaredNorm() / (width * width));
-            if (std::abs(height * share) <= std::abs(greatest)) continue;
-            greatest = height * share;
-            leaning = share * (a.lean_mm + t * (b.lean_mm - a.lean_mm));
+            const double fraction = std::exp(-(from - t * along).squaredNorm() / (width * width));
+            if (std::abs(height * fraction) <= std::abs(max)) continue;
+            max = height * fraction;
+            leaning = fraction * (a.lean_mm + t * (b.lean_mm - a.lean_mm));
         }
-        (greatest > 0 ? ridges : pits) += std::pow(std::abs(greatest), kSharpness);
+        (max > 0 ? ridges : pits) += std::pow(std::abs(max), kSharpness);
         lean += leaning;
     }
     return {lean, 0, std::pow(ridges, 1 / kSharpness) - std::pow(pits, 1 / kSharpness)};
@@ -172,8 +172,8 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     // The back of the auricle, up to the rounded edge of the helix
     const auto rear = [&](int k, double inwards, double deeper) {
         const Vec3 to_inner = (inner[k] - edge[k]).cwiseProduct(Vec3(1, 1, 0)).normalized();
-        const double share = 1 - attached(k);
-        Vec3 free = edge[k] + share * (inwards * to_inner - Vec3(0, 0, deeper));
+        const double fraction = 1 - attached(k);
+        Vec3 free = edge[k] + fraction * (inwards * to_inner - Vec3(0, 0, deeper));
         constexpr double kClear = 0.8;  // of the head
         free.z() = std::min(std::max(free.z(), on_head(free).z() + kClear), edge[k].z() - 0.2);
         const Vec3 bound = behind[k] + (edge[k] - behind[k]) * (1 - inwards / 6);
@@ -190,17 +190,17 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     mesh.fill(previous, kRows, kAcross, Hold::kPinned);
     for (std::size_t v = first; v < mesh.point.size(); ++v) {
         const auto ring_of = (v - first) / kLoop;
-        const double share = ring_of > 2 ? 1.0 : static_cast<double>(ring_of) / 3.0;
+        const double fraction = ring_of > 2 ? 1.0 : static_cast<double>(ring_of) / 3.0;
         const int k = static_cast<int>((v - first) % kLoop);
         // Nothing is raised where the edge lies on the cheek.
-        const double rise = ring_of > 2 ? 1.0 : 1 - attached(k) * (1 - share);
+        const double rise = ring_of > 2 ? 1.0 : 1 - attached(k) * (1 - fraction);
         mesh.point[v] =
             in_space(mesh.point[v] + rise * ear_relief(tables.ear_relief, mesh.point[v]));
     }
     // What is finer than the mesh would show as facets.
-    std::vector<double> share(mesh.point.size(), 0.0);
-    for (std::size_t v = first; v < mesh.point.size(); ++v) share[v] = 1;
-    mesh.smooth(3, share);
+    std::vector<double> fraction(mesh.point.size(), 0.0);
+    for (std::size_t v = first; v < mesh.point.size(); ++v) fraction[v] = 1;
+    mesh.smooth(3, fraction);
 }
 
 }  // namespace risorius::headmodel

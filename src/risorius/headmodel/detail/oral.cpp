@@ -238,9 +238,9 @@ void add_crown(Builder& builder, const Crown& crown, double scale, Arch arch, co
     // From the rounded edge to its middle it is a quarter as far as from the neck to the edge.
     constexpr double kTop = 0.2;
     builder.tube(rings, {0, [&disc](int ring, double around) {
-                             const double share =
+                             const double fraction =
                                  ring > kRings ? 0 : 1 - (1 - kTop) * crown_height(ring);
-                             return disc.at(share, 2 * M_PI * around);
+                             return disc.at(fraction, 2 * M_PI * around);
                          }});
     Vec3 apex = Vec3::Zero();
     for (const int v : rings.back())
@@ -267,10 +267,10 @@ geom::PolygonMesh teeth(Arch arch, const std::string& group) {
 std::vector<double> crown_heights() {
     std::vector<double> heights;
     for (int tooth = 0; tooth < 14; ++tooth) {
-        const double most = kUpperCrowns[tooth % 7].molar ? 0.8 : 1.0;
+        const double max = kUpperCrowns[tooth % 7].molar ? 0.8 : 1.0;
         for (int r = 0; r <= kCrownRings; ++r)
-            heights.insert(heights.end(), kCrownAround, std::min(crown_height(r), most));
-        heights.push_back(most);  // the middle of the edge
+            heights.insert(heights.end(), kCrownAround, std::min(crown_height(r), max));
+        heights.push_back(max);  // the middle of the edge
     }
     return heights;
 }

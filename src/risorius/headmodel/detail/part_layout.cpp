@@ -5,8 +5,8 @@
 
 namespace risorius::headmodel {
 
-Vec2 Disc::at(double share, double angle) const {
-    return middle + radius * share * Vec2(turn * std::cos(angle), std::sin(angle));
+Vec2 Disc::at(double fraction, double angle) const {
+    return middle + radius * fraction * Vec2(turn * std::cos(angle), std::sin(angle));
 }
 
 Disc eye_disc(double side) { return {.turn = side}; }

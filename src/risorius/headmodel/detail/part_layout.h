@@ -17,7 +17,7 @@ struct Disc {
     double turn = 1;  ///< -1 where angles run clockwise, seen from outside
 
     /// `share`: fraction of the way from the pole in the middle to the other end.
-    Vec2 at(double share, double angle) const;
+    Vec2 at(double fraction, double angle) const;
 };
 
 /// Both eyes at the same place: one picture for both. The front pole is in the middle.

@@ -255,9 +255,9 @@ Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap) {
     const Vec3 from = point - globe.centre;
     const double d = from.norm();
     if (d > 18 || from.z() < -2) return point;
-    const double least = globe.radius_at(from.z() / d) + gap;
-    const double soft = 0.5, over = d - least;
-    return globe.centre + from / d * (least + 0.5 * (over + std::sqrt(over * over + soft * soft)));
+    const double min = globe.radius_at(from.z() / d) + gap;
+    const double soft = 0.5, over = d - min;
+    return globe.centre + from / d * (min + 0.5 * (over + std::sqrt(over * over + soft * soft)));
 }
 
 Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe& globe) {

@@ -84,7 +84,7 @@ void write_means(report::HtmlWriter& html, const Evaluation& evaluation) {
         html.open("tr").element("td", name);
         html.element("td", how, {{"class", "number"}});
         for (const std::string& text :
-             {fixed(means.cosine, 3), fixed(means.least_cosine, 3), fixed(means.relative, 3),
+             {fixed(means.cosine, 3), fixed(means.min_cosine, 3), fixed(means.relative, 3),
               fixed(1e3 * means.rms_m, 2), fixed(1e3 * means.landmark_m, 2)})
             html.element("td", text, {{"class", "number"}});
         html.close();

@@ -73,7 +73,7 @@ FitTarget given_shapes(const fs::path& file, const std::vector<std::string>& onl
         }
     } else {
         for (MeasuredShape& one :
-             read_measured_shapes(file, {.only = only, .apart = true}, files.rig, head)) {
+             read_measured_shapes(file, {.only = only, .separate_sides = true}, files.rig, head)) {
             out.names.push_back(one.name);
             out.fields.push_back(std::move(one.displacement));
         }
@@ -102,7 +102,7 @@ FitTarget given_meshes(const std::vector<fs::path>& meshes, const scene::RigFile
 }
 
 FitTarget given_landmarks(const fs::path& file, int fps, const scene::LandmarkPoints& points,
-                          const std::vector<double>& most_m, long vertices) {
+                          const std::vector<double>& max_m, long vertices) {
     const auto table = signal::Recording::read_file(file);
     const std::string place = file.string();
     const int time = table.find("time_s");
@@ -141,7 +141,7 @@ FitTarget given_landmarks(const fs::path& file, int fps, const scene::LandmarkPo
     }
     std::vector<long> on_skull;
     for (std::size_t i = 0; i < known.size(); ++i)
-        if (most_m[known[i]] < kOnTheSkull_m) on_skull.push_back(static_cast<long>(i));
+        if (max_m[known[i]] < kOnTheSkull_m) on_skull.push_back(static_cast<long>(i));
     FitTarget out;
     out.weight = Eigen::VectorXd::Zero(vertices);
     for (const std::size_t i : known) out.weight[points.vertex(ids[i])] = 1;

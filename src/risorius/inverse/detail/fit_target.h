@@ -32,9 +32,9 @@ FitTarget given_meshes(const std::vector<std::filesystem::path>& meshes,
                        const scene::RigFiles& files, const face::Face& face);
 
 /// Reads a table of time_s and ID.x_mm, ID.y_mm, ID.z_mm, at most `fps` rows per second. The motion of the head is removed with the
-/// landmarks that muscles hardly move; `most_m`, m, is how far muscles move each of `points`. Throws Error.
+/// landmarks that muscles hardly move; `max_m`, m, is how far muscles move each of `points`. Throws Error.
 FitTarget given_landmarks(const std::filesystem::path& file, int fps,
-                          const scene::LandmarkPoints& points, const std::vector<double>& most_m,
+                          const scene::LandmarkPoints& points, const std::vector<double>& max_m,
                           long vertices);
 
 }  // namespace risorius::inverse

@@ -119,8 +119,8 @@ void check_sound(const std::string& place, Form form, const VideoOptions& option
     if (form == Form::kFolder)
         throw Error(place, "an ending that can hold sound, .mp4, .mov, .mkv or .webm",
                     ending_of(form));
-    const int most = form == Form::kMp4 || form == Form::kWebm ? 2 : 8;
-    check_range(place, "a number of sound channels", options.sound->channels, 1, most);
+    const int max = form == Form::kMp4 || form == Form::kWebm ? 2 : 8;
+    check_range(place, "a number of sound channels", options.sound->channels, 1, max);
     check_range(place, "a sample rate of sound in Hz", options.sound->rate_hz, 8000, 384000);
 }
 

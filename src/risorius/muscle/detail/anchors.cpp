@@ -43,8 +43,8 @@ Anchor bone_anchor(End end, const tissue::GridShape& grid, const Points& rest, c
     std::vector<double> length = {0};
     for (Eigen::Index i = 1; i < bone.rows(); ++i)
         length.push_back(length.back() + (bone.row(i) - bone.row(i - 1)).norm());
-    const auto along = [&](double share) -> Eigen::RowVector3d {
-        const double wanted = share * length.back();
+    const auto along = [&](double fraction) -> Eigen::RowVector3d {
+        const double wanted = fraction * length.back();
         Eigen::Index i = 1;
         while (i + 1 < bone.rows() && wanted > length[static_cast<std::size_t>(i)]) ++i;
         const double from = length[static_cast<std::size_t>(i) - 1];

@@ -13,7 +13,7 @@ namespace risorius::muscle::detail {
 namespace {
 
 /// Of a thing at a share of the length.
-std::string at_share(double s) {
+std::string at_fraction(double s) {
     return " at " + std::to_string(static_cast<int>(std::lround(100 * s))) + " % of the length";
 }
 
@@ -22,7 +22,7 @@ Loop section_at(const SectionedSurface& surface, const PathFrame& frame, double 
                 const std::string& place) {
     std::vector<Loop> loops = surface.loops(frame);
     const auto refuse = [&](const std::string& found) -> Error {
-        return {place, "a body with one section across its middle line", found + at_share(s)};
+        return {place, "a body with one section across its middle line", found + at_fraction(s)};
     };
     if (loops.empty()) throw refuse("none");
     if (loops.size() == 1) return std::move(loops.front());
@@ -41,10 +41,10 @@ double station(int k, int count, double margin) {
 
 Points first_line(const SectionedSurface& surface, const MuscleShape& shape) {
     if (shape.path_m.rows() > 0) return shape.path_m;
-    constexpr double kLeastSlenderness = 1.1;
+    constexpr double kMinSlenderness = 1.1;
     double slenderness;
     const Vec3 axis = surface.long_axis(slenderness);
-    if (!(slenderness > kLeastSlenderness))
+    if (!(slenderness > kMinSlenderness))
         throw Error(shape.place, "\"path_m\" for a body without a long axis", "none");
     const std::array<double, 2> extent = surface.extent(axis);
     Points line(2, 3);
@@ -89,7 +89,7 @@ Points middle_line(const SectionedSurface& surface, const MuscleShape& shape) {
 /// Nodes of one section: the square pressed into the unit disc, and the disc stretched along rays to the loop.
 std::vector<Vec2> fill_loop(const Loop& loop, int n, int o, double s, const std::string& place) {
     if (!(loop_area(loop) > 0) || crosses_itself(loop))
-        throw Error(place, "sections that do not cross themselves", "one" + at_share(s));
+        throw Error(place, "sections that do not cross themselves", "one" + at_fraction(s));
     const Vec2 centre = loop_centroid(loop), spread = loop_spread(loop).cwiseSqrt();
     const auto rim = [&](const Vec2& direction) {
         double found = 0;
@@ -106,7 +106,7 @@ std::vector<Vec2> fill_loop(const Loop& loop, int n, int o, double s, const std:
         }
         if (count != 1)
             throw Error(place, "sections that can be seen whole from their middle",
-                        "one that cannot" + at_share(s));
+                        "one that cannot" + at_fraction(s));
         return found;
     };
     std::vector<Vec2> nodes;
@@ -165,15 +165,15 @@ Points fill_surface(const MuscleShape& shape, const tissue::GridShape& grid) {
         }
     }
     // What sections of the right area leave out is branches, or a middle line that missed a part.
-    constexpr double kLeastShare = 0.85, kGreatestShare = 1.1;
-    double share = tissue::enclosed_volume(grid, equal) / surface.volume_m3();
-    if (!(share > kLeastShare && share < kGreatestShare))
+    constexpr double kMinFraction = 0.85, kMaxFraction = 1.1;
+    double fraction = tissue::enclosed_volume(grid, equal) / surface.volume_m3();
+    if (!(fraction > kMinFraction && fraction < kMaxFraction))
         throw Error(shape.place, "a body that its sections fill, without branches or sharp bends",
-                    std::to_string(std::lround(100 * share)) + " % of its volume in them");
+                    std::to_string(std::lround(100 * fraction)) + " % of its volume in them");
     if (!shape.equal_volume) return nodes;
     for (int round = 0; round < 4; ++round) {
-        equal = centres + (equal - centres) / std::sqrt(share);
-        share = tissue::enclosed_volume(grid, equal) / surface.volume_m3();
+        equal = centres + (equal - centres) / std::sqrt(fraction);
+        fraction = tissue::enclosed_volume(grid, equal) / surface.volume_m3();
     }
     return equal;
 }

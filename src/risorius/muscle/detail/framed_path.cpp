@@ -53,12 +53,12 @@ Vec3 plane_normal(const Points& loop) {
 FramedPath::FramedPath(const Points& through, const Points& outward, bool closed,
                        const std::string& place)
     : through_(through), closed_(closed) {
-    const Eigen::Index count = through.rows(), least = closed ? 3 : 2;
+    const Eigen::Index count = through.rows(), min = closed ? 3 : 2;
     const auto item = [&](const char* list, Eigen::Index i) {
         return place + "/" + list + "/" + std::to_string(i);
     };
-    if (count < least)
-        throw Error(place + "/path_m", "at least " + std::to_string(least) + " points",
+    if (count < min)
+        throw Error(place + "/path_m", "at least " + std::to_string(min) + " points",
                     std::to_string(count));
     for (Eigen::Index i = 0; i < count; ++i)
         if (!through.row(i).allFinite())
@@ -87,9 +87,9 @@ FramedPath::FramedPath(const Points& through, const Points& outward, bool closed
         const Vec3 t = frame_of_sample(0, 0).along;
         const Vec3 plane = closed ? plane_normal(through) : Vec3::Zero();
         Vec3 start = plane.norm() > 0 ? Vec3(plane.normalized()) : Vec3::UnitZ();
-        constexpr double kLeastSine = 0.1;
+        constexpr double kMinSine = 0.1;
         for (const Vec3& other : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
-            if (perpendicular(start, t).norm() < kLeastSine) start = other;
+            if (perpendicular(start, t).norm() < kMinSine) start = other;
         carry_outward(perpendicular(start, t).normalized());
         return;
     }
@@ -108,8 +108,8 @@ FramedPath::FramedPath(const Points& through, const Points& outward, bool closed
         const Vec3 t =
             frame_of_sample(std::min(k, length_.size() - 2), k + 1 < length_.size() ? 0 : 1).along;
         const Vec3 n = perpendicular(u > 0 ? Vec3((1 - u) * a + u * b) : a, t);
-        constexpr double kLeastSine = 0.05;
-        if (!(n.norm() > kLeastSine))
+        constexpr double kMinSine = 0.05;
+        if (!(n.norm() > kMinSine))
             throw Error(
                 item("outward", given.size() > 1 ? static_cast<Eigen::Index>(span) % count : 0),
                 "a direction across the path",
@@ -151,9 +151,9 @@ void FramedPath::evaluate(int span, double u, Vec3& at, Vec3& first, Vec3& secon
     second = (2 * c2 + 6 * u * c3) / (h * h);
 }
 
-PathFrame FramedPath::frame_of_sample(std::size_t sample, double share) const {
+PathFrame FramedPath::frame_of_sample(std::size_t sample, double fraction) const {
     const int span = static_cast<int>(sample / kSamplesPerSpan);
-    const double u = (static_cast<double>(sample % kSamplesPerSpan) + share) / kSamplesPerSpan;
+    const double u = (static_cast<double>(sample % kSamplesPerSpan) + fraction) / kSamplesPerSpan;
     PathFrame frame;
     Vec3 first, second;
     evaluate(span, u, frame.at, first, second);
@@ -187,10 +187,10 @@ PathFrame FramedPath::frame(double s) const {
     const double wanted = std::clamp(s, 0.0, 1.0) * length_.back();
     const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, wanted);
     const auto k = static_cast<std::size_t>(above - length_.begin()) - 1;
-    const double share =
+    const double fraction =
         std::clamp((wanted - length_[k]) / (length_[k + 1] - length_[k]), 0.0, 1.0);
-    PathFrame frame = frame_of_sample(k, share);
-    const Vec3 n = (1 - share) * outward_[k] + share * outward_[k + 1];
+    PathFrame frame = frame_of_sample(k, fraction);
+    const Vec3 n = (1 - fraction) * outward_[k] + fraction * outward_[k + 1];
     frame.outward = turned(perpendicular(n, frame.along).normalized(), frame.along, turn_);
     frame.across = frame.outward.cross(frame.along);
     return frame;

@@ -47,7 +47,7 @@ class FramedPath {
     Vec3 slope(int i) const;  ///< by the knots, at point i
     /// Position, and first and second derivative by the knots.
     void evaluate(int span, double u, Vec3& at, Vec3& first, Vec3& second) const;
-    PathFrame frame_of_sample(std::size_t sample, double share) const;
+    PathFrame frame_of_sample(std::size_t sample, double fraction) const;
     void carry_outward(const Vec3& first);
 
     Points through_;

@@ -26,8 +26,8 @@ std::vector<CurvePiece> hill_branch(double a) {
             hermite_piece(kZeroAt, 0, 0, kLeavesAt, value, slope), shortening};
 }
 
-CurvePiece lengthening_piece(double most, double rate) {
-    return {.form = CurvePiece::Form::kHyperbola, .c0 = most, .c2 = -(most - 1), .k = rate};
+CurvePiece lengthening_piece(double max, double rate) {
+    return {.form = CurvePiece::Form::kHyperbola, .c0 = max, .c2 = -(max - 1), .k = rate};
 }
 
 }  // namespace risorius::muscle

@@ -17,6 +17,6 @@ namespace risorius::muscle {
 std::vector<CurvePiece> hill_branch(double a);
 
 /// Lengthening: most - (most - 1) / (1 + rate v), counted from 0.
-CurvePiece lengthening_piece(double most, double rate);
+CurvePiece lengthening_piece(double max, double rate);
 
 }  // namespace risorius::muscle

@@ -149,9 +149,9 @@ Vec3 SectionedSurface::long_axis(double& slenderness) const {
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(spread_);
     slenderness = std::sqrt(eigen.eigenvalues()[2] / std::max(eigen.eigenvalues()[1], 0.0));
     Vec3 axis = eigen.eigenvectors().col(2);
-    int greatest;
-    axis.cwiseAbs().maxCoeff(&greatest);
-    return axis[greatest] < 0 ? Vec3(-axis) : axis;
+    int max;
+    axis.cwiseAbs().maxCoeff(&max);
+    return axis[max] < 0 ? Vec3(-axis) : axis;
 }
 
 std::array<double, 2> SectionedSurface::extent(const Vec3& axis) const {
@@ -166,7 +166,7 @@ std::array<double, 2> SectionedSurface::extent(const Vec3& axis) const {
 }
 
 double SectionedSurface::way_out(const Vec3& from, const Vec3& direction) const {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
         const Vec3 a = points_.row(triangles_(t, 0)).transpose(),
                    e1 = points_.row(triangles_(t, 1)).transpose() - a,
@@ -177,9 +177,9 @@ double SectionedSurface::way_out(const Vec3& from, const Vec3& direction) const 
         const Vec3 s = from - a, q = s.cross(e1);
         const double u = s.dot(p) / determinant, v = direction.dot(q) / determinant;
         const double at = e2.dot(q) / determinant;
-        if (u >= 0 && v >= 0 && u + v <= 1 && at > 0) least = std::min(least, at);
+        if (u >= 0 && v >= 0 && u + v <= 1 && at > 0) min = std::min(min, at);
     }
-    return least;
+    return min;
 }
 
 std::vector<Loop> SectionedSurface::loops(const PathFrame& frame) const {
@@ -206,9 +206,10 @@ std::vector<Loop> SectionedSurface::loops(const PathFrame& frame) const {
         Loop loop;
         for (std::size_t edge = start; next[edge] >= 0;) {
             const auto [a, b] = edges_[edge];
-            const double share = above[a] / (above[a] - above[b]);
+            const double fraction = above[a] / (above[a] - above[b]);
             const Vec3 p =
-                ((1 - share) * points_.row(a) + share * points_.row(b)).transpose() - frame.at;
+                ((1 - fraction) * points_.row(a) + fraction * points_.row(b)).transpose() -
+                frame.at;
             const Vec2 corner(p.dot(frame.across), p.dot(frame.outward));
             // Where the plane meets a vertex, edges give the same corner several times.
             if (loop.empty() || corner != loop.back()) loop.push_back(corner);

@@ -31,13 +31,13 @@ Curve bell_curve(double width) {
         1.0);
 }
 
-Curve kinkless_velocity_curve(double a, double most) {
+Curve kinkless_velocity_curve(double a, double max) {
     std::vector<CurvePiece> pieces = hill_branch(a);
-    const double rate = 2 * (1 + 1 / a) / (most - 1);
+    const double rate = 2 * (1 + 1 / a) / (max - 1);
     const double joins = 1 / rate;  // where half of the gain and a quarter of the slope are left
     pieces.push_back(
-        hermite_piece(0, 1, 1 + 1 / a, joins, 0.5 * (1 + most), 0.25 * (most - 1) * rate));
-    pieces.push_back(lengthening_piece(most, rate));
+        hermite_piece(0, 1, 1 + 1 / a, joins, 0.5 * (1 + max), 0.25 * (max - 1) * rate));
+    pieces.push_back(lengthening_piece(max, rate));
     return Curve(std::move(pieces), 0);
 }
 

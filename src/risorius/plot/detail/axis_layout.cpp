@@ -86,30 +86,30 @@ AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const st
             throw Error(place + "/range", "a low end below a high end",
                         format_number(layout.low) + " to " + format_number(layout.high));
     }
-    double least = INFINITY, most = -INFINITY;
+    double min = INFINITY, max = -INFINITY;
     for (const double value : values) {
         if (!std::isfinite(value)) continue;
         if (axis.logarithmic && value <= 0)
             throw Error(place, "values above 0 on a logarithmic axis", format_number(value));
-        least = std::min(least, value);
-        most = std::max(most, value);
+        min = std::min(min, value);
+        max = std::max(max, value);
     }
     if (axis.logarithmic && axis.range && layout.low <= 0)
         throw Error(place + "/range", "a low end above 0 on a logarithmic axis",
                     format_number(layout.low));
     if (!axis.range) {
-        if (least > most) throw Error(place, "a finite value", "none");
+        if (min > max) throw Error(place, "a finite value", "none");
         if (axis.logarithmic) {
-            const double margin = std::max(kMargin * std::log10(most / least), 0.05);
-            layout.low = least * std::pow(10.0, -margin);
-            layout.high = most * std::pow(10.0, margin);
+            const double margin = std::max(kMargin * std::log10(max / min), 0.05);
+            layout.low = min * std::pow(10.0, -margin);
+            layout.high = max * std::pow(10.0, margin);
         } else {
             // All values the same: a range around them wide enough to have distinct numbers
-            const double span = most - least;
-            const double margin = span > 0 ? kMargin * span : std::max(0.1 * std::abs(most), 1e-3);
+            const double span = max - min;
+            const double margin = span > 0 ? kMargin * span : std::max(0.1 * std::abs(max), 1e-3);
             // Data that starts at zero keeps its zero.
-            layout.low = least == 0 && span > 0 ? 0 : least - margin;
-            layout.high = most == 0 && span > 0 ? 0 : most + margin;
+            layout.low = min == 0 && span > 0 ? 0 : min - margin;
+            layout.high = max == 0 && span > 0 ? 0 : max + margin;
         }
     }
     if (axis.logarithmic) layout.tics = logarithmic_tics(layout.low, layout.high);

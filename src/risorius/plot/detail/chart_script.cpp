@@ -31,7 +31,7 @@ constexpr int kWidth_px = 720;
 constexpr int kHeight_px = 450;
 constexpr int kPngScale = 3;
 constexpr std::size_t kLongestLabelBeside = 22;  ///< characters; longer ones stand below
-constexpr std::size_t kMostLabelsBelow = 9;
+constexpr std::size_t kMaxLabelsBelow = 9;
 
 // Single quotes: gnuplot reads nothing into such a string but the quote itself.
 std::string in_quotes(const std::string& text) {
@@ -99,7 +99,7 @@ std::string key_line(const Chart& chart) {
     for (const Band& band : chart.bands) count_label(band.label);
     if (count == 0) return "unset key\n";
     // Beside or below the curves, never over them
-    if (longest <= kLongestLabelBeside || count > kMostLabelsBelow)
+    if (longest <= kLongestLabelBeside || count > kMaxLabelsBelow)
         return "set key outside right top vertical Left reverse samplen 2 spacing 1.25\n";
     return "set key outside below center horizontal Left reverse samplen 2 spacing 1.25 "
            "maxcols 2 height 0.8\n";

@@ -54,10 +54,10 @@ const NamedCamera& camera_named(const std::string& name) {
     throw Error("camera", "one of " + known, "\"" + name + "\"");
 }
 
-void check(const char* field, double value, double least, double most) {
-    if (value >= least && value <= most) return;
+void check(const char* field, double value, double min, double max) {
+    if (value >= min && value <= max) return;
     char range[64], found[32];
-    std::snprintf(range, sizeof range, "[%g, %g]", least, most);
+    std::snprintf(range, sizeof range, "[%g, %g]", min, max);
     std::snprintf(found, sizeof found, "%g", value);
     throw Error(field, range, found);
 }

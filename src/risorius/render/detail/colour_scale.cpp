@@ -18,7 +18,7 @@ namespace {
 
 // Shares of the smaller side of the picture
 constexpr double kMargin = 0.030, kBarLength = 0.22, kBarHeight = 0.016, kLetterHeight = 0.017;
-constexpr double kLeastLetter_px = 5;
+constexpr double kMinLetter_px = 5;
 constexpr double kRim = 0.35;
 
 /// As the shaders show it where light and view come straight on.
@@ -42,7 +42,7 @@ std::string number(double value) {
 void draw_colour_scale(const ColourScale& scale, const Background& background, Image& image) {
     const double side = std::min(image.width_px, image.height_px);
     const double letters = kLetterHeight * side;
-    const bool written = letters >= kLeastLetter_px;
+    const bool written = letters >= kMinLetter_px;
     const double luminance =
         background.transparent
             ? 0.0
@@ -66,8 +66,8 @@ void draw_colour_scale(const ColourScale& scale, const Background& background, I
 }
 
 ColourScale activation_scale(const Appearance& appearance) {
-    return {.name = "activation", .from = "0", .to = "1", .colour = [appearance](double share) {
-                return under_skin(activation_colour(share), appearance);
+    return {.name = "activation", .from = "0", .to = "1", .colour = [appearance](double fraction) {
+                return under_skin(activation_colour(fraction), appearance);
             }};
 }
 
@@ -76,8 +76,8 @@ ColourScale values_scale(const SkinValues& values) {
     return {.name = values.unit.empty() ? values.name : values.name + ", " + values.unit,
             .from = number(from),
             .to = number(to),
-            .colour = [from, to](double share) {
-                return value_colour(from + share * (to - from), from, to);
+            .colour = [from, to](double fraction) {
+                return value_colour(from + fraction * (to - from), from, to);
             }};
 }
 

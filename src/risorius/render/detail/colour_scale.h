@@ -13,7 +13,7 @@ namespace risorius::render {
 
 struct ColourScale {
     std::string name, from, to;
-    std::function<Vec3(double share)> colour;  ///< as it is seen, linear; 0 and 1 are the ends
+    std::function<Vec3(double fraction)> colour;  ///< as it is seen, linear; 0 and 1 are the ends
 };
 
 /// Sizes follow the smaller side of the picture; text that would be too small to read is left out.

@@ -153,13 +153,13 @@ GLuint mirror_texture(const Surroundings& fine, const Vec3& exposure) {
     for (const double roughness : kMirrorRoughness) {
         // The mirrored lobe of GGX is about as wide as a spherical Gaussian of this sharpness (Wang 2009): half that of D.
         const double sharpness = 0.5 / std::pow(roughness, 4.0);
-        const double least = 1 - 7.0 / sharpness;  // beyond, exp(-7) is nothing
+        const double min = 1 - 7.0 / sharpness;  // beyond, exp(-7) is nothing
         for (std::size_t i = 0; i < cells; ++i) {
             Vec3 sum = Vec3::Zero();
             double weight = 0;
             for (std::size_t j = 0; j < cells; ++j) {
                 const double c = from[i].dot(from[j]);
-                if (c < least && j != i) continue;
+                if (c < min && j != i) continue;
                 const double w = angle[j] * std::exp(sharpness * (c - 1));
                 sum += w * Vec3(map.rgb[3 * j], map.rgb[3 * j + 1], map.rgb[3 * j + 2]);
                 weight += w;

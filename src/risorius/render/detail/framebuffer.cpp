@@ -12,10 +12,9 @@ constexpr int kTileSide_samples = 4096;  ///< of the framebuffer; larger picture
 
 }  // namespace
 
-void check_range(const char* field, int value, int least, int most) {
-    if (value < least || value > most)
-        throw Error(field, std::to_string(least) + ".." + std::to_string(most),
-                    std::to_string(value));
+void check_range(const char* field, int value, int min, int max) {
+    if (value < min || value > max)
+        throw Error(field, std::to_string(min) + ".." + std::to_string(max), std::to_string(value));
 }
 
 Framebuffer::Framebuffer(int width, int height, Colour colour) {

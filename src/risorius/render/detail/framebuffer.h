@@ -16,12 +16,12 @@
 namespace risorius::render {
 
 /// Limits of every picture drawn here.
-constexpr int kLeastSide_px = 16;
-constexpr int kMostSide_px = 8192;
-constexpr int kMostSupersampling = 4;
+constexpr int kMinSide_px = 16;
+constexpr int kMaxSide_px = 8192;
+constexpr int kMaxSupersampling = 4;
 
 /// Throws Error naming the field for a value outside of [least, most].
-void check_range(const char* field, int value, int least, int most);
+void check_range(const char* field, int value, int min, int max);
 
 /// sRGB colour with alpha, or linear colour in floating point, and depth. The context must be current.
 class Framebuffer {

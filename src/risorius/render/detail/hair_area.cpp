@@ -11,18 +11,18 @@ namespace {
 
 /// Distance to a line, and how far along it that is, 0..1.
 std::pair<double, double> from_line(const std::vector<Vec3>& line, const Vec3& p) {
-    double least = std::numeric_limits<double>::infinity(), along = 0;
+    double min = std::numeric_limits<double>::infinity(), along = 0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const Vec3 e = line[i + 1] - line[i];
         const double t =
             std::clamp((p - line[i]).dot(e) / std::max(e.squaredNorm(), 1e-12), 0.0, 1.0);
         const double d = (p - line[i] - t * e).norm();
-        if (d < least) {
-            least = d;
+        if (d < min) {
+            min = d;
             along = (static_cast<double>(i) + t) / static_cast<double>(line.size() - 1);
         }
     }
-    return {least, along};
+    return {min, along};
 }
 
 }  // namespace

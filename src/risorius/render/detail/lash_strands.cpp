@@ -51,7 +51,7 @@ std::vector<LashPlace> lash_places(const Scene& scene) {
         LashPlace& place = places[lash.vertex];
         place.lower_lid = lash.lower;
         place.along_m = static_cast<float>((lash.azimuth + 4.0) * kLidRadius_m);
-        place.share = static_cast<float>(tip > root ? (lash.radius - root) / (tip - root) : 0.0);
+        place.fraction = static_cast<float>(tip > root ? (lash.radius - root) / (tip - root) : 0.0);
     }
     return places;
 }

@@ -12,8 +12,8 @@ namespace risorius::render {
 struct LashPlace {
     bool is_lash = false;
     bool lower_lid = false;
-    float along_m = 0.0F;  ///< of its root, along the lid
-    float share = 0.0F;    ///< of the way from root to tip
+    float along_m = 0.0F;   ///< of its root, along the lid
+    float fraction = 0.0F;  ///< of the way from root to tip
 };
 
 /// One per vertex of the scene. Roots are the edge of the ribbon nearest to the middle of the eye.

@@ -57,7 +57,7 @@ void set(GLint location, const Mat3& m) {
 
 // How a material meets soft light: see the uniforms of surface_vertex_shader().
 struct Finish {
-    double roughness, reflectance, share, mirror_layer;
+    double roughness, reflectance, fraction, mirror_layer;
     Vec3 scatter_m;
 };
 
@@ -117,7 +117,7 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
     constants.set("scatter", finish.scatter_m);
     constants.set("bounce", inside_mouth(material) ? kMouth : skin);
     constants.set("finish", Eigen::Vector4f(Eigen::Vector4d(finish.roughness, finish.reflectance,
-                                                            finish.share, finish.mirror_layer)
+                                                            finish.fraction, finish.mirror_layer)
                                                 .cast<float>()));
     switch (material) {
         case Material::kSkin:

@@ -9,11 +9,10 @@ namespace risorius::render {
 namespace {
 
 constexpr double kDistancePerReach =
-    6.0;                          ///< mild perspective: near edges at most 1.4 times far ones
-constexpr double kMargin = 0.05;  ///< of the picture's shorter side, all around
-constexpr double kLeastReach =
-    1e-3;  ///< of an object's distance from the origin: GL has six digits
-constexpr double kLeastWidth =
+    6.0;                            ///< mild perspective: near edges at most 1.4 times far ones
+constexpr double kMargin = 0.05;    ///< of the picture's shorter side, all around
+constexpr double kMinReach = 1e-3;  ///< of an object's distance from the origin: GL has six digits
+constexpr double kMinWidth =
     0.02;                      ///< tangent that the picture spans, for objects that are a point
 constexpr double kGap = 0.14;  ///< between objects, of their mean width
 
@@ -66,7 +65,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
         middles.push_back(middle);
         const double squared =
             (positions->rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff();
-        row.reach_m = std::max({row.reach_m, std::sqrt(squared), kLeastReach * middle.norm()});
+        row.reach_m = std::max({row.reach_m, std::sqrt(squared), kMinReach * middle.norm()});
     }
     row.distance_m = kDistancePerReach * row.reach_m;
 
@@ -88,7 +87,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
     const double margin_px = kMargin * std::min(width_px, height_px);
     const double tangent_per_px =
         std::max({width / (width_px - 2 * margin_px), (top - bottom) / (height_px - 2 * margin_px),
-                  kLeastWidth / width_px});
+                  kMinWidth / width_px});
     const double across = 2 / (tangent_per_px * width_px), along = 2 / (tangent_per_px * height_px);
     row.pixel_m = tangent_per_px * row.distance_m;
     double place = -width / 2;

@@ -21,12 +21,12 @@ const Vec3 kOutline(0.48, 0.50, 0.53);
 const Vec3 kHeld(0.62, 0.075, 0.02);
 
 constexpr double kWire_px = 2.0;
-constexpr double kInnerWireShare = 0.55;  ///< of the width of a wire on the surface
-constexpr double kCurve_px = 4.5;         ///< where there is no surface
+constexpr double kInnerWireFraction = 0.55;  ///< of the width of a wire on the surface
+constexpr double kCurve_px = 4.5;            ///< where there is no surface
 constexpr double kOutline_px = 1.4;
 constexpr double kWidestWirePerCell = 0.1;  ///< so that fine grids stay grids
 constexpr double kBallPerCell = 0.13;       ///< radius
-constexpr double kLeastBall_px = 3.5, kMostBall_px = 9.0;
+constexpr double kMinBall_px = 3.5, kMaxBall_px = 9.0;
 constexpr double kNearerPerCell = 0.5;  ///< how much nearer a wire counts than it is
 
 struct Part {
@@ -137,7 +137,7 @@ class Parts {
                                                     std::pair(std::min(i, j), std::max(i, j)));
             // Without a surface there is no inside.
             const bool strong = outside || edges.empty();
-            const double half = width / 2 * (strong ? 1 : kInnerWireShare);
+            const double half = width / 2 * (strong ? 1 : kInnerWireFraction);
             const auto& near = strong ? kWire : kInnerWire;
             const auto& far = strong ? kWireFarAway : kInnerWireFarAway;
             add_line(at(i), at(j), half, paled(at(i), near, far), paled(at(j), near, far),
@@ -170,9 +170,9 @@ class Parts {
 
     void add_balls() {
         const double radius = object_.surface.rows() == 0
-                                  ? kMostBall_px * row_.pixel_m
-                                  : std::clamp(kBallPerCell * cell_, kLeastBall_px * row_.pixel_m,
-                                               kMostBall_px * row_.pixel_m);
+                                  ? kMaxBall_px * row_.pixel_m
+                                  : std::clamp(kBallPerCell * cell_, kMinBall_px * row_.pixel_m,
+                                               kMaxBall_px * row_.pixel_m);
         for (const int v : object_.fixed) {
             for (const Vec2& place :
                  {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, -1), Vec2(1, 1), Vec2(-1, 1)})

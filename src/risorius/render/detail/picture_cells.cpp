@@ -7,14 +7,14 @@ namespace risorius::render {
 namespace {
 
 /// Of the distance between neighbours, in the layer's 256ths of 256 mm: below this a sample finds its own place near enough.
-constexpr int kLeastStep = 3;
+constexpr int kMinStep = 3;
 
 /// Without branches, for many places at once; distances turn over at 256.
 std::uint8_t step(std::uint8_t a, std::uint8_t b) {
-    constexpr unsigned kMost = kLeastStep - 1;
-    const auto apart = static_cast<std::uint8_t>(a - b + kMost);
-    return static_cast<std::uint8_t>(static_cast<int>(apart > 2 * kMost) |
-                                     static_cast<int>(a == 0) | static_cast<int>(b == 0));
+    constexpr unsigned kMax = kMinStep - 1;
+    const auto apart = static_cast<std::uint8_t>(a - b + kMax);
+    return static_cast<std::uint8_t>(static_cast<int>(apart > 2 * kMax) | static_cast<int>(a == 0) |
+                                     static_cast<int>(b == 0));
 }
 
 }  // namespace

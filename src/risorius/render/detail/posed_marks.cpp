@@ -38,11 +38,11 @@ PosedMarks::PosedMarks(const Scene& scene) {
         const auto mark = scene.landmarks.find(id);
         if (mark == scene.landmarks.end()) return -1;
         int best = -1;
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (const int v : skin) {
             const double d = (scene.rest.row(v).transpose() - mark->second).squaredNorm();
-            if (d < least) {
-                least = d;
+            if (d < min) {
+                min = d;
                 best = v;
             }
         }

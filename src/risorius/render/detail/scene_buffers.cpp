@@ -86,7 +86,7 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
         float* to = fixed.data() + 5 * static_cast<std::size_t>(number_[v]);
         for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(p[k]);
         to[3] = lashes_[v].is_lash ? lashes_[v].along_m : static_cast<float>(place.x());
-        to[4] = lashes_[v].is_lash ? lashes_[v].share : static_cast<float>(place.y());
+        to[4] = lashes_[v].is_lash ? lashes_[v].fraction : static_cast<float>(place.y());
     }
 
     glGenVertexArrays(1, &array_);

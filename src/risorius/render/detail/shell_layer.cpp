@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLengthSide = 512;        ///< texels of the map of lengths
 constexpr double kShellGap_m = 0.0003;  ///< between shells, less than a hair's own slant shows
-constexpr int kFewestShells = 8, kMostShells = 40;
+constexpr int kFewestShells = 8, kMaxShells = 40;
 
 double smooth(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -41,12 +41,12 @@ class Lengths {
         // Beards grow in places in space: painted triangle by triangle
         for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
             std::array<Vec3, 3> p;
-            double most = 0;
+            double max = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 p[k] = scene.rest.row(static_cast<Eigen::Index>(skin[i + k])).transpose();
-                most = std::max(most, beard_density(plan, p[k]));
+                max = std::max(max, beard_density(plan, p[k]));
             }
-            if (most <= 0) continue;
+            if (max <= 0) continue;
             constexpr int kSteps = 12;
             for (int a = 0; a <= kSteps; ++a)
                 for (int b = 0; a + b <= kSteps; ++b) {
@@ -71,8 +71,8 @@ class Lengths {
     }
 
   private:
-    static std::uint8_t byte(double share) {
-        return static_cast<std::uint8_t>(std::lround(255 * share));
+    static std::uint8_t byte(double fraction) {
+        return static_cast<std::uint8_t>(std::lround(255 * fraction));
     }
     static std::size_t index(int x, int y) {
         return 2 * (static_cast<std::size_t>(y) * kLengthSide + static_cast<std::size_t>(x));
@@ -114,7 +114,7 @@ ShellLayer::ShellLayer(const Scene& scene, const SceneBuffers& buffers, const Sk
     indices = buffers.elements(indices);
     index_count_ = static_cast<int>(indices.size());
     shells_ = std::clamp(static_cast<int>(std::max(hair_m, beard_m) / kShellGap_m), kFewestShells,
-                         kMostShells);
+                         kMaxShells);
 
     GLint outer = 0;
     glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &outer);

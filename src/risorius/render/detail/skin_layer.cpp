@@ -9,7 +9,7 @@
 namespace risorius::render {
 namespace {
 
-std::string with_share(int shaded, int samples, const std::string& source) {
+std::string with_fraction(int shaded, int samples, const std::string& source) {
     ShaderConstants constants;
     constants.set("shaded_per_sample", static_cast<double>(shaded) / samples);
     return constants.in(source);
@@ -21,7 +21,7 @@ SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded,
                      const ShaderConstants& constants)
     : shaded_(shaded),
       program_("skin looked up", constants.in(lookup_vertex_shader()),
-               with_share(shaded, samples, lookup_shader())) {
+               with_fraction(shaded, samples, lookup_shader())) {
     const int width = width_px * shaded, height = height_px * shaded;
 
     // One store in two lights: sRGB to shade into, and its bytes, four at a time, to copy from
@@ -72,9 +72,9 @@ const FarthestSkin& SkinLayer::farthest(const ClipBox& box) {
         static_cast<std::size_t>(farthest_.columns) * static_cast<std::size_t>(farthest_.rows),
         1.0F);
     // Whole cells, and one more on each side for the pixels beside the box
-    const auto cell = [&](float clip, float cells, int by, int most) {
+    const auto cell = [&](float clip, float cells, int by, int max) {
         const float at = (0.5F * std::clamp(clip, -1.0F, 1.0F) + 0.5F) * cells;
-        return std::clamp(static_cast<int>(at) + by, 0, most);
+        return std::clamp(static_cast<int>(at) + by, 0, max);
     };
     if (!box.behind &&
         (box.left > box.right || box.left > 1 || box.right < -1 || box.low > 1 || box.high < -1))

@@ -108,8 +108,8 @@ Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max
 int paint_side(double pixels_per_metre) {
     // A metre of skin is this long on the map (a head of 0.1 m radius); a quarter more than one texel per pixel.
     constexpr double kMapPerMetre = 2.5, kTexelsPerPixel = 1.25;
-    int side = kLeastPaintSide;
-    while (side < kMostPaintSide && side * kMapPerMetre < kTexelsPerPixel * pixels_per_metre)
+    int side = kMinPaintSide;
+    while (side < kMaxPaintSide && side * kMapPerMetre < kTexelsPerPixel * pixels_per_metre)
         side *= 2;
     return side;
 }

@@ -23,7 +23,7 @@ Vec2 paint_place(const Vec3& rest, const Vec3& centre);
 Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max);
 
 /// Texels per side that a picture needs which shows this many pixels (of its own, not samples) per metre of skin.
-constexpr int kLeastPaintSide = 256, kMostPaintSide = 4096;
+constexpr int kMinPaintSide = 256, kMaxPaintSide = 4096;
 int paint_side(double pixels_per_metre);
 
 /// Draws the map with the vertex array of the buffers, which is bound, and these triangles of the scene.

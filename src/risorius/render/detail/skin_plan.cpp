@@ -111,7 +111,7 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
     struct Spot {
         const char *from, *to;
         bool paired;
-        double share;  ///< of the way
+        double fraction;  ///< of the way
         double spread_m;
         Vec3 offset{0, 0, 0};
     };
@@ -129,8 +129,8 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
             const std::string s = spot.paired ? (side == 0 ? "_l" : "_r") : "";
             const Vec3 *from = marks.find(spot.from + s), *to = marks.find(spot.to + s);
             if (!from || !to) continue;
-            plan.beard.push_back({*from + spot.share * (*to - *from) + spot.offset, spot.spread_m,
-                                  Vec3::Zero(), 0.0});
+            plan.beard.push_back({*from + spot.fraction * (*to - *from) + spot.offset,
+                                  spot.spread_m, Vec3::Zero(), 0.0});
         }
 }
 

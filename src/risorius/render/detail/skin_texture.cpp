@@ -26,14 +26,14 @@ Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const double u = x - x0, v = y - y0;
     Vec3 sum = Vec3::Zero();
-    for (const auto& [dx, dy, share] : {std::tuple{0, 0, (1 - u) * (1 - v)},
-                                        {1, 0, u * (1 - v)},
-                                        {0, 1, (1 - u) * v},
-                                        {1, 1, u * v}}) {
+    for (const auto& [dx, dy, fraction] : {std::tuple{0, 0, (1 - u) * (1 - v)},
+                                           {1, 0, u * (1 - v)},
+                                           {0, 1, (1 - u) * v},
+                                           {1, 1, u * v}}) {
         const std::uint8_t* texel =
             &map[4 * (static_cast<std::size_t>(y0 + dy) * static_cast<std::size_t>(side) +
                       static_cast<std::size_t>(x0 + dx))];
-        sum += share * Vec3(texel[0], texel[1], texel[2]) / 255;
+        sum += fraction * Vec3(texel[0], texel[1], texel[2]) / 255;
     }
     return sum;
 }

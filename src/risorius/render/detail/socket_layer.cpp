@@ -79,10 +79,10 @@ void SocketLayer::upload(const Pose& pose, const PosedMarks& marks) {
         const double rim =
             std::acos(std::clamp((middle.dot(ahead) + kBeforeCorners_m) / ball, -0.5, 0.9));
         for (unsigned ring = 0; ring <= kRings; ++ring) {
-            const double share = static_cast<double>(ring) / kRings;
-            const double angle = rim + share * (std::numbers::pi - rim);
+            const double fraction = static_cast<double>(ring) / kRings;
+            const double angle = rim + fraction * (std::numbers::pi - rim);
             const double radius =
-                ball * (kAtRim + (kWidest - kAtRim) * std::min(share / kWidens, 1.0));
+                ball * (kAtRim + (kWidest - kAtRim) * std::min(fraction / kWidens, 1.0));
             for (unsigned k = 0; k < kAround; ++k) {
                 const double turn = 2 * std::numbers::pi * k / kAround;
                 const Vec3 out = std::cos(angle) * ahead +
@@ -90,7 +90,7 @@ void SocketLayer::upload(const Pose& pose, const PosedMarks& marks) {
                 const Vec3 p = centre + radius * out;
                 for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(p[i]));
                 for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<float>(-out[i]));
-                vertices.push_back(static_cast<float>((1 - share) * (1 - share)));
+                vertices.push_back(static_cast<float>((1 - fraction) * (1 - fraction)));
             }
         }
     }

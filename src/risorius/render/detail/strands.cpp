@@ -18,7 +18,7 @@ using Shape = std::array<Vec3, kStrandPoints>;
 Vec3 row(const Points& points, int v) { return points.row(v).transpose(); }
 
 /// Barycentric shares of p in a triangle of the plane, when it lies inside.
-std::optional<Vec3> shares(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
+std::optional<Vec3> fractions(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 u = b - a, v = c - a, w = p - a;
     const double area = u.x() * v.y() - u.y() * v.x();
     if (std::abs(area) < 1e-16) return std::nullopt;
@@ -53,7 +53,7 @@ class SkinMap {
         std::optional<SkinPlace> best;
         double farthest = 0;
         for (const Cell& cell : cells_) {
-            const auto s = shares(place, cell.place[0], cell.place[1], cell.place[2]);
+            const auto s = fractions(place, cell.place[0], cell.place[1], cell.place[2]);
             if (!s) continue;
             const SkinPlace found{cell.corner, *s};
             const double out = (found.on(scene_.rest) - centre_).norm();
@@ -130,12 +130,12 @@ class FrontOfEye {
             for (int x = std::max(0, cell(x0, low_.x()));
                  x <= std::min(width_ - 1, cell(x1, low_.x())); ++x) {
                 const Vec2 middle(low_.x() + (x + 0.5) * kCell_m, low_.y() + (y + 0.5) * kCell_m);
-                const auto s = shares(middle, p[0].head<2>(), p[1].head<2>(), p[2].head<2>());
+                const auto s = fractions(middle, p[0].head<2>(), p[1].head<2>(), p[2].head<2>());
                 if (!s) continue;
                 const double depth = s->dot(Vec3(p[0].z(), p[1].z(), p[2].z()));
                 Cell& there = cells_[index(x, y)];
                 if (depth <= there.depth) continue;
-                place.share = *s;
+                place.fraction = *s;
                 there = {depth, of_eye, place};
             }
     }

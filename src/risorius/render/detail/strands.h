@@ -16,11 +16,11 @@ constexpr std::size_t kStrandPoints = 5;
 /// A point of a skin triangle.
 struct SkinPlace {
     std::array<int, 3> corner{};
-    Vec3 share = Vec3::Zero();  ///< barycentric
+    Vec3 fraction = Vec3::Zero();  ///< barycentric
 
     Vec3 on(const Points& positions) const {
-        return (share[0] * positions.row(corner[0]) + share[1] * positions.row(corner[1]) +
-                share[2] * positions.row(corner[2]))
+        return (fraction[0] * positions.row(corner[0]) + fraction[1] * positions.row(corner[1]) +
+                fraction[2] * positions.row(corner[2]))
             .transpose();
     }
 };

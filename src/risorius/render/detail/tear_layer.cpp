@@ -68,18 +68,18 @@ void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
             Vec3 up = eye == 0 ? out.cross(along) : along.cross(out);
             up.normalize();
             const double from_end = std::min(i, at.size() - 1 - i) / 5.0;
-            const double share = wet * std::clamp(from_end, 0.0, 1.0);
+            const double fraction = wet * std::clamp(from_end, 0.0, 1.0);
             const Vec3 places[kTearRows] = {at[i] - kTearOntoLid_m * up,
                                             at[i] + 0.3 * kTearOntoEye_m * up,
                                             at[i] + kTearOntoEye_m * up};
             const Vec3 normals[kTearRows] = {(out + 1.6 * up).normalized(),
                                              (out + 0.55 * up).normalized(), out};
-            const double shares[kTearRows] = {0.0, share, 0.0};
+            const double fractions[kTearRows] = {0.0, fraction, 0.0};
             for (std::size_t r = 0; r < kTearRows; ++r) {
                 const Vec3 p = places[r] + kTearThickness_m * out;
                 for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(p[k]));
                 for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(normals[r][k]));
-                vertices.push_back(static_cast<float>(shares[r]));
+                vertices.push_back(static_cast<float>(fractions[r]));
             }
         }
     }

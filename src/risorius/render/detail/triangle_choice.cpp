@@ -221,8 +221,8 @@ void TriangleChoice::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
     const auto is_hidden = [&](const unsigned* face) {
         const ClipBox box = box_of(face);
         if (box.behind) return false;
-        const auto cell = [](float clip, float cells_, float by, int most) {
-            return std::clamp(static_cast<int>((0.5F * clip + 0.5F) * cells_ + by), 0, most - 1);
+        const auto cell = [](float clip, float cells_, float by, int max) {
+            return std::clamp(static_cast<int>((0.5F * clip + 0.5F) * cells_ + by), 0, max - 1);
         };
         // A pixel more on each side: samples lie beside the middle of theirs.
         constexpr float kPixel = 1.0F / FarthestSkin::kCell;

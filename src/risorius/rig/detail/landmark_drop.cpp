@@ -26,12 +26,12 @@ std::unordered_map<int, double> ways_from(
         open;
     for (const Vec3& p : from) {
         int start = -1;
-        double least = kInfinite;
+        double min = kInfinite;
         for (const auto& [v, others] : neighbours) {
             const double squared = (vertices.row(v).transpose() - p).squaredNorm();
             // The lower index of equally near ones: a hash map has no order of its own
-            if (squared < least || (squared == least && v < start)) {
-                least = squared;
+            if (squared < min || (squared == min && v < start)) {
+                min = squared;
                 start = v;
             }
         }

@@ -10,7 +10,7 @@ namespace risorius::rig {
 
 namespace {
 
-constexpr int kMostCells = 32;
+constexpr int kMaxCells = 32;
 constexpr std::pair<std::string_view, std::string_view> kRing{"orbicularis_oris_upper_peripheral",
                                                               "orbicularis_oris_lower_peripheral"};
 
@@ -54,7 +54,7 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
         if (const auto v = item.find("cells")) {
             const auto cells = v->items();
             if (cells.size() != 3) v->fail("three numbers: cells along, across and through");
-            for (std::size_t i = 0; i < 3; ++i) solid.cells[i] = cells[i].integer(0, kMostCells);
+            for (std::size_t i = 0; i < 3; ++i) solid.cells[i] = cells[i].integer(0, kMaxCells);
         }
         if (const auto v = item.find("shear_pa")) solid.shear_pa = v->number({1, 1e9});
         if (const auto v = item.find("volume_pa")) solid.volume_pa = v->number({1, 1e10});

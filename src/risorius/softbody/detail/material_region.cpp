@@ -105,29 +105,30 @@ std::vector<MaterialRegion> read_regions(const JsonCursor& json,
 
 void for_each_change(
     const std::vector<MaterialRegion>& regions, const tissue::GridShape& grid,
-    const std::function<void(int node, const MaterialChange& change, double share)>& change) {
+    const std::function<void(int node, const MaterialChange& change, double fraction)>& change) {
     for (const MaterialRegion& region : regions)
         for (const int node : select(region.nodes, grid)) {
-            const double share = region.graded_axis < 0
-                                     ? 1
-                                     : share_along(region.nodes, grid, region.graded_axis, node);
-            for (const MaterialChange& one : region.changes) change(node, one, share);
+            const double fraction =
+                region.graded_axis < 0
+                    ? 1
+                    : fraction_along(region.nodes, grid, region.graded_axis, node);
+            for (const MaterialChange& one : region.changes) change(node, one, fraction);
         }
 }
 
-double changed(double before, const MaterialChange& change, double share) {
+double changed(double before, const MaterialChange& change, double fraction) {
     const double after = change.factor ? before * change.number(0, 0) : change.number(0, 0);
-    return before + share * (after - before);
+    return before + fraction * (after - before);
 }
 
-Mat3 changed(const Mat3& before, const MaterialChange& change, double share) {
+Mat3 changed(const Mat3& before, const MaterialChange& change, double fraction) {
     Mat3 after = before;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             if (change.given(i, j) == 0) continue;
             const double whole =
                 change.factor ? before(i, j) * change.number(i, j) : change.number(i, j);
-            after(i, j) = before(i, j) + share * (whole - before(i, j));
+            after(i, j) = before(i, j) + fraction * (whole - before(i, j));
         }
     return after;
 }

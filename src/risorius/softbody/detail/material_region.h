@@ -51,10 +51,10 @@ Mat3 read_tensor(const JsonCursor& json, int axes);
 /// Calls `change` for every node of every region, in order, with the share 0..1 of the change it gets.
 void for_each_change(
     const std::vector<MaterialRegion>& regions, const tissue::GridShape& grid,
-    const std::function<void(int node, const MaterialChange& change, double share)>& change);
+    const std::function<void(int node, const MaterialChange& change, double fraction)>& change);
 
 /// `before` with `share` of the change.
-Mat3 changed(const Mat3& before, const MaterialChange& change, double share);
-double changed(double before, const MaterialChange& change, double share);
+Mat3 changed(const Mat3& before, const MaterialChange& change, double fraction);
+double changed(double before, const MaterialChange& change, double fraction);
 
 }  // namespace risorius::softbody

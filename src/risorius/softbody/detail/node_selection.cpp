@@ -8,7 +8,7 @@ namespace risorius::softbody {
 namespace {
 
 constexpr std::array<const char*, 3> kAxisNames = {"a1", "a2", "a3"};
-constexpr int kMostNodes = 100000;  // along one axis; catches a misplaced number
+constexpr int kMaxNodes = 100000;  // along one axis; catches a misplaced number
 
 AxisRange read_axis_range(const JsonCursor& json) {
     AxisRange range{.place = json.place()};
@@ -19,12 +19,12 @@ AxisRange read_axis_range(const JsonCursor& json) {
         if (end != "first" && end != "last") json.fail(expected);
         range.from = range.to = end == "first" ? 0 : -1;
     } else if (json.is_number()) {
-        range.from = range.to = json.integer(-kMostNodes, kMostNodes);
+        range.from = range.to = json.integer(-kMaxNodes, kMaxNodes);
     } else if (json.is_array()) {
         const auto ends = json.items();
         if (ends.size() != 2) json.fail(expected);
-        range.from = ends[0].integer(-kMostNodes, kMostNodes);
-        range.to = ends[1].integer(-kMostNodes, kMostNodes);
+        range.from = ends[0].integer(-kMaxNodes, kMaxNodes);
+        range.to = ends[1].integer(-kMaxNodes, kMaxNodes);
     } else if (json.is_object()) {
         json.allow_keys({"from", "to"});
         range.coordinates = true;
@@ -84,7 +84,7 @@ NodeSelection read_node_selection(const JsonCursor& json, int axes) {
                 ends_of[axis] = ends[axis].integer(0, 1);
             selection.corners.push_back(ends_of);
         }
-        if (const auto reach = json.find("reach")) selection.reach = reach->integer(0, kMostNodes);
+        if (const auto reach = json.find("reach")) selection.reach = reach->integer(0, kMaxNodes);
         any = true;
     } else if (const auto reach = json.find("reach")) {
         reach->fail("\"corners\" beside it", "none");
@@ -135,8 +135,8 @@ std::vector<int> select(const NodeSelection& selection, const tissue::GridShape&
     return nodes;
 }
 
-double share_along(const NodeSelection& selection, const tissue::GridShape& grid, int axis,
-                   int node) {
+double fraction_along(const NodeSelection& selection, const tissue::GridShape& grid, int axis,
+                      int node) {
     const auto& range = selection.axes[static_cast<std::size_t>(axis)];
     if (!range) return 1;
     const auto [from, to] = ends_in_nodes(*range, grid.along(axis));

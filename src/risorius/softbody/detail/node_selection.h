@@ -41,7 +41,7 @@ std::vector<int> select(const NodeSelection& selection, const tissue::GridShape&
 
 /// Where a selected node lies within the range of one axis: 0 at its `from`, 1 at its `to`; 1 when that axis is not given
 /// or its range is a single plane.
-double share_along(const NodeSelection& selection, const tissue::GridShape& grid, int axis,
-                   int node);
+double fraction_along(const NodeSelection& selection, const tissue::GridShape& grid, int axis,
+                      int node);
 
 }  // namespace risorius::softbody

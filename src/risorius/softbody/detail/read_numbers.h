@@ -7,7 +7,7 @@
 
 namespace risorius::softbody::detail {
 
-inline constexpr int kMostNodesPerAxis = 1000;
+inline constexpr int kMaxNodesPerAxis = 1000;
 
 inline double positive(const JsonCursor& json) {
     if (!json.is_number() || !(json.number() > 0)) json.fail("a number in (0, inf)");

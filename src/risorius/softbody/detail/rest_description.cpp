@@ -65,9 +65,9 @@ Points along_path(const Points& corners, int nodes) {
     for (int node = 0; node < nodes; ++node) {
         const double s = length.back() * node / (nodes - 1);
         while (side + 1 < length.size() && s > length[side]) ++side;
-        const double share = (s - length[side - 1]) / (length[side] - length[side - 1]);
+        const double fraction = (s - length[side - 1]) / (length[side] - length[side - 1]);
         const long end = static_cast<long>(side);
-        points.row(node) = (1 - share) * corners.row(end - 1) + share * corners.row(end);
+        points.row(node) = (1 - fraction) * corners.row(end - 1) + fraction * corners.row(end);
     }
     return points;
 }

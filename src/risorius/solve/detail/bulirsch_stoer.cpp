@@ -90,12 +90,12 @@ class BulirschStoer final : public ControlledStepper {
         for (int j = 0; j < k; ++j) {
             const auto at = static_cast<std::size_t>(j);
             const double ratio = static_cast<double>(n) / substeps(k - 1 - j);
-            const double share = 1 / (ratio * ratio - 1);
+            const double fraction = 1 / (ratio * ratio - 1);
             // T(k, j + 1) = T(k, j) + (T(k, j) - T(k - 1, j)) / (ratio^2 - 1)
             table_x_[at].swap(carried_x_);
             table_v_[at].swap(carried_v_);
-            carried_x_ = table_x_[at] + share * (table_x_[at] - carried_x_);
-            carried_v_ = table_v_[at] + share * (table_v_[at] - carried_v_);
+            carried_x_ = table_x_[at] + fraction * (table_x_[at] - carried_x_);
+            carried_v_ = table_v_[at] + fraction * (table_v_[at] - carried_v_);
         }
         table_x_[static_cast<std::size_t>(k)].swap(carried_x_);
         table_v_[static_cast<std::size_t>(k)].swap(carried_v_);
@@ -111,10 +111,10 @@ class BulirschStoer final : public ControlledStepper {
     /// Factor to the step that would just do with column k, (9.24)
     static double growth(double error, int k) {
         const double power = 1.0 / (2 * k + 1);
-        const double least = std::pow(0.02, power);
+        const double min = std::pow(0.02, power);
         const double factor =
             error > 0 ? 0.94 * std::pow(0.65 / error, power) : std::numeric_limits<double>::max();
-        return std::clamp(factor, least / 4, 1 / least);
+        return std::clamp(factor, min / 4, 1 / min);
     }
 
     /// Of rows 0 to k

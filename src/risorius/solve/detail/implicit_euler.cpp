@@ -120,7 +120,7 @@ class QuasiStatic final : public Integrator {
         start_ = state.x;
         NewtonOptions options = newton_options(options_);
         options.iterations *= kSettlingIterations;
-        const NewtonReport newton = newton_.settle(
+        const NewtonReport newton = newton_.solve_equilibrium(
             system, {until_s, std::numeric_limits<double>::infinity(), start_}, options, state.x);
         add(newton, report);
         report.steps = 1;

@@ -133,13 +133,13 @@ void ControlledStepper::restart() {
 double ControlledStepper::scaled_error(const Points& dx, const Points& dv, double h) const {
     const double* p = dx.data();
     const double* q = dv.data();
-    double largest_x = 0, largest_v = 0, poison = 0;
+    double max_x = 0, max_v = 0, poison = 0;
     for (long i = 0; i < dx.size(); ++i) {
-        largest_x = std::max(largest_x, std::abs(p[i]));
-        largest_v = std::max(largest_v, std::abs(q[i]));
+        max_x = std::max(max_x, std::abs(p[i]));
+        max_v = std::max(max_v, std::abs(q[i]));
         poison += 0.0 * p[i] + 0.0 * q[i];  // std::max drops NaN, this keeps it
     }
-    return std::max(largest_x, h * largest_v) / (tolerance_ * options_.length_scale_m) + poison;
+    return std::max(max_x, h * max_v) / (tolerance_ * options_.length_scale_m) + poison;
 }
 
 IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionState& state,
@@ -185,7 +185,7 @@ IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionSt
             ++report.rejections;
             h = std::min(result.next_s, 0.9 * h);
             step_s_ = h;
-            if (h < options_.least_step_s) {
+            if (h < options_.min_step_s) {
                 diverge();
                 break;
             }

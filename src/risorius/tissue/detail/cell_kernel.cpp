@@ -67,14 +67,14 @@ CellKernel::CellKernel(const CellBody& body, const Points& rest_vertices,
         const int c = std::min(slot, count - 1);
         const auto index = static_cast<std::size_t>(c);
         const CellMesh::Cell& cell = cells[index];
-        const double share = slot < count ? 1.0 : 0.0;
+        const double fraction = slot < count ? 1.0 : 0.0;
         const int lane = slot % 4;
         CellGroup& group = groups_[static_cast<std::size_t>(slot / 4)];
         for (int k = 0; k < 8; ++k)
             group.vertex[k][lane] = cell.vertex[static_cast<std::size_t>(k)];
 
         const CellCorners rest(cell, rest_vertices);
-        const double weight = share * cell.size.prod() / 8;
+        const double weight = fraction * cell.size.prod() / 8;
         CellParameters parameters;
         if (body.moduli.empty()) {
             parameters = body.parameters[index];
@@ -93,7 +93,7 @@ CellKernel::CellKernel(const CellBody& body, const Points& rest_vertices,
         }
         const CellMaterialLaw law = body.moduli.empty() ? CellMaterialLaw(body.parameters[index])
                                                         : CellMaterialLaw(body.moduli[index]);
-        group.bulk[lane] = share * volume_stiffness(law, cell.size, rest_volume[c]) / 4096;
+        group.bulk[lane] = fraction * volume_stiffness(law, cell.size, rest_volume[c]) / 4096;
         group.rest_volume[lane] = 64 * rest_volume[c];
 
         const Mat3 metric = metric_at(rest, cell.size, 0);

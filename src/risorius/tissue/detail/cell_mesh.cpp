@@ -204,10 +204,10 @@ void CellMesh::spread(solve::PaddedPoints& vertices) const {
 void CellMesh::gather(solve::PaddedPoints& vertices) const {
     for (std::size_t h = 0; h < hanging_.size(); ++h) {
         const Hanging& hanging = hanging_[h];
-        const solve::Lanes share =
+        const solve::Lanes fraction =
             vertices[node_count_ + static_cast<int>(h)] * (1.0 / hanging.count);
         for (int k = 0; k < hanging.count; ++k)
-            vertices[hanging.node[static_cast<std::size_t>(k)]] += share;
+            vertices[hanging.node[static_cast<std::size_t>(k)]] += fraction;
     }
 }
 

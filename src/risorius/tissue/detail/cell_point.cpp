@@ -178,10 +178,10 @@ CellScalarMatrix cell_metric(const CellMaterialLaw& law, const Vec3& size, const
         const Mat3 metric = metric_at(rest, size, g);
         const Mat3 d = point.elastic + rate_hz * point.damping;
         for (int i = 0; i < 3; ++i) {
-            double most = 0;
+            double max = 0;
             for (int k = 0; k < 3; ++k)
-                most = std::max(most, d(i, k) * metric(k, k) * (i == k ? 2 : 1));
-            matrix += most * dn.row(i).transpose() * dn.row(i);
+                max = std::max(max, d(i, k) * metric(k, k) * (i == k ? 2 : 1));
+            matrix += max * dn.row(i).transpose() * dn.row(i);
         }
     }
     const CellVolume volume(rest, size);

@@ -35,25 +35,25 @@ PrincipalStretches principal_stretches(const Mat3& f) {
 
     // The direction of the least column from the other two, so that U turns and the sign goes to its stretch
     const Vec3 length(b.col(0).norm(), b.col(1).norm(), b.col(2).norm());
-    int least = 0, most = 0;
+    int min = 0, max = 0;
     for (int k = 1; k < 3; ++k) {
-        if (length[k] < length[least]) least = k;
-        if (length[k] > length[most]) most = k;
+        if (length[k] < length[min]) min = k;
+        if (length[k] > length[max]) max = k;
     }
-    if (least == most) least = (most + 2) % 3;
-    const int middle = 3 - least - most;
-    const Vec3 thin = b.col(least);
+    if (min == max) min = (max + 2) % 3;
+    const int middle = 3 - min - max;
+    const Vec3 thin = b.col(min);
     out.sigma = length;
-    const Vec3 first = length[most] > 0 ? Vec3(b.col(most) / length[most]) : Vec3::Unit(most);
+    const Vec3 first = length[max] > 0 ? Vec3(b.col(max) / length[max]) : Vec3::Unit(max);
     Vec3 second;
-    if (length[middle] > 1e-12 * length[most])
+    if (length[middle] > 1e-12 * length[max])
         second = b.col(middle) / length[middle];
     else  // crushed to a line: any direction across it
         second = first.unitOrthogonal();
-    b.col(most) = first;
+    b.col(max) = first;
     b.col(middle) = second;
-    b.col(least) = b.col((least + 1) % 3).cross(b.col((least + 2) % 3));
-    out.sigma[least] = thin.dot(b.col(least));
+    b.col(min) = b.col((min + 1) % 3).cross(b.col((min + 2) % 3));
+    out.sigma[min] = thin.dot(b.col(min));
     return out;
 }
 

@@ -19,16 +19,16 @@ Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 /// The corner whose next side is the longest at rest.
 int longest_side(const TriangleSurface& surface, Eigen::Index t) {
     int longest = 0;
-    double most = -1;
+    double max = -1;
     Edge best{};
     for (int k = 0; k < 3; ++k) {
         const int a = surface.triangles(t, k), b = surface.triangles(t, (k + 1) % 3);
         // From the lower node, so that both triangles of an edge find the same bits
         const Edge edge = edge_of(a, b);
         const double length = (surface.rest.row(edge[1]) - surface.rest.row(edge[0])).squaredNorm();
-        if (length > most || (length == most && edge < best)) {
+        if (length > max || (length == max && edge < best)) {
             longest = k;
-            most = length;
+            max = length;
             best = edge;
         }
     }
@@ -82,8 +82,8 @@ void check(const SurfaceRefineOptions& options) {
     std::ostringstream text;
     if (!(options.tolerance > 0 && options.tolerance < 1))
         text << "tolerance: expected (0, 1), found " << options.tolerance;
-    else if (options.most_bisections < 0 || options.most_bisections > 16)
-        text << "most_bisections: expected [0, 16], found " << options.most_bisections;
+    else if (options.max_bisections < 0 || options.max_bisections > 16)
+        text << "most_bisections: expected [0, 16], found " << options.max_bisections;
     if (!text.str().empty()) throw std::invalid_argument("SurfaceRefineOptions: " + text.str());
 }
 
@@ -96,7 +96,7 @@ Points with_middles(const Points& x, const std::vector<Edge>& middle_of) {
     return all;
 }
 
-constexpr double kLeastSheetStrain = 1e-12;  ///< below is rounding
+constexpr double kMinSheetStrain = 1e-12;  ///< below is rounding
 
 }  // namespace
 
@@ -257,7 +257,7 @@ bool AdaptiveSurface::refine_where(const std::function<bool(int triangle)>& want
                                    solve::MotionState* state) {
     std::vector<char> marked(bisections_.size(), 0);
     for (std::size_t t = 0; t < marked.size(); ++t)
-        marked[t] = bisections_[t] < options_.most_bisections && wanted(static_cast<int>(t));
+        marked[t] = bisections_[t] < options_.max_bisections && wanted(static_cast<int>(t));
     return bisect(marked, state);
 }
 
@@ -267,7 +267,7 @@ bool AdaptiveSurface::refine(solve::MotionState& state) {
     // Shrunk to a point, the surface has strains of the order of one
     const double one = term_->metric_energy(Points::Zero(state.x.rows(), 3));
     error_ = 0;
-    if (!(energy > kLeastSheetStrain * kLeastSheetStrain * one)) return false;
+    if (!(energy > kMinSheetStrain * kMinSheetStrain * one)) return false;
     error_ = std::sqrt(squared.sum() / energy);
     const double due =
         options_.tolerance * options_.tolerance * energy / static_cast<double>(squared.size());
@@ -275,10 +275,10 @@ bool AdaptiveSurface::refine(solve::MotionState& state) {
         [&](int triangle) { return squared[static_cast<Eigen::Index>(triangle)] > due; }, &state);
 }
 
-RefineRounds settle_and_refine(AdaptiveSurface& surface, const SettleSurface& settle, int rounds,
-                               solve::MotionState& state) {
+RefineRounds solve_and_refine(AdaptiveSurface& surface, const SolveSurface& solve, int rounds,
+                              solve::MotionState& state) {
     return refine_rounds(
-        rounds, [&](Settling settling) { return settle(surface, settling, state); },
+        rounds, [&](SolveStage stage) { return solve(surface, stage, state); },
         [&] { return surface.refine(state); });
 }
 

@@ -40,7 +40,7 @@ Eigen::VectorXd squared_error(const TriangleSurface& surface, const TriangleShee
 struct SurfaceRefineOptions {
     /// As of solids: estimated error in the energy norm, share of that of the deformation.    (0, 1)
     double tolerance = 0.1;
-    int most_bisections = 4;  ///< of one triangle; two halve its edges    [0, 16]
+    int max_bisections = 4;  ///< of one triangle; two halve its edges    [0, 16]
 };
 
 class AdaptiveSurface {
@@ -75,11 +75,11 @@ class AdaptiveSurface {
 };
 
 /// As SettleSolid.
-using SettleSurface = std::function<bool(const AdaptiveSurface& surface, Settling settling,
-                                         solve::MotionState& state)>;
+using SolveSurface = std::function<bool(const AdaptiveSurface& surface, SolveStage stage,
+                                        solve::MotionState& state)>;
 
 /// As of solids.
-RefineRounds settle_and_refine(AdaptiveSurface& surface, const SettleSurface& settle, int rounds,
-                               solve::MotionState& state);
+RefineRounds solve_and_refine(AdaptiveSurface& surface, const SolveSurface& solve, int rounds,
+                              solve::MotionState& state);
 
 }  // namespace risorius::tissue

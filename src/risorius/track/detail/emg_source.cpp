@@ -109,8 +109,8 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
     const JsonCursor table = json.at("channels");
     for (const std::string& muscle : table.keys()) {
         const JsonCursor named = table.at(muscle);
-        const MuscleShare share = muscle_named(named, muscle, channels);
-        const double least = channels.find(share.muscle)->min;
+        const MuscleShare fraction = muscle_named(named, muscle, channels);
+        const double min = channels.find(fraction.muscle)->min;
         const int column = column_named(named, recording);
         std::vector<double> samples =
             signal::emg_envelope(recording.samples(column), rate_hz, filters);
@@ -125,9 +125,9 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
                 .fail("a maximum above the envelope at rest, " + format_number(rest),
                       format_number(maximum));
         for (double& value : samples)
-            value = least + (1 - least) * std::clamp((value - rest) / (maximum - rest), 0.0, 1.0);
+            value = min + (1 - min) * std::clamp((value - rest) / (maximum - rest), 0.0, 1.0);
         tracks.push_back({muscle, SampledCurve(std::move(samples), rate_hz, start_s + delay_s),
-                          expand(share, channels)});
+                          expand(fraction, channels)});
     }
     if (tracks.empty()) table.fail("at least one muscle");
     return tracks;

@@ -38,8 +38,8 @@ double CheekRegions::crease(const Vec3& p) const {
 
 double CheekRegions::fat(const Vec3& p) const {
     const double away = std::min((p - fat_[0]).norm(), (p - fat_[1]).norm());
-    const double share = 1.0 - geom::smoothstep(kFatCore_mm * mm_, kFat_mm * mm_, away);
-    return share > 0 ? share * (1.0 - crease(p)) : 0.0;
+    const double fraction = 1.0 - geom::smoothstep(kFatCore_mm * mm_, kFat_mm * mm_, away);
+    return fraction > 0 ? fraction * (1.0 - crease(p)) : 0.0;
 }
 
 }  // namespace risorius::face

@@ -89,10 +89,10 @@ Vec3 Jaw::floor_bulge(const Vec3& p) const {
     const double mm = 1e-3 * size_;
     const double below = border_height(p) - p.y();
     const double aside = p.x() / (30 * mm);
-    const double share = geom::smoothstep(-4 * mm, 14 * mm, below) *
-                         (1.0 - geom::smoothstep(14 * mm, 60 * mm, below)) *
-                         std::exp(-aside * aside) * geom::smoothstep(0.0, 15 * mm, p.z());
-    return 0.4 * share * Vec3(0.7 * aside, -1, -0.55);
+    const double fraction = geom::smoothstep(-4 * mm, 14 * mm, below) *
+                            (1.0 - geom::smoothstep(14 * mm, 60 * mm, below)) *
+                            std::exp(-aside * aside) * geom::smoothstep(0.0, 15 * mm, p.z());
+    return 0.4 * fraction * Vec3(0.7 * aside, -1, -0.55);
 }
 
 double Jaw::in_floor(const Vec3& p) const {
@@ -143,12 +143,12 @@ std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Sh
     // Three places on each border, so that the lips' whole width is near one of them.
     std::vector<double> to_upper, to_lower;
     const auto nearest_of = [&](const std::vector<const char*>& ids) {
-        std::vector<double> least = ways_from(head.landmark(ids[0]), head, shell);
+        std::vector<double> min = ways_from(head.landmark(ids[0]), head, shell);
         for (std::size_t i = 1; i < ids.size(); ++i) {
             const std::vector<double> way = ways_from(head.landmark(ids[i]), head, shell);
-            for (std::size_t v = 0; v < least.size(); ++v) least[v] = std::min(least[v], way[v]);
+            for (std::size_t v = 0; v < min.size(); ++v) min[v] = std::min(min[v], way[v]);
         }
-        return least;
+        return min;
     };
     to_upper = nearest_of({"ls", "ulc_l", "ulc_r"});
     to_lower = nearest_of({"li", "llc_l", "llc_r"});

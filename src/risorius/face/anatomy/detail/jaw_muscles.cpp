@@ -40,7 +40,7 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
     out.id = muscle.id;
     out.side = side;
     out.column = column;
-    out.f0_n = kJawForceShare * muscle.force_n * head.size * head.size;
+    out.f0_n = kJawForceFraction * muscle.force_n * head.size * head.size;
     const rig::MusclePath path =
         side == Side::kLeft ? muscle.paths.front() : rig::mirrored(muscle.paths.front());
     for (const rig::PathPoint& point : path) {
@@ -58,7 +58,7 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
     out.optimal_m = scale * muscle.optimal_length_m;
     out.slack_m = scale * muscle.tendon_slack_m;
     out.thickness_m = scale * thickness;
-    out.greatest_speed_m_s = muscle.greatest_speed_hz * out.optimal_m;
+    out.max_speed_m_s = muscle.max_speed_hz * out.optimal_m;
     return out;
 }
 
@@ -142,7 +142,7 @@ double JawMuscles::add_energy(const std::vector<Drive>& drive, double h, const J
         const double length = fibre_of(muscle, path);
         const double span = std::max(0.0, path - muscle.slack_m);
         const double slope = length > 0 ? span / length : 1.0;  // dl/dL
-        const double reach = h * muscle.greatest_speed_m_s;
+        const double reach = h * muscle.max_speed_m_s;
         const double speed = (length - drive[m].length_m) / reach;
         const auto velocity = curves_.velocity.at(speed);
         const muscle::Curve::Value passive = muscle.tone_only

@@ -21,7 +21,7 @@ namespace risorius::face {
 
 /// Factor on the force of the table, which assumes 40 N/cm2 for all muscles. With that the incisors would bite with 540 N, with this
 /// factor with 350 N; 150 to 400 N are measured.
-inline constexpr double kJawForceShare = 0.65;
+inline constexpr double kJawForceFraction = 0.65;
 /// Passive stiffness of relaxed jaw muscles: 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). With more, no jaw could open wide.
 inline constexpr double kJawPassiveStrain = 2.0;
 
@@ -35,7 +35,7 @@ struct JawMuscle {
     int column = 0;  ///< of the activation vector
     /// A solid pulls in its place; only its tone at rest is left, since without it the jaw would hang in another position.
     bool tone_only = false;
-    double f0_n = 0, optimal_m = 0, slack_m = 0, thickness_m = 0, greatest_speed_m_s = 0;
+    double f0_n = 0, optimal_m = 0, slack_m = 0, thickness_m = 0, max_speed_m_s = 0;
     std::vector<Point> path;
 };
 

@@ -12,7 +12,7 @@ constexpr double kLevels[] = {0.02, 0.04, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2,
                               0.23, 0.27, 0.32, 0.4,  0.5, 0.65, 0.8,  1.0};
 constexpr double kTryStep_s = 1.0 / 60.0;
 constexpr int kTrySteps = 45;
-constexpr double kLeastMove = 0.01;  // ratio of the range, that counts as having moved further
+constexpr double kMinMove = 0.01;  // ratio of the range, that counts as having moved further
 
 // Tissue that gives way holds a jaw this much less than tissue that only rides along, and less still once it is open: square roots
 // of ratios, found on the adult head for opening, 0.09, and sliding, 0.06.
@@ -23,7 +23,7 @@ struct Share {
     const char* muscle;  // with .l or .r, or both sides
     double weight;
 };
-const std::vector<Share>& shares(int group) {
+const std::vector<Share>& fractions(int group) {
     static const std::vector<Share> all[] = {
         {{"pterygoid_lateral_inferior", 1},
          {"digastric_anterior", 1},
@@ -67,12 +67,12 @@ JawSynergies::JawSynergies(const JawDynamics& jaw, const track::ChannelTable& ch
     };
     for (int group = 0; group < kGroups; ++group) {
         pattern_[group] = Eigen::VectorXd::Zero(channels.column_count());
-        for (const Share& share : shares(group)) {
-            const track::SidedName name = track::split_side(share.muscle);
+        for (const Share& fraction : fractions(group)) {
+            const track::SidedName name = track::split_side(fraction.muscle);
             for (const Side side : {Side::kLeft, Side::kRight})
                 if (const int column = channels.column(name.id, side);
                     column >= 0 && (!name.side || *name.side == side))
-                    pattern_[group][column] = share.weight;
+                    pattern_[group][column] = fraction.weight;
         }
         samples_[group].push_back({0, 0});
         JawDynamics::State state;  // each level goes on from the one before
@@ -90,7 +90,7 @@ JawSynergies::JawSynergies(const JawDynamics& jaw, const track::ChannelTable& ch
                                  : group == kBackwards ? -place.forward_m / ranges.forward_m
                                  : group == kLeft      ? place.side_m / ranges.side_m
                                                        : -place.side_m / ranges.side_m;
-            if (moved > samples_[group].back().moved + kLeastMove)
+            if (moved > samples_[group].back().moved + kMinMove)
                 samples_[group].push_back({moved, level});
         }
     }
@@ -101,9 +101,9 @@ double JawSynergies::level(Group group, double moved) const {
     const std::vector<Sample>& samples = samples_[group];
     for (std::size_t i = 1; i < samples.size(); ++i)
         if (moved <= samples[i].moved) {
-            const double share =
+            const double fraction =
                 (moved - samples[i - 1].moved) / (samples[i].moved - samples[i - 1].moved);
-            return (1 - share) * samples[i - 1].level + share * samples[i].level;
+            return (1 - fraction) * samples[i - 1].level + fraction * samples[i].level;
         }
     return samples.back().level;  // further than the muscles reach
 }

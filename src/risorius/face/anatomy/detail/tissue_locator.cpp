@@ -51,11 +51,11 @@ muscle::FibrePoint TissueLocator::embed(const Vec3& p) const {
         if (w.minCoeff() >= 0) break;
     }
     if (best_outside > 1e299) {
-        double least = 1e300;
+        double min = 1e300;
         for (long t = 0; t < mesh_.tets.rows(); ++t) {
             const double far = (centres_.row(t).transpose() - p).squaredNorm();
-            if (far < least) {
-                least = far;
+            if (far < min) {
+                min = far;
                 best_tet = t;
             }
         }

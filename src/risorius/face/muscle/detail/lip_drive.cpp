@@ -127,10 +127,10 @@ void LipDrive::drive(const Eigen::VectorXd& activation) {
     if (turn_ == turned) return;
     for (Turned& member : turned_) {
         // Red lip goes up or down towards the other lip, its rim back
-        const double share = turn_scale_[member.lip] * turn_[member.lip] * member.weight;
-        const double angle = (member.lip == kUpper ? 1 : -1) * share * kTurn_rad;
+        const double fraction = turn_scale_[member.lip] * turn_[member.lip] * member.weight;
+        const double angle = (member.lip == kUpper ? 1 : -1) * fraction * kTurn_rad;
         Vec3 arm = Eigen::AngleAxisd(angle, Vec3::UnitX()) * (member.rest - member.axis);
-        arm.z() *= 1 - share * kFlattened;
+        arm.z() *= 1 - fraction * kFlattened;
         member.start = member.axis + arm;
     }
     move_mandible(mandible_);

@@ -131,7 +131,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.f0_n = force;
-            fibre.greatest_speed_hz = muscle->greatest_speed_hz;
+            fibre.max_speed_hz = muscle->max_speed_hz;
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);

@@ -21,9 +21,9 @@ constexpr double kSupport_pa_per_m = 2e7;  // deep side of a jaw muscle against 
 constexpr double kInside_m = 0.2e-3;       // further outside the tissue a node is not bound
 constexpr double kRefreshMove_m = 1e-3, kRefreshActivation = 0.15;  // before H is made anew
 
-Vec3 blended(const std::array<Rigid, kBodies>& bodies, double jaw_share, const Vec3& rest) {
-    return (1 - jaw_share) * (bodies[kSkullBody] * rest) +
-           jaw_share * (bodies[kMandibleBody] * rest);
+Vec3 blended(const std::array<Rigid, kBodies>& bodies, double jaw_fraction, const Vec3& rest) {
+    return (1 - jaw_fraction) * (bodies[kSkullBody] * rest) +
+           jaw_fraction * (bodies[kMandibleBody] * rest);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
                 .f0_n = place.f0_n / count,
                 .rest_stretch = muscle.rest_stretch,
                 .pennation_rad = muscle.pennation_deg * kRadian,
-                .tendon_share = muscle.tendon_slack_m / (muscle.tendon_slack_m + fibre_m),
+                .tendon_fraction = muscle.tendon_slack_m / (muscle.tendon_slack_m + fibre_m),
                 .rigid_tendon = muscle.tendon_slack_m < kShortTendon * muscle.optimal_length_m},
             muscle::zajac_curves(curves));
         part.hessian = std::make_unique<solve::HessianBuilder>(grid.size(), std::vector<char>{});
@@ -160,7 +160,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
     for (Attachment& attachment : attachments) {
         const int tissue_node = node_of(attachment.shell_vertex, kDeep);
         const Vec3 p = mesh.nodes.row(tissue_node).transpose();
-        double least_excess = 0.35;
+        double min_excess = 0.35;
         Binding best{};
         for (const Part& part : parts_) {
             if (part.place.muscle->group != "jaw") continue;
@@ -173,12 +173,12 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                 const Vec3 s = place_in_cell(p, corner);
                 const Vec3 excess = (s - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
                 const double out = std::max(0.0, excess.maxCoeff());
-                if (out >= least_excess) continue;
+                if (out >= min_excess) continue;
                 const std::array<double, 8> w = tissue::trilinear_weights(s);
                 Vec3 found = Vec3::Zero();
                 for (int c = 0; c < 8; ++c) found += w[static_cast<std::size_t>(c)] * corner.col(c);
                 if ((found - p).norm() > kInside_m) continue;
-                least_excess = out;
+                min_excess = out;
                 best = {};
                 best.tissue_count = 1;
                 best.tissue[0] = tissue_node;
@@ -231,11 +231,11 @@ void MuscleSolids::move_bodies(const std::array<Rigid, kBodies>& bodies) {
     mandible_ = bodies[kMandibleBody];
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
-        if (node.on_bone) bone_.row(i) = blended(bodies, node.jaw_share, node.rest).transpose();
+        if (node.on_bone) bone_.row(i) = blended(bodies, node.jaw_fraction, node.rest).transpose();
     }
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
-        supports_->list()[i].target = blended(bodies, node.jaw_share, node.rest);
+        supports_->list()[i].target = blended(bodies, node.jaw_fraction, node.rest);
     }
 }
 
@@ -244,8 +244,8 @@ void MuscleSolids::set_bodies(const std::array<Rigid, kBodies>& bodies) {
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(support_node_[i])];
         supports_->list()[i].normal =
-            ((1 - node.jaw_share) * (bodies[kSkullBody].linear() * node.outward) +
-             node.jaw_share * (bodies[kMandibleBody].linear() * node.outward))
+            ((1 - node.jaw_fraction) * (bodies[kSkullBody].linear() * node.outward) +
+             node.jaw_fraction * (bodies[kMandibleBody].linear() * node.outward))
                 .normalized();
     }
 }
@@ -253,8 +253,8 @@ void MuscleSolids::set_bodies(const std::array<Rigid, kBodies>& bodies) {
 void MuscleSolids::add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const {
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
-        if (!node.on_bone && node.jaw_share != 0)
-            sum.add(node.jaw_share * gradient.row(first_ + i).transpose(), mandible * node.rest);
+        if (!node.on_bone && node.jaw_fraction != 0)
+            sum.add(node.jaw_fraction * gradient.row(first_ + i).transpose(), mandible * node.rest);
     }
 }
 
@@ -263,9 +263,11 @@ void MuscleSolids::carry(Points& x, const Rigid& from, const Rigid& to) const {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (node.on_bone)
             x.row(first_ + i) =
-                ((1 - node.jaw_share) * node.rest + node.jaw_share * (to * node.rest)).transpose();
+                ((1 - node.jaw_fraction) * node.rest + node.jaw_fraction * (to * node.rest))
+                    .transpose();
         else
-            x.row(first_ + i) += node.jaw_share * (to * node.rest - from * node.rest).transpose();
+            x.row(first_ + i) +=
+                node.jaw_fraction * (to * node.rest - from * node.rest).transpose();
     }
 }
 
@@ -436,8 +438,8 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
 
     // A node between both bones pulls each with its share, where it would be if it rode on that bone alone
     const auto give = [&](const SolidNode& node, const Vec3& force) {
-        (*on_bodies)[kSkullBody].add((1 - node.jaw_share) * force, node.rest);
-        (*on_bodies)[kMandibleBody].add(node.jaw_share * force, mandible_ * node.rest);
+        (*on_bodies)[kSkullBody].add((1 - node.jaw_fraction) * force, node.rest);
+        (*on_bodies)[kMandibleBody].add(node.jaw_fraction * force, mandible_ * node.rest);
     };
     for (int i = 0; i < nodes(); ++i)
         if (on_bone(i))
@@ -547,7 +549,7 @@ std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
         const Eigen::VectorXd now = part.cells->cell_volumes(local),
                               then = part.cells->cell_volumes(part.rest);
         figures.volume_ratio = now.sum() / then.sum();
-        figures.least_cell_ratio = now.cwiseQuotient(then).minCoeff();
+        figures.min_cell_ratio = now.cwiseQuotient(then).minCoeff();
         figures.mean_stretch = part.chains->mean_stretch(local, activation[part.place.column]);
         // Through the middle of the belly; between two slabs when there is no middle one
         const auto thickness = [&](const Points& p) {
@@ -564,7 +566,7 @@ std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
     return out;
 }
 
-double MuscleSolids::greatest_volume_error(const Points& x) const {
+double MuscleSolids::max_volume_error(const Points& x) const {
     double worst = 0;
     Points local;
     for (const Part& part : parts_) {

@@ -43,10 +43,10 @@ using Wrenches = std::array<Wrench, kBodies>;
 struct SolidFigures {
     std::string muscle;
     Side side = Side::kLeft;
-    double volume_ratio = 1;      ///< now / rest
-    double least_cell_ratio = 1;  ///< of its cells, now / rest
-    double mean_stretch = 1;      ///< of its fibres, now / rest
-    double thickness_ratio = 1;   ///< of the middle section, now / rest
+    double volume_ratio = 1;     ///< now / rest
+    double min_cell_ratio = 1;   ///< of its cells, now / rest
+    double mean_stretch = 1;     ///< of its fibres, now / rest
+    double thickness_ratio = 1;  ///< of the middle section, now / rest
 };
 
 class MuscleSolids {
@@ -101,7 +101,7 @@ class MuscleSolids {
     double mean_stretch(const std::string& muscle, const Points& x,
                         const Eigen::VectorXd& activation) const;
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
-    double greatest_volume_error(const Points& x) const;  ///< ratio
+    double max_volume_error(const Points& x) const;  ///< ratio
     /// Smooth surfaces of all muscles for drawing; then, wherever they are, their rows of `vertices`.
     void add_surfaces(MuscleSurfaces& surfaces);
     void place_surfaces(const Points& x, Points& vertices) const;

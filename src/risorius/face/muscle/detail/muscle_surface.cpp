@@ -15,14 +15,14 @@ MuscleSurface& MuscleSurfaces::of(const std::string& muscle, std::optional<Side>
 }
 
 void MuscleSurfaces::add(MuscleSurface& muscle, const Points& vertices,
-                         const TexCoords& along_across, const std::vector<double>& tendon_share,
+                         const TexCoords& along_across, const std::vector<double>& tendon_fraction,
                          const Triangles& triangles) {
     const auto first = rest.rows();
     rest.conservativeResize(first + vertices.rows(), 3);
     rest.bottomRows(vertices.rows()) = vertices;
     fibre.conservativeResize(first + vertices.rows(), 2);
     fibre.bottomRows(vertices.rows()) = along_across;
-    tendon.insert(tendon.end(), tendon_share.begin(), tendon_share.end());
+    tendon.insert(tendon.end(), tendon_fraction.begin(), tendon_fraction.end());
     const auto faces = muscle.triangles.rows();
     muscle.triangles.conservativeResize(faces + triangles.rows(), 3);
     muscle.triangles.bottomRows(triangles.rows()) = triangles.array() + static_cast<int>(first);

@@ -33,7 +33,7 @@ struct MuscleSurfaces {
     MuscleSurface& of(const std::string& muscle, std::optional<Side> side, int column);
     /// Appends vertices, and triangles that are numbered from the first of them.
     void add(MuscleSurface& muscle, const Points& vertices, const TexCoords& along_across,
-             const std::vector<double>& tendon_share, const Triangles& triangles);
+             const std::vector<double>& tendon_fraction, const Triangles& triangles);
 };
 
 }  // namespace risorius::face

@@ -41,7 +41,7 @@ Course course_of(const rig::Head& head, const MusclePath& path, const std::strin
 }
 
 // Places at equal steps of `share`, 0..1, of a curve's length.
-Course sampled(const Course& through, const std::vector<double>& shares, bool closed = false) {
+Course sampled(const Course& through, const std::vector<double>& fractions, bool closed = false) {
     constexpr double kFine_m = 1e-3;
     std::vector<Vec3> control = through.point, fine;
     if (closed) {
@@ -61,8 +61,8 @@ Course sampled(const Course& through, const std::vector<double>& shares, bool cl
     for (std::size_t i = 1; i < fine.size(); ++i)
         arc.push_back(arc.back() + (fine[i] - fine[i - 1]).norm());
     Course out;
-    for (double share : shares) {
-        const double s = share * arc.back();
+    for (double fraction : fractions) {
+        const double s = fraction * arc.back();
         const auto above = std::upper_bound(arc.begin(), arc.end(), s);
         const std::size_t i = std::clamp<std::size_t>(static_cast<std::size_t>(above - arc.begin()),
                                                       1, arc.size() - 1);
@@ -88,10 +88,10 @@ double length_of(const Course& course) {
 
 // Cells along, across and through: about as long as wide, and no finer than a face can afford.
 std::array<int, 3> cells_of(const rig::SolidMuscle& solid, double length_m, double size) {
-    const auto count = [&](int given, double extent_m, double edge_m, int least, int most) {
+    const auto count = [&](int given, double extent_m, double edge_m, int min, int max) {
         return given > 0 ? given
                          : std::clamp(static_cast<int>(std::lround(extent_m / (size * edge_m))),
-                                      least, most);
+                                      min, max);
     };
     return {count(solid.cells[0], length_m, 9e-3, 3, 8),
             count(solid.cells[1], size * solid.width_m, 9e-3, 1, 3),
@@ -99,9 +99,9 @@ std::array<int, 3> cells_of(const rig::SolidMuscle& solid, double length_m, doub
 }
 
 // A belly tapers towards both ends: 1 in the middle, smoothly to `ends`.
-double taper(double share, const std::array<double, 2>& ends) {
-    const double end = share < 0.5 ? ends[0] : ends[1];
-    const double from_end = 1 - std::abs(2 * share - 1);
+double taper(double fraction, const std::array<double, 2>& ends) {
+    const double end = fraction < 0.5 ? ends[0] : ends[1];
+    const double from_end = 1 - std::abs(2 * fraction - 1);
     return end + (1 - end) * geom::smoothstep(0.0, 1.0, from_end);
 }
 
@@ -134,7 +134,8 @@ class Placer {
 
     double force_of(const rig::SolidMuscle& solid, const rig::Muscle& muscle) const {
         // The scale makes up for what holds mimetic muscles back; the jaw's are those that its lines have.
-        const double scale = muscle.group == "mimetic" ? rig_.tissue.force_scale : kJawForceShare;
+        const double scale =
+            muscle.group == "mimetic" ? rig_.tissue.force_scale : kJawForceFraction;
         return muscle.force_n * solid.strength * scale * head_.size * head_.size;
     }
 
@@ -170,14 +171,14 @@ class Placer {
     void keep_under_skin(Vec3& p) const {
         const TissueLocator::Column column = locator_.column_at(p);
         const double depth = (column.skin - p).dot(column.outward);
-        const double least = head_.size * kSkinCover_m;
-        if (depth < least && (p - column.skin).norm() < head_.mm(6))
-            p -= (least - depth) * column.outward;
+        const double min = head_.size * kSkinCover_m;
+        if (depth < min && (p - column.skin).norm() < head_.mm(6))
+            p -= (min - depth) * column.outward;
     }
 
     struct Hold {
         bool bone = false;
-        double jaw_share = 0;
+        double jaw_fraction = 0;
     };
     Hold hold_of(const PathPoint& end, const std::string& group) const {
         if (end.attach == "bone" || end.body == PathPoint::Body::kMandible)
@@ -191,7 +192,7 @@ class Placer {
     void tie(SolidNode& node, const Hold& hold) const {
         node.on_bone = hold.bone;
         node.soft_end = !hold.bone;
-        if (hold.bone) node.jaw_share = hold.jaw_share;
+        if (hold.bone) node.jaw_fraction = hold.jaw_fraction;
     }
 
     void lay(const rig::SolidMuscle& solid, const rig::Muscle& muscle, Side side,
@@ -204,10 +205,10 @@ class Placer {
         }
         const std::array<int, 3> cells = cells_of(solid, length, head_.size);
         const tissue::GridShape grid{cells[0] + 1, cells[1] + 1, cells[2] + 1};
-        std::vector<double> shares;
-        for (int m = 0; m < grid.m; ++m) shares.push_back(m / static_cast<double>(grid.m - 1));
+        std::vector<double> fractions;
+        for (int m = 0; m < grid.m; ++m) fractions.push_back(m / static_cast<double>(grid.m - 1));
         std::vector<Course> along;
-        for (const Course& course : courses) along.push_back(sampled(course, shares));
+        for (const Course& course : courses) along.push_back(sampled(course, fractions));
         // Paths of a sheet in the order of the n axis
         std::vector<std::size_t> order(paths.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -224,11 +225,11 @@ class Placer {
         const bool jaw_muscle = muscle.group == "jaw";
         for (int m = 0; m < grid.m; ++m) {
             const std::size_t i = static_cast<std::size_t>(m);
-            const double wide = 0.5 * head_.size * solid.width_m * taper(shares[i], solid.ends);
+            const double wide = 0.5 * head_.size * solid.width_m * taper(fractions[i], solid.ends);
             const double thick = 0.5 * head_.size * solid.thickness_m *
-                                 taper(shares[i], {kEndThickness, kEndThickness});
+                                 taper(fractions[i], {kEndThickness, kEndThickness});
             const std::size_t before = i == 0 ? 0 : i - 1,
-                              after = std::min(i + 1, shares.size() - 1);
+                              after = std::min(i + 1, fractions.size() - 1);
             if (paths.size() == 1) {
                 add_slab(along[0].point[i], along[0].point[after] - along[0].point[before],
                          along[0].outward[i], wide, thick, grid, !jaw_muscle);
@@ -243,8 +244,8 @@ class Placer {
                 const Hold from = hold_of(path.front(), muscle.group),
                            to = hold_of(path.back(), muscle.group);
                 const double soft = jaw_.weight(node.rest);
-                node.jaw_share = (1 - shares[i]) * (from.bone ? from.jaw_share : soft) +
-                                 shares[i] * (to.bone ? to.jaw_share : soft);
+                node.jaw_fraction = (1 - fractions[i]) * (from.bone ? from.jaw_fraction : soft) +
+                                    fractions[i] * (to.bone ? to.jaw_fraction : soft);
                 if (m == 0) tie(node, from);
                 if (m == grid.m - 1) tie(node, to);
                 node.against_bone = jaw_muscle && o == 0 && !node.on_bone;
@@ -275,11 +276,11 @@ class Placer {
         const Vec3 forward = at(0.5 * paths, point(after)) - at(0.5 * paths, point(before));
         const Vec3 sideways = out.cross(forward).normalized();
         const double spread = std::max((high - low).dot(sideways), 1e-6);
-        const double least = 2 * half_width_m / 3;
+        const double min = 2 * half_width_m / 3;
         for (int n = 0; n < grid.n; ++n) {
             const double x = 2.0 * n / (grid.n - 1) - 1;
             const Vec3 on_paths = at(0.5 * (x + 1) * paths, point(i));
-            const Vec3 centre = on_paths + 0.5 * x * std::max(0.0, least - spread) * sideways;
+            const Vec3 centre = on_paths + 0.5 * x * std::max(0.0, min - spread) * sideways;
             const Vec3 up = forward.normalized().cross(sideways);
             for (int o = 0; o < grid.o; ++o) {
                 const double y = 2.0 * o / (grid.o - 1) - 1;
@@ -307,13 +308,13 @@ class Placer {
         const std::array<int, 3> cells = cells_of(upper, half_length, head_.size);
         const tissue::GridShape grid{cells[0] + 1, cells[1] + 1, cells[2] + 1};
         const int slabs = 2 * cells[0];
-        const double upper_share = length_of(up) / (2 * half_length);
-        std::vector<double> shares;
+        const double upper_fraction = length_of(up) / (2 * half_length);
+        std::vector<double> fractions;
         for (int m = 0; m <= slabs; ++m)
-            shares.push_back(m <= cells[0]
-                                 ? upper_share * m / cells[0]
-                                 : upper_share + (1 - upper_share) * (m - cells[0]) / cells[0]);
-        const Course along = sampled(ring, shares, /*closed=*/true);
+            fractions.push_back(m <= cells[0] ? upper_fraction * m / cells[0]
+                                              : upper_fraction + (1 - upper_fraction) *
+                                                                     (m - cells[0]) / cells[0]);
+        const Course along = sampled(ring, fractions, /*closed=*/true);
         const int first = static_cast<int>(out_.nodes.size());
         for (int m = 0; m < slabs; ++m) {
             const std::size_t before = static_cast<std::size_t>((m + slabs - 1) % slabs),
@@ -331,7 +332,7 @@ class Placer {
             for (int k = 0; k < grid.n * grid.o; ++k) {
                 SolidNode& node = out_.nodes[out_.nodes.size() - 1 - static_cast<std::size_t>(k)];
                 node.soft_end = m % cells[0] == 0;
-                node.jaw_share = jaw_.weight(node.rest);
+                node.jaw_fraction = jaw_.weight(node.rest);
             }
         }
         for (int half = 0; half < 2; ++half) {

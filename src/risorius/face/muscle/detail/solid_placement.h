@@ -20,7 +20,7 @@ namespace risorius::face {
 
 struct SolidNode {
     Vec3 rest = Vec3::Zero();   ///< m
-    double jaw_share = 0;       ///< fraction of the mandible's motion that its bone follows
+    double jaw_fraction = 0;    ///< fraction of the mandible's motion that its bone follows
     bool on_bone = false;       ///< attached to bone
     bool soft_end = false;      ///< where the muscle takes hold of soft tissue
     bool against_bone = false;  ///< kept off the bone along `outward`

@@ -39,18 +39,18 @@ Neck::Neck(const rig::Head& head)
       front_near_m_(head.mm(10)),
       front_far_m_(head.mm(60)) {}
 
-double Neck::share(const Vec3& rest) const {
+double Neck::fraction(const Vec3& rest) const {
     // Behind the jaw the neck begins higher up than under the chin.
     const double under_chin = geom::smoothstep(front_near_m_, front_far_m_, rest.z());
     return geom::smoothstep(base_m_, top_m_ + chin_m_ * under_chin, rest.y());
 }
 
-Rigid Neck::part(const Rigid& head, double share) const {
-    if (share >= 1) return head;
+Rigid Neck::part(const Rigid& head, double fraction) const {
+    if (fraction >= 1) return head;
     Rigid part = Rigid::Identity();
-    if (share <= 0) return part;
-    part.translate(pivot_ + share * (head * pivot_ - pivot_));
-    part.rotate(Eigen::Quaterniond::Identity().slerp(share, Eigen::Quaterniond(head.linear())));
+    if (fraction <= 0) return part;
+    part.translate(pivot_ + fraction * (head * pivot_ - pivot_));
+    part.rotate(Eigen::Quaterniond::Identity().slerp(fraction, Eigen::Quaterniond(head.linear())));
     part.translate(-pivot_);
     return part;
 }

@@ -17,9 +17,9 @@ class Neck {
     explicit Neck(const rig::Head& head);
 
     /// Fraction of the head's motion that a soft point follows, 0..1.
-    double share(const Vec3& rest) const;
+    double fraction(const Vec3& rest) const;
     /// That fraction of the motion: part of the rotation about the same pivot, part of the translation.
-    Rigid part(const Rigid& head, double share) const;
+    Rigid part(const Rigid& head, double fraction) const;
 
   private:
     Vec3 pivot_;

@@ -12,8 +12,8 @@ namespace risorius::face {
 namespace {
 
 constexpr double kSpacing_mm = 4.0;
-constexpr double kLeastWidth_mm = 4.0;  // w, where the mesh is fine enough
-constexpr double kReach = 4.0;          // of w: beyond it less than 4 % is left
+constexpr double kMinWidth_mm = 4.0;  // w, where the mesh is fine enough
+constexpr double kReach = 4.0;        // of w: beyond it less than 4 % is left
 constexpr double kHighest_mm = 7.0;
 constexpr double kOffSkin_mm = 30.0;  // further from the skin than this there is no neck
 constexpr int kSmoothing = 6;
@@ -25,7 +25,7 @@ constexpr double kLonger_mm = 24.0;  // down from where the fibres of the table 
 // Which borders, by the way across the band towards the midline, in half widths of it; and the share of the muscle's force
 // that runs in each.
 struct Border {
-    double across, share;
+    double across, fraction;
     int slot;
 };
 constexpr Border kBorders[] = {{0.75, 0.2, 2}, {-0.55, 0.1, 0}};
@@ -100,7 +100,7 @@ PlatysmaCords::PlatysmaCords(const rig::Head& head, const rig::RigDescription& r
             if (through.empty()) continue;
             const double force = band.force_n * rig.tissue.force_scale * head.size * head.size;
             add(head, geom::sample_curve(through, head.mm(0.5)), column, border.slot,
-                border.share * force);
+                border.fraction * force);
         }
     }
 }
@@ -151,7 +151,7 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
                       head.vertices.row(station.corner[static_cast<std::size_t>((k + 1) % 3)]))
                          .norm();
     const double edge = edges / (3.0 * static_cast<double>(cord.stations.size()));
-    const double width = std::max(head.mm(kLeastWidth_mm), 0.8 * edge);
+    const double width = std::max(head.mm(kMinWidth_mm), 0.8 * edge);
 
     std::vector<char> on_skin(static_cast<std::size_t>(head.vertices.rows()), 0);
     for (long i = 0; i < head.skin.size(); ++i)
@@ -169,16 +169,17 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
         const double nearest = on.distance_m;
         if (nearest >= reach) continue;
         const Vec3 way = border[on.piece + 1] - border[on.piece];
-        const Vec3 beside = p - border[on.piece] - on.share * way;
+        const Vec3 beside = p - border[on.piece] - on.fraction * way;
         const double across =
             std::copysign(nearest, beside.dot(way.cross(cord.stations[on.piece].outward)));
-        const double at = static_cast<double>(on.piece) + on.share;
-        const double share = 1 / std::cosh(nearest / width) *
-                             (1 - geom::smoothstep(0.6 * kReach * width, kReach * width, nearest));
+        const double at = static_cast<double>(on.piece) + on.fraction;
+        const double fraction =
+            1 / std::cosh(nearest / width) *
+            (1 - geom::smoothstep(0.6 * kReach * width, kReach * width, nearest));
         const double line = head.mm(kLine_mm);
         const double ridge = kRidge * (1 - geom::smoothstep(0.3 * line, 0.5 * line, nearest)) *
-                             geom::smoothstep(0, 2 * head.mm(kLeastWidth_mm), edge);
-        cord.lifted.push_back({static_cast<int>(v), at, share, across, ridge});
+                             geom::smoothstep(0, 2 * head.mm(kMinWidth_mm), edge);
+        cord.lifted.push_back({static_cast<int>(v), at, fraction, across, ridge});
     }
     cords_.push_back(std::move(cord));
 }
@@ -226,14 +227,14 @@ void PlatysmaCords::raise(const Eigen::VectorXd& activation, Points& vertices,
             string_heights(at, outward, cord.spacing_m, a * cord.force_n, bed_n_per_m2_);
         shift.clear();
         for (std::size_t i = 0; i < height.size(); ++i) {
-            const double most = kHighest_mm * 1e-3;
-            shift.push_back(most * std::tanh(height[i] / most) * outward[i]);
+            const double max = kHighest_mm * 1e-3;
+            shift.push_back(max * std::tanh(height[i] / max) * outward[i]);
         }
         for (const Lifted& lifted : cord.lifted) {
             const auto i = std::min(static_cast<std::size_t>(lifted.station), shift.size() - 2);
             const double t = lifted.station - static_cast<double>(i);
             const Vec3 by = (1 - t) * shift[i] + t * shift[i + 1];
-            if (lifted.share > 0) moved.push_back({lifted.vertex, lifted.share * by});
+            if (lifted.fraction > 0) moved.push_back({lifted.vertex, lifted.fraction * by});
             if (marked_ && depth.rows() > 0)
                 depth(lifted.vertex, cord.slot) -= lifted.ridge * by.norm();
         }

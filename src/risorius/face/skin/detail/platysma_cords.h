@@ -53,10 +53,10 @@ class PlatysmaCords {
     };
     struct Lifted {
         int vertex;
-        double station;  ///< place along the border
-        double share;    ///< fraction of the height at that place
-        double across;   ///< from the border, > 0 to the left, m
-        double ridge;    ///< depth of the line / height of the cord
+        double station;   ///< place along the border
+        double fraction;  ///< fraction of the height at that place
+        double across;    ///< from the border, > 0 to the left, m
+        double ridge;     ///< depth of the line / height of the cord
     };
     struct Cord {
         int column;

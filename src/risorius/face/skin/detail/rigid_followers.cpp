@@ -55,7 +55,7 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
         const double lower = geom::distance_to_polyline(p, lids[side].lower_margin());
         LidMember member;
         member.upper = upper < lower;
-        member.share = member.upper ? 1.0 : 0.0;
+        member.fraction = member.upper ? 1.0 : 0.0;
         // A hair turns as its root does, which lies straight towards the eye's middle
         const std::vector<Vec3>& margin =
             member.upper ? lids[side].upper_margin() : lids[side].lower_margin();
@@ -71,11 +71,11 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
         member.place = std::clamp(lids[side].place_of(root), 0.0, 1.0);
         lid_vertices_.push_back({v, side, member, 1.0, kNotKept});
         int nearest = -1;
-        double least = 1e300;
+        double min = 1e300;
         for (int w : skin_near_eye[side]) {
             const double squared = (head.vertices.row(w) - head.vertices.row(v)).squaredNorm();
-            if (moving[w] && squared < least) {
-                least = squared;
+            if (moving[w] && squared < min) {
+                min = squared;
                 nearest = w;
             }
         }
@@ -86,8 +86,8 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
         switch (head.carrier[v]) {
             case rig::Carrier::kSkull:
             case rig::Carrier::kMandible:
-                if (head.jaw_share[v] > 0)
-                    on_jaw_.push_back({static_cast<int>(v), head.jaw_share[v]});
+                if (head.jaw_fraction[v] > 0)
+                    on_jaw_.push_back({static_cast<int>(v), head.jaw_fraction[v]});
                 break;
             case rig::Carrier::kEyeLeft:
                 eye_[0].push_back(static_cast<int>(v));
@@ -100,18 +100,18 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
         }
     }
 
-    head_share_.resize(static_cast<std::size_t>(count));
+    head_fraction_.resize(static_cast<std::size_t>(count));
     for (long v = 0; v < count; ++v)
-        head_share_[v] =
+        head_fraction_[v] =
             head.carrier[v] == rig::Carrier::kSkin || head.carrier[v] == rig::Carrier::kNone
-                ? neck_.share(head.vertices.row(v).transpose())
+                ? neck_.fraction(head.vertices.row(v).transpose())
                 : 1.0;
 }
 
 void RigidFollowers::turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
     if (head.isApprox(Rigid::Identity(), 0.0)) return;
     for (long p = 0; p < points.rows(); ++p)
-        points.row(p) = (neck_.part(head, neck_.share(rest.row(p).transpose())) *
+        points.row(p) = (neck_.part(head, neck_.fraction(rest.row(p).transpose())) *
                          Vec3(points.row(p).transpose()))
                             .transpose();
 }
@@ -145,12 +145,12 @@ void RigidFollowers::turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices
 void RigidFollowers::turn_head(const Rigid& head, Points& vertices) const {
     if (head.isApprox(Rigid::Identity(), 0.0)) return;
     // Nearly all vertices go with the head as a whole, one after the other
-    double share = head_share_[0];
-    Rigid part = neck_.part(head, share);
+    double fraction = head_fraction_[0];
+    Rigid part = neck_.part(head, fraction);
     for (long v = 0; v < vertices.rows(); ++v) {
-        if (head_share_[v] != share) {
-            share = head_share_[v];
-            part = neck_.part(head, share);
+        if (head_fraction_[v] != fraction) {
+            fraction = head_fraction_[v];
+            part = neck_.part(head, fraction);
         }
         vertices.row(v) = (part * Vec3(vertices.row(v).transpose())).transpose();
     }
@@ -159,9 +159,9 @@ void RigidFollowers::turn_head(const Rigid& head, Points& vertices) const {
 void RigidFollowers::apply(const FollowDrive& drive, Points& vertices) const {
     apply_lids(drive, vertices);
     turn_eyes(drive.gaze, vertices);
-    for (const auto& [v, share] : on_jaw_) {
+    for (const auto& [v, fraction] : on_jaw_) {
         const Vec3 rest = rest_.row(v).transpose();
-        vertices.row(v) = (rest + share * (drive.mandible * rest - rest)).transpose();
+        vertices.row(v) = (rest + fraction * (drive.mandible * rest - rest)).transpose();
     }
     tongue_.place({drive.tongue_out, drive.tongue_up, drive.mandible}, vertices);
     turn_head(drive.head, vertices);

@@ -60,7 +60,7 @@ class RigidFollowers {
     std::vector<std::pair<int, double>>
         on_jaw_;  // a vertex, and its fraction of the mandible's motion
     std::array<std::vector<int>, 2> eye_;
-    std::vector<double> head_share_;  ///< V, fraction of the head's motion
+    std::vector<double> head_fraction_;  ///< V, fraction of the head's motion
 };
 
 }  // namespace risorius::face

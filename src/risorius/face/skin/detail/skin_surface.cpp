@@ -9,7 +9,7 @@ namespace risorius::face {
 namespace {
 
 constexpr int kSteps = 2;
-constexpr double kLeastArea_m2 = 1e-12;
+constexpr double kMinArea_m2 = 1e-12;
 // Of a membrane stretched by half the curvature is three times that at rest; the matrix has twice, as steps may be too
 // long by two.
 constexpr int kStretchReserve = 2;
@@ -24,7 +24,7 @@ SkinSurface::SkinSurface(const SkinSheetOnBed& sheet) {
     for (long f = 0; f < sheet.triangles.rows(); ++f) {
         const int a = sheet.triangles(f, 0), b = sheet.triangles(f, 1), c = sheet.triangles(f, 2);
         const double of_face = 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).norm();
-        if (of_face < kLeastArea_m2) continue;
+        if (of_face < kMinArea_m2) continue;
         for (int k = 0; k < 3; ++k) {
             const int v = sheet.triangles(f, k);
             if (own[v] < 0) {

@@ -58,7 +58,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
             weight[static_cast<std::size_t>(k)] += w;
             height[static_cast<std::size_t>(k)] += w * head.vertices(v, 1);
             over_jaw_[static_cast<std::size_t>(k)] +=
-                w * head.jaw_share[static_cast<std::size_t>(v)];
+                w * head.jaw_fraction[static_cast<std::size_t>(v)];
         }
     for (int k = 0; k <= kPieces; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -86,7 +86,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
         double foremost = -1e300;
         const auto carried = [&](long v) {
             const auto i = static_cast<std::size_t>(v);
-            const bool on_jaw = head.jaw_share[i] > 0.5;
+            const bool on_jaw = head.jaw_fraction[i] > 0.5;
             return (head.carrier[i] == rig::Carrier::kMandible ||
                     head.carrier[i] == rig::Carrier::kSkull) &&
                    on_jaw == lower && std::abs(head.vertices(v, 0)) < head.mm(5) &&
@@ -108,12 +108,12 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     const auto skin_at = [&](const char* landmark) {
         std::vector<int> nearest;
         const Vec3 p = head.landmark(landmark);
-        double least = 1e300;
+        double min = 1e300;
         for (long v = 0; v < head.vertices.rows(); ++v) {
             if (head.carrier[static_cast<std::size_t>(v)] != rig::Carrier::kSkin) continue;
             const double d = (Vec3(head.vertices.row(v).transpose()) - p).norm();
-            if (d >= least) continue;
-            least = d;
+            if (d >= min) continue;
+            min = d;
             nearest = {static_cast<int>(v)};
         }
         return nearest;
@@ -179,8 +179,8 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
             const double by = std::max(gate.lower_y + half, std::min(gate.upper_y - half, y)) - y;
             for (int i = 0; i <= kPieces; ++i) {
                 const auto j = static_cast<std::size_t>(i);
-                const double share = geom::smoothstep(from, std::max(from + 1, 1.0 * k), i);
-                if (i > from) shift[j] = from_y + share * (by - from_y);
+                const double fraction = geom::smoothstep(from, std::max(from + 1, 1.0 * k), i);
+                if (i > from) shift[j] = from_y + fraction * (by - from_y);
                 flat[j] = std::min(flat[j], 1 - (1 - flattest) * geom::smoothstep(k - 8.0, k, i));
             }
             from_y = by;

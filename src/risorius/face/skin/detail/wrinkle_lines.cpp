@@ -235,7 +235,7 @@ double place_on(const Vec3& p, const std::vector<Vec3>& line) {
     const geom::PolylinePoint nearest = geom::nearest_on_polyline(p, line);
     double place = 0;
     for (std::size_t i = 0; i < nearest.piece; ++i) place += (line[i + 1] - line[i]).norm();
-    return place + nearest.share * (line[nearest.piece + 1] - line[nearest.piece]).norm();
+    return place + nearest.fraction * (line[nearest.piece + 1] - line[nearest.piece]).norm();
 }
 
 // Signed distance from the crease, positive to the outside of the face.

@@ -82,7 +82,7 @@ double fold_depth_ratio(double excess) {
            (place - static_cast<double>(i)) * (table.ratio[i + 1] - table.ratio[i]);
 }
 
-double folded_share(double compression, const FoldOnset& onset) {
+double folded_fraction(double compression, const FoldOnset& onset) {
     const double over = compression - onset.at, softness = onset.softness;
     if (over <= -softness) return 0;
     if (over >= softness) return over;
@@ -241,19 +241,19 @@ const Points& Wrinkles::compression(const Points& vertices) const {
     mean_->solve(compression_, compression_);
     for (const Strip& strip : strips_) {
         Eigen::VectorXd sum = Eigen::VectorXd::Zero(strip.mean.rows());
-        const auto share = [&](std::size_t i) {
+        const auto fraction = [&](std::size_t i) {
             const auto k = static_cast<long>(strip.place[i]);
             return std::pair(k, strip.place[i] - static_cast<double>(k));
         };
         for (std::size_t i = 0; i < strip.row.size(); ++i) {
-            const auto [k, t] = share(i);
+            const auto [k, t] = fraction(i);
             const double c = area_[strip.row[i]] * compression_(strip.row[i], strip.slot);
             sum[k] += (1 - t) * c;
             sum[k + 1] += t * c;
         }
         const Eigen::VectorXd mean = strip.mean * sum;
         for (std::size_t i = 0; i < strip.row.size(); ++i) {
-            const auto [k, t] = share(i);
+            const auto [k, t] = fraction(i);
             compression_(strip.row[i], strip.slot) = (1 - t) * mean[k] + t * mean[k + 1];
         }
     }
@@ -262,10 +262,10 @@ const Points& Wrinkles::compression(const Points& vertices) const {
 
 double Wrinkles::depth_m(long row, int slot, double compression) const {
     const double c = std::min(compression, 0.6);
-    const double share = folded_share(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
-    if (share == 0) return 0;
+    const double fraction = folded_fraction(c, creased_(row, slot) ? kCreasedSkin : kSmoothSkin);
+    if (fraction == 0) return 0;
     const double ratio =
-        std::min(fold_depth_ratio(options_.strength * share / (1 - c)), kSteepestFold);
+        std::min(fold_depth_ratio(options_.strength * fraction / (1 - c)), kSteepestFold);
     return window_(row, slot) * ratio * (1 - c) * wavelength_(row, slot);
 }
 

@@ -37,7 +37,7 @@ struct FoldOnset {
 };
 inline constexpr FoldOnset kSmoothSkin{0.05, 0.04}, kCreasedSkin{0.025, 0.02};
 /// e as a function of c: fraction of the rest length that folds take up
-double folded_share(double compression, const FoldOnset& onset = kSmoothSkin);
+double folded_fraction(double compression, const FoldOnset& onset = kSmoothSkin);
 
 struct WrinkleOptions {
     double strength = 1.0;      ///< fraction of what could fold that does fold; 0: none

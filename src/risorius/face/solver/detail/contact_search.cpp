@@ -44,10 +44,10 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         if (geom::distance_to_polyline(skin, lips) < head.mm(60)) {
             // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
-            const double share = jaw.weight(skin, shell.over_bite_m[v]);
+            const double fraction = jaw.weight(skin, shell.over_bite_m[v]);
             const bool above_bite = shell.over_bite_m[v] > 0;
-            if (above_bite && share < 0.6) skull_.push_back({deep, mesh.direction[v]});
-            if (!above_bite && share > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
+            if (above_bite && fraction < 0.6) skull_.push_back({deep, mesh.direction[v]});
+            if (!above_bite && fraction > 0.4 && jaw.height_over_border(skin) > -head.mm(4))
                 mandible_.push_back({deep, mesh.direction[v]});
         }
     }
@@ -181,7 +181,7 @@ void ContactSearch::find_bone(const DeepNode& node, int body, int slot, Search& 
     contact.rest_gap_m = rest_gap;
     contact.body = body;
     contact.stiffness_n_per_m = inside * node.stiffness;
-    contact.share = inside;
+    contact.fraction = inside;
     contact.slot = slot;
     search.found.push_back(contact);
 }
@@ -267,7 +267,7 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     // Weighted like the plane: a stiffness that depended on which nodes are nearest would jump as lips slide
     contact.stiffness_n_per_m =
         inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
-    contact.share = inside;
+    contact.fraction = inside;
     contact.stick_n = inside * node.stick;
     contact.stick_m = stick_m_;
     contact.body = kLipBody;

@@ -80,9 +80,9 @@ StepStats DrivenJaw::implicit_step(FaceTissue& tissue, double h, double jaw_h, c
     return figures;
 }
 
-StepStats DrivenJaw::settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
-                            const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
-                            JawDynamics::State& state) const {
+StepStats DrivenJaw::solve_equilibrium(FaceTissue& tissue, const Eigen::VectorXd& activation,
+                                       const Vec3& gravity_m_s2, const StaticOptions& options,
+                                       Points& x, JawDynamics::State& state) const {
     StepStats figures;
     while (figures.iterations < options.iterations && !(options.stopped && options.stopped())) {
         tissue.find_contacts(x);

@@ -51,9 +51,9 @@ class DrivenJaw {
                             JawDynamics::State& state,
                             std::span<const Points> warm_start = {}) const;
     /// Tissue and a jaw that muscles move come to rest together, in long steps of time.
-    StepStats settle(FaceTissue& tissue, const Eigen::VectorXd& activation,
-                     const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
-                     JawDynamics::State& state) const;
+    StepStats solve_equilibrium(FaceTissue& tissue, const Eigen::VectorXd& activation,
+                                const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
+                                JawDynamics::State& state) const;
 
     /// What only a jaw that muscles move can tell.
     void report(const JawVector& q, FacePose& pose) const;

@@ -17,17 +17,17 @@ constexpr double kGain = 0.7,
 }  // namespace
 
 FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
-                         Eigen::VectorXd least)
+                         Eigen::VectorXd min)
     : tissue_(tissue),
       prescribe_(std::move(set_boundary_conditions)),
       vertices_(std::move(vertices)),
-      least_(std::move(least)),
+      min_(std::move(min)),
       solver_(tissue) {}
 
-StepStats FaceStatics::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
-                              Points& x) {
+StepStats FaceStatics::solve_equilibrium(const Eigen::VectorXd& activation,
+                                         const StaticOptions& options, Points& x) {
     moved();
-    return solver_.settle(activation, options, x);
+    return solver_.solve_equilibrium(activation, options, x);
 }
 
 void FaceStatics::prepare(const Pose& pose) {
@@ -74,7 +74,7 @@ std::vector<Points> FaceStatics::sensitivities(const Pose& pose, std::span<const
         if (which < columns.size()) {
             const int column = columns[which];
             out.away = sign * kDifference;
-            if (pose.activation[column] + out.away < least_[column]) out.away = 0;
+            if (pose.activation[column] + out.away < min_[column]) out.away = 0;
             out.activation[column] += out.away;
         } else {
             const auto channel = static_cast<std::size_t>(channels[which - columns.size()]);

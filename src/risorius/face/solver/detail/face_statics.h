@@ -38,10 +38,11 @@ class FaceStatics {
 
     /// Keeps references to all. `least` is the lower limit of each column.
     FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
-                Eigen::VectorXd least);
+                Eigen::VectorXd min);
 
     /// Moves x to the equilibrium; the tissue must be prescribed.
-    StepStats settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
+    StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
+                                Points& x);
     /// The pose is no longer the one last factored.
     void moved() { factored_ = false; }
     void forget() {
@@ -64,7 +65,7 @@ class FaceStatics {
     FaceTissue& tissue_;
     Prescribe prescribe_;
     Vertices vertices_;
-    Eigen::VectorXd least_;
+    Eigen::VectorXd min_;
     StaticSolver solver_;
     bool factored_ = false;
 };

@@ -60,16 +60,17 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
 }
 
 // Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
-double FaceTissue::lid_share(const Vec3& p) const {
-    double share = 0;
+double FaceTissue::lid_fraction(const Vec3& p) const {
+    double fraction = 0;
     for (const EyeLids& lid : lids_)
-        share = std::max(share, 1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head_.mm(5.5),
-                                                       (p - lid.centre()).norm()));
-    return share;
+        fraction =
+            std::max(fraction, 1.0 - geom::smoothstep(lid.zone_m(), lid.zone_m() + head_.mm(5.5),
+                                                      (p - lid.centre()).norm()));
+    return fraction;
 }
 
 // Share of lip softness at a skin point: 1 at the line between the lips_, 0 a lip's height away.
-double FaceTissue::lip_share(const Vec3& p) const {
+double FaceTissue::lip_fraction(const Vec3& p) const {
     return 1.0 - geom::smoothstep(head_.mm(6), head_.mm(14), geom::distance_to_polyline(p, lips_));
 }
 
@@ -87,15 +88,15 @@ void FaceTissue::build_tissue() {
     for (long t = 0; t < mesh_.tets.rows(); ++t) {
         Vec3 centre = Vec3::Zero();
         for (int k = 0; k < 4; ++k) centre += 0.25 * mesh_.nodes.row(mesh_.tets(t, k)).transpose();
-        double ratio = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
-                       std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre));
+        double ratio = std::pow(rig_.tissue.lid_shear_ratio, lid_fraction(centre)) *
+                       std::pow(rig_.tissue.lip_shear_ratio, lip_fraction(centre));
         const double floor = jaw_.in_floor(centre);
         ratio *= cheek_ratio(centre) * std::pow(kFloorShearRatio, floor);
         for (const Vec3& knot : modiolus)
             if ((centre - knot).norm() < head_.mm(9)) ratio *= rig_.tissue.modiolus_shear_ratio;
         mu[t] = ratio * (mesh_.tet_layer[t] == kMiddle ? rig_.tissue.deep_shear_pa
                                                        : rig_.tissue.superficial_shear_pa);
-        bulk[t] = std::pow(rig_.tissue.lid_shear_ratio, lid_share(centre)) *
+        bulk[t] = std::pow(rig_.tissue.lid_shear_ratio, lid_fraction(centre)) *
                   std::pow(kFloorBulkRatio, floor) * rig_.tissue.bulk_pa;
     }
     tets_.emplace(mesh_.tets, mesh_.nodes, mu, bulk);
@@ -111,8 +112,8 @@ void FaceTissue::build_skin() {
             centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
             sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
         }
-        const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_share(centre)) *
-                             std::pow(rig_.tissue.lip_shear_ratio, lip_share(centre)) *
+        const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_fraction(centre)) *
+                             std::pow(rig_.tissue.lip_shear_ratio, lip_fraction(centre)) *
                              cheek_ratio(centre);
         membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
         bending_[f] = ratio * rig_.skin.bending_n_m;
@@ -159,13 +160,13 @@ void FaceTissue::find_cheeks(const Jaw& jaw) {
         const double above = geom::smoothstep(head_.mm(6), head_.mm(20), jaw.height_over_border(p));
         const double rim = 0.4 + 0.6 * geom::smoothstep(head_.mm(2), head_.mm(10),
                                                         geom::distance_to_polyline(p, lips_));
-        const double share = near * below * above * rim;
+        const double fraction = near * below * above * rim;
         const int node = node_of(a.shell_vertex, kDeep);
         const bool in_tissue =
             mass_[node] > 0;  // what air pushed away there would hold nothing back
-        if (share > 0 && in_tissue && lid_share(p) == 0)
+        if (fraction > 0 && in_tissue && lid_fraction(p) == 0)
             cheeks_.push_back(
-                {node, share * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
+                {node, fraction * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
     }
 }
 
@@ -308,7 +309,7 @@ void FaceTissue::refine(double h, const Points& start, const Points& aim,
     if (!mouth_ || mouth_->step_s() != h) mouth_.emplace(make_mouth(h));
     solve::QuasiNewtonOptions own = options;
     own.iterations = mouth_iterations_;
-    own.least_iterations = 0;
+    own.min_iterations = 0;
     mouth_->advance({h, start, aim, activation, inputs_.precision}, own, x);
 }
 
@@ -333,7 +334,7 @@ StepStats FaceTissue::end_step(const solve::StepReport& report, const Points& x)
     figures.converged = report.converged;
     put_depths(x, figures);
     contacts_.remember(x);
-    figures.muscle_volume_error = solids_->greatest_volume_error(x);
+    figures.muscle_volume_error = solids_->max_volume_error(x);
     return figures;
 }
 

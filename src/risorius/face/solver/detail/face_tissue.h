@@ -118,8 +118,9 @@ class FaceTissue {
     /// Of all that is near at x, whatever was found before.
     Penetration penetration(const Points& x) const;
     /// The same nodes out of each other and of the bones, see separation.h.
-    Points apart(const Points& x, const Rigid& mandible, const std::array<Mat3, 2>& gaze) const {
-        return separated(x, search_, mandible, gaze, fixed_);
+    Points resolve_penetration(const Points& x, const Rigid& mandible,
+                               const std::array<Mat3, 2>& gaze) const {
+        return face::resolve_penetration(x, search_, mandible, gaze, fixed_);
     }
 
     /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. The moves of x in `warm_start` are
@@ -191,8 +192,8 @@ class FaceTissue {
         double h;
         solve::SparseCholesky factor;
     };
-    double lid_share(const Vec3& p) const;
-    double lip_share(const Vec3& p) const;
+    double lid_fraction(const Vec3& p) const;
+    double lip_fraction(const Vec3& p) const;
     double cheek_ratio(const Vec3& p) const;
     void build_tissue();
     void build_skin();

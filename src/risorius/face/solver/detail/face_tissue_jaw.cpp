@@ -53,20 +53,20 @@ Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) co
     Wrench sum;
     const std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const double share = attachments_[i].jaw_weight;
+        const double fraction = attachments_[i].jaw_weight;
         const Vec3& bulge = attachments_[i].floor_bulge;
-        if (share == 0 && bulge.isZero(0.0)) continue;
+        if (fraction == 0 && bulge.isZero(0.0)) continue;
         // Nodes that ride, and what their tether pulls its target with
         for (Layer layer : {kDeep, kMiddle, kSkin}) {
             const int node = node_of(attachments_[i].shell_vertex, layer);
-            sum.add(share * gradient.row(node).transpose(),
+            sum.add(fraction * gradient.row(node).transpose(),
                     mandible_ * Vec3(mesh_.nodes.row(node).transpose()));
         }
         const tissue::ZeroLengthSprings::Tether& t = held[i];
         const Vec3 off = x.row(t.node).transpose() - t.target;
         const Vec3 pull =
             t.kt_n_per_m * off + (t.kn_n_per_m - t.kt_n_per_m) * off.dot(t.normal) * t.normal;
-        sum.add(-share * pull, mandible_ * Vec3(mesh_.nodes.row(t.node).transpose()));
+        sum.add(-fraction * pull, mandible_ * Vec3(mesh_.nodes.row(t.node).transpose()));
         // The bulge goes with the chin's way back, -z
         sum.add(bulge.dot(pull) * Vec3::UnitZ(), mandible_ * jaw_.chin());
     }

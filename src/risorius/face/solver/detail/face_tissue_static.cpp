@@ -54,7 +54,7 @@ void FaceTissue::find_soft_contacts(const Points& x) {
 StepStats FaceTissue::end_rest(const Points& x) {
     StepStats figures;
     put_depths(x, figures);
-    figures.muscle_volume_error = solids_->greatest_volume_error(x);
+    figures.muscle_volume_error = solids_->max_volume_error(x);
     contacts_.remember_firm(x);
     return figures;
 }

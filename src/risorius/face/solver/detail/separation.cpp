@@ -66,8 +66,8 @@ void push_lips(const Pair& pair, double by_m, Moves& moves) {
 
 }  // namespace
 
-Points separated(const Points& x, const ContactSearch& search, const Rigid& mandible,
-                 const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed) {
+Points resolve_penetration(const Points& x, const ContactSearch& search, const Rigid& mandible,
+                           const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed) {
     Points out = x;
     Moves moves(x.rows());
     std::vector<char> near;  // none: all are looked at
@@ -76,20 +76,20 @@ Points separated(const Points& x, const ContactSearch& search, const Rigid& mand
         const std::vector<Pair> pairs = search.find(out, mandible, gaze, near);
         const bool all = near.empty();
         if (all) near.assign(static_cast<std::size_t>(x.rows()), 0);
-        double most_m = 0;
+        double max_m = 0;
         for (const Pair& pair : pairs) {
             if (tissue::Contacts::depth(pair, out) > -kNear_m)
                 near[static_cast<std::size_t>(pair.node)] = 1;
             const double beyond_m = beyond_slack_m(pair, out);
             if (beyond_m <= 0) continue;
-            most_m = std::max(most_m, beyond_m);
+            max_m = std::max(max_m, beyond_m);
             if (pair.body == kLipBody)
                 push_lips(pair, kOverRelaxation * beyond_m, moves);
             else
                 moves.add(pair.node, kOverRelaxation * beyond_m * pair.normal);
         }
         // The first sweep is made in any case: what is shown is to be continuous in x
-        if (most_m > kEnough_m || (sweep == 0 && most_m > 0))
+        if (max_m > kEnough_m || (sweep == 0 && max_m > 0))
             moves.apply(fixed, out, near);
         else if (all)
             break;

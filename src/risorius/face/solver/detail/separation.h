@@ -18,7 +18,7 @@ namespace risorius::face {
 
 /// Nodes of x, n x 3 m, out of each other and out of the bones but for a quarter of a millimetre or less, if a few sweeps get
 /// there. `fixed`: rows of x that stay.
-Points separated(const Points& x, const ContactSearch& search, const Rigid& mandible,
-                 const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed);
+Points resolve_penetration(const Points& x, const ContactSearch& search, const Rigid& mandible,
+                           const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed);
 
 }  // namespace risorius::face

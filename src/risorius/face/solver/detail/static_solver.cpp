@@ -187,8 +187,8 @@ bool StaticSolver::hold_what_moved(const Points& x, double more_than_m) {
     return changed;
 }
 
-StepStats StaticSolver::settle(const Eigen::VectorXd& activation, const StaticOptions& options,
-                               Points& x) {
+StepStats StaticSolver::solve_equilibrium(const Eigen::VectorXd& activation,
+                                          const StaticOptions& options, Points& x) {
     StepStats figures;
     approach(activation, options, x, figures);
     tissue_.begin_rest(x);

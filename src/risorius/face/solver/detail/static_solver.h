@@ -39,13 +39,14 @@ class StaticSolver {
     ~StaticSolver();
 
     /// Moves x to the equilibrium; the tissue must be prescribed, and x's fixed rows in place. Finds contacts.
-    StepStats settle(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x);
+    StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
+                                Points& x);
 
     /// Factors H at x with the contacts as they are; an exact one that is not positive gives way to its positive part.
     void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
     /// y = H^-1 b, n x 3 each, with the last factor; fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;
-    /// The next settle() does not begin with the last factor: what it finds depends on its arguments alone.
+    /// The next solve_equilibrium() does not begin with the last factor: what it finds depends on its arguments alone.
     void forget() {
         known_ = false;
         touched_

@@ -7,7 +7,8 @@ namespace risorius::face {
 
 TissueMotion::TissueMotion(const Neck& neck, const Points& rest, double step_s)
     : neck_(neck), step_s_(step_s) {
-    for (long i = 0; i < rest.rows(); ++i) share_.push_back(neck.share(rest.row(i).transpose()));
+    for (long i = 0; i < rest.rows(); ++i)
+        fraction_.push_back(neck.fraction(rest.row(i).transpose()));
     start(rest, Rigid::Identity());
 }
 
@@ -26,12 +27,12 @@ Rigid TissueMotion::felt(const Rigid& head) {
         const Vec3 p(0, y, 0.1);
         jolt = std::max(jolt, (moved * p - moved_before_ * p).norm() / (step_s_ * step_s_));
     }
-    if (jolt <= kMostFelt_m_s2) return moved;
-    const double share = kMostFelt_m_s2 / jolt;
+    if (jolt <= kMaxFelt_m_s2) return moved;
+    const double fraction = kMaxFelt_m_s2 / jolt;
     Rigid out = Rigid::Identity();
-    out.translate((1 - share) * moved_before_.translation() + share * moved.translation());
+    out.translate((1 - fraction) * moved_before_.translation() + fraction * moved.translation());
     out.rotate(Eigen::Quaterniond(moved_before_.linear())
-                   .slerp(share, Eigen::Quaterniond(moved.linear())));
+                   .slerp(fraction, Eigen::Quaterniond(moved.linear())));
     return out;
 }
 
@@ -44,7 +45,7 @@ const TissueMotion::Step& TissueMotion::begin(const Rigid& head) {
             vectors.row(i) = (by.linear() * Vec3(vectors.row(i).transpose())).transpose();
         };
         for (long i = 0; i < now_.rows(); ++i) {
-            const Rigid by = neck_.part(step_.moved, share_[static_cast<std::size_t>(i)]);
+            const Rigid by = neck_.part(step_.moved, fraction_[static_cast<std::size_t>(i)]);
             carry(by, space_now_, velocity_, i);
             carry(by, space_before_, velocity_before_, i);
         }

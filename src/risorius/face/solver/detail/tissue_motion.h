@@ -19,7 +19,7 @@
 namespace risorius::face {
 
 /// A head that a script makes jump is felt no harder than this: ten times its weight.
-inline constexpr double kMostFelt_m_s2 = 98.1;
+inline constexpr double kMaxFelt_m_s2 = 98.1;
 
 class TissueMotion {
   public:
@@ -47,8 +47,8 @@ class TissueMotion {
 
     const Neck& neck_;
     double step_s_;
-    std::vector<double> share_;  ///< of the head's motion, by node
-    Points now_, before_;        ///< within the head
+    std::vector<double> fraction_;  ///< of the head's motion, by node
+    Points now_, before_;           ///< within the head
     Points space_now_, space_before_, velocity_, velocity_before_;
     Rigid head_ = Rigid::Identity(), next_head_ = Rigid::Identity();
     Rigid moved_before_ = Rigid::Identity();

@@ -10,9 +10,9 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kThinnest_m = 0.25e-3;              ///< on each side
-constexpr double kUnderSkin_m = 0.8e-3;              ///< skin and the fat below it
-constexpr double kLeastArea = 0.4, kMostArea = 2.5;  ///< now over rest, for thickness
+constexpr double kThinnest_m = 0.25e-3;           ///< on each side
+constexpr double kUnderSkin_m = 0.8e-3;           ///< skin and the fat below it
+constexpr double kMinArea = 0.4, kMaxArea = 2.5;  ///< now over rest, for thickness
 
 /// Rows cross columns: normals as long as the area a point stands for.
 std::vector<Vec3> areas_of(const SheetSize& size, const Points& grid) {
@@ -157,10 +157,10 @@ void MuscleRibbons::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::He
             const auto p = static_cast<std::size_t>(i * size.columns + j);
             const double wanted = half * profile(size, i, j, bone_ends);
             const bool edge = j == 0 || j == size.columns - 1;
-            const double least = edge ? 0.0 : kThinnest_m;
+            const double min = edge ? 0.0 : kThinnest_m;
             strap.over_m.push_back(
-                std::max(least, std::min(wanted, depth[p] - head.size * kUnderSkin_m)));
-            strap.under_m.push_back(std::max(least, wanted));
+                std::max(min, std::min(wanted, depth[p] - head.size * kUnderSkin_m)));
+            strap.under_m.push_back(std::max(min, wanted));
             strap.rest_area_m2.push_back(areas[p].norm());
         }
         for (int k = 0; k < ring_size(size); ++k) {
@@ -211,8 +211,8 @@ void MuscleRibbons::place_strap(const Strap& strap, const Points& fibre_points,
         for (int j = 0; j < size.columns; ++j) {
             const auto p = static_cast<std::size_t>(i * size.columns + j);
             const double area = areas[p].norm();
-            const double thicker = 1 / std::clamp(area / std::max(strap.rest_area_m2[p], 1e-12),
-                                                  kLeastArea, kMostArea);
+            const double thicker =
+                1 / std::clamp(area / std::max(strap.rest_area_m2[p], 1e-12), kMinArea, kMaxArea);
             const Vec3 normal = area > 0 ? Vec3(strap.outward / area * areas[p]) : Vec3::Zero();
             const Vec3 middle = grid.row(static_cast<Eigen::Index>(p)).transpose();
             const Eigen::Index row = strap.first_vertex + i * ring;

@@ -72,8 +72,8 @@ double length_of(const std::vector<Vec3>& path) {
 }
 
 /// Fractional index of the point at a share of the polyline's length.
-double knot_at(const std::vector<Vec3>& path, double share) {
-    double left = share * length_of(path);
+double knot_at(const std::vector<Vec3>& path, double fraction) {
+    double left = fraction * length_of(path);
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
         const double step = (path[i + 1] - path[i]).norm();
         if (left <= step || i + 2 == path.size())
@@ -165,14 +165,14 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
         centre_.push_back(curve[i] + (at - std::floor(at)) * (next - curve[i]));
         const double knot = size_.along(row) * (count - 1);
         const int before = std::min(static_cast<int>(knot), count - 2);
-        const auto share = [&](rig::PathPoint::Body body) {
+        const auto fraction = [&](rig::PathPoint::Body body) {
             const auto rides = [&](int k) {
                 return path[static_cast<std::size_t>(k)].body == body ? 1.0 : 0.0;
             };
             return rides(before) + (knot - before) * (rides(before + 1) - rides(before));
         };
-        share_.push_back(share(rig::PathPoint::Body::kMandible));
-        hyoid_share_.push_back(share(rig::PathPoint::Body::kHyoid));
+        fraction_.push_back(fraction(rig::PathPoint::Body::kMandible));
+        hyoid_fraction_.push_back(fraction(rig::PathPoint::Body::kHyoid));
         outward.push_back((skin.closest(centre_.back())->point - centre_.back()).normalized());
     }
     for (int pass = 0; pass < 2 * size_.rows; ++pass) {  // a muscle twists little
@@ -229,8 +229,8 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
 void BoneSheet::place(const BoneMotion& bones, Points& grid) const {
     std::vector<Vec3> centre(centre_.size());
     for (std::size_t i = 0; i < centre_.size(); ++i)
-        centre[i] = centre_[i] + share_[i] * (bones.mandible * centre_[i] - centre_[i]) +
-                    hyoid_share_[i] * bones.hyoid_m;
+        centre[i] = centre_[i] + fraction_[i] * (bones.mandible * centre_[i] - centre_[i]) +
+                    hyoid_fraction_[i] * bones.hyoid_m;
     // As much wider (and thicker) as keeps its volume when it is shorter, but for its ends on the bone
     const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre))) - 1;
     grid.resize(size_.points(), 3);
@@ -238,7 +238,7 @@ void BoneSheet::place(const BoneMotion& bones, Points& grid) const {
         const auto i = static_cast<std::size_t>(row);
         const double bulge = 1 + wider * std::sin(std::numbers::pi * size_.along(row));
         const Mat3 turn =
-            Mat3::Identity() + share_[i] * (bones.mandible.linear() - Mat3::Identity());
+            Mat3::Identity() + fraction_[i] * (bones.mandible.linear() - Mat3::Identity());
         for (int column = 0; column < size_.columns; ++column) {
             const int p = row * size_.columns + column;
             grid.row(p) =

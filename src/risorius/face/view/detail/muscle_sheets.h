@@ -67,10 +67,10 @@ class BoneSheet {
 
   private:
     SheetSize size_;
-    std::vector<Vec3> centre_;   ///< rows
-    std::vector<Vec3> offset_;   ///< rows x columns
-    std::vector<double> share_;  ///< rows, fraction of the mandible's motion
-    std::vector<double> hyoid_share_;
+    std::vector<Vec3> centre_;      ///< rows
+    std::vector<Vec3> offset_;      ///< rows x columns
+    std::vector<double> fraction_;  ///< rows, fraction of the mandible's motion
+    std::vector<double> hyoid_fraction_;
 };
 
 }  // namespace risorius::face
