@@ -8,6 +8,8 @@ namespace risorius::headmodel {
 namespace {
 
 constexpr int kHalfLoop = 30, kCorner = 15;
+constexpr double kLipLine_mm =
+    -52.6;  ///< height of the line of the lips, where `up` and `down` of a section begin
 constexpr double kSquareness = 0.6;  ///< of the sections of the cavity: 1 an ellipse, 0 a box
 
 /// As even by length as lets every point be a vertex, `count` steps.
@@ -64,8 +66,8 @@ Vec3 on_section(const MouthSection& section, int k) {
     const double angle = M_PI * k / kHalfLoop;  // 0 below, pi above
     const double c = -std::cos(angle), s = std::sin(angle);
     const double x = section.half_width * std::pow(std::abs(s), kSquareness);
-    const double y = -52.6 + (c > 0 ? section.up : section.down) *
-                                 std::copysign(std::pow(std::abs(c), kSquareness), c);
+    const double y = kLipLine_mm + (c > 0 ? section.up : section.down) *
+                                       std::copysign(std::pow(std::abs(c), kSquareness), c);
     const double w = x / section.half_width;
     return Vec3(
         k == 0 || k == kHalfLoop ? 0 : x, y,
@@ -94,9 +96,7 @@ void add_mouth(Skin& skin, const std::vector<int>& block, const DesignTables& ta
     // Vermilion border and free margins, from the midline of the lower lip over the corner to that of the upper lip.
     const std::vector<Vec3> upper = border_lip({at("ls"), at("cph_l"), at("ulc_l"), at("ch_l")});
     const std::vector<Vec3> lower = border_lip({at("li"), at("llc_l"), at("ch_l")});
-    const std::vector<Vec3> meet =
-        border_lip({Vec3(0, -53.05, 94), Vec3(5.5, -52.65, 93.8), Vec3(11, -52.05, 92.5),
-                    Vec3(18, -52.4, 88.9), Vec3(24.6, -53.05, 83.4)});
+    const std::vector<Vec3> meet = border_lip(tables.lip_contact);
     constexpr double kHalfGap = 0.06;
     const auto is_upper = [](int k) { return k > kCorner; };
     const auto border = [&](int k) { return k <= kCorner ? lower[k] : upper[kHalfLoop - k]; };

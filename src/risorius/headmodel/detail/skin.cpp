@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace risorius::headmodel {
 namespace {
@@ -33,34 +36,26 @@ double row_height(const GridTable& rows, int row, double azimuth_deg) {
     return at(k) * (1 - t) + at(k + 1) * t;
 }
 
-double column_azimuth(int column, int row) {
-    // Breakpoints (column, degrees) by level: pupil, base of the nose, lips, everywhere else even.
-    const auto through = [&](std::initializer_list<std::pair<int, double>> points) {
-        auto a = points.begin();
-        while (a + 2 < points.end() && (a + 1)->first <= column) ++a;
-        const auto b = a + 1;
-        return a->second + (b->second - a->second) * (column - a->first) / (b->first - a->first);
-    };
-    constexpr double kSide = 38.5, kEar0 = 81, kEar1 = 116;
-    if (column >= 16) {
-        const double low =
-            through({{16, kSide}, {kEarColumn0, kEar0}, {kEarColumn1, kEar1}, {kColumns, 180}});
-        const double even = 180.0 * column / kColumns;
-        const double t = std::clamp((14.0 - row) / 14.0, 0.0, 1.0);
-        return low + (even - low) * t;
-    }
-    const double even = kSide * column / 16, pupil = through({{0, 0}, {4, 7.2}, {16, kSide}}),
-                 nose = through({{0, 0}, {1, 0.9}, {7, 14.6}, {16, kSide}}),
-                 lips = through({{0, 0}, {10, 22.5}, {16, kSide}}),
-                 crown = 180.0 * column / kColumns;
-    const auto mix = [](double a, double b, double from, double to, int at) {
-        return smooth_between(a, b, std::clamp((at - from) / (to - from), 0.0, 1.0));
-    };
-    if (row <= 18) return mix(crown, even, 0, 14, row);
-    if (row <= 26) return mix(even, pupil, 18, 26, row);
-    if (row <= 42) return mix(pupil, nose, 28, 36, row);
-    if (row <= 52) return mix(nose, lips, 44, 48, row);
-    return mix(lips, even, 56, 64, row);
+/// The azimuth of a column at one level, degrees.
+double azimuth_at(const SkinLevel& level, int column) {
+    auto a = level.azimuth.begin();
+    while (a + 2 < level.azimuth.end() && (a + 1)->first <= column) ++a;
+    const auto b = a + 1;
+    return a->second + (b->second - a->second) * (column - a->first) / (b->first - a->first);
+}
+
+/// The azimuth of a column in a row, degrees. Columns of the face pass smoothly from level to level; those of the side pass evenly from
+/// the crown to the brow and keep their places below it.
+double column_azimuth(const std::vector<SkinLevel>& levels, int column, int row) {
+    constexpr int kFaceColumns = 16;
+    std::size_t k = 0;
+    while (k + 2 < levels.size() && row > levels[k + 1].last_row) ++k;
+    const SkinLevel &above = levels[k], &below = levels[k + 1];
+    const double rows = below.first_row - above.last_row;
+    const double from = azimuth_at(above, column), to = azimuth_at(below, column);
+    if (column >= kFaceColumns)
+        return to + (from - to) * std::clamp((below.first_row - row) / rows, 0.0, 1.0);
+    return smooth_between(from, to, std::clamp((row - above.last_row) / rows, 0.0, 1.0));
 }
 
 struct Block {
@@ -117,7 +112,7 @@ void add_crown(Skin& skin, const HeadSurface& head) {
 }
 
 /// Down the neck to its base, then outwards over the trapezius to the edge of the bust; own design.
-void add_skirt(Skin& skin) {
+void add_skirt(Skin& skin, const DesignTables& tables) {
     HalfMesh& mesh = skin.mesh;
     const std::vector<int> last = skin.grid[kNeckRow];
     const std::vector<int> before = skin.grid[kNeckRow - 2];
@@ -133,10 +128,12 @@ void add_skirt(Skin& skin) {
         const Vec3 start = mesh.point[static_cast<std::size_t>(last[c])];
         const double a = std::atan2(start.x(), start.z() + 26.0), cos_a = std::cos(a),
                      sin_a = std::sin(a);
-        const Vec3 base(58 * std::pow(sin_a, 0.85), -117 - 17 * cos_a + 3 * cos_a * cos_a,
-                        -30 + (cos_a > 0 ? 51 : 62) * cos_a);
-        const Vec3 end(132 * std::pow(sin_a, 0.8), -166 - 14 * cos_a + 4 * cos_a * cos_a,
-                       -38 + (cos_a > 0 ? 84 : 86) * cos_a);
+        const auto on_edge = [&](const BustEdge& edge) {
+            return Vec3(edge.half_width * std::pow(sin_a, edge.roundness),
+                        edge.height + edge.slope * cos_a + edge.curve * cos_a * cos_a,
+                        edge.middle + (cos_a > 0 ? edge.front : edge.back) * cos_a);
+        };
+        const Vec3 base = on_edge(tables.neck_base), end = on_edge(tables.bust);
         const Vec3 down = (start - mesh.point[static_cast<std::size_t>(before[c])]).normalized();
         const double reach0 = (base - start).norm(), reach1 = (end - base).norm();
         // Steeper in front of and behind the neck, where the body goes on downwards.
@@ -161,14 +158,20 @@ void add_skirt(Skin& skin) {
 }
 
 /// Relief finer than the measured grid: the philtrum between nose and upper lip, a groove between two low ridges.
-double philtrum(const Vec3& p) {
-    if (p.z() < 80 || p.y() > -33 || p.y() < -46) return 0;
-    const double along =
-        std::clamp((-33.0 - p.y()) / 4.0, 0.0, 1.0) * std::clamp((p.y() + 46.0) / 2.5, 0.0, 1.0);
-    const double ridge = 3.6 + 2.2 * std::clamp((-32.0 - p.y()) / 12.0, 0.0, 1.0),
-                 x = std::abs(p.x());
+double philtrum(const std::map<std::string, double>& measures, const Vec3& p) {
+    const auto of = [&](const char* name) { return measures.at(name); };
+    const double top = of("top_y"), bottom = of("bottom_y");
+    if (p.z() < of("behind_z") || p.y() > top || p.y() < bottom) return 0;
+    const double along = std::clamp((top - p.y()) / of("fade_top"), 0.0, 1.0) *
+                         std::clamp((p.y() - bottom) / of("fade_bottom"), 0.0, 1.0);
+    const double ridge =
+        of("ridge_x") +
+        of("ridge_spread") *
+            std::clamp((of("spread_from_y") - p.y()) / of("spread_length"), 0.0, 1.0);
+    const double x = std::abs(p.x());
     const auto bell = [](double t) { return std::exp(-t * t); };
-    return along * (0.55 * bell((x - ridge) / 1.6) - 0.75 * bell(x / 2.4));
+    return along * (of("ridge_height") * bell((x - ridge) / of("ridge_width")) -
+                    of("groove_depth") * bell(x / of("groove_width")));
 }
 
 /// A line along which the skin is raised, or carved where its height is below 0.
@@ -274,7 +277,7 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
     for (int r = 0; r <= kNeckRow; ++r)
         for (int c = 0; c <= kColumns; ++c) {
             if (in_block(r, c)) continue;
-            const double azimuth = column_azimuth(c, r);
+            const double azimuth = column_azimuth(tables.skin_columns, c, r);
             const bool strip = c <= kStripColumns && r >= kStripRow &&
                                r - kStripRow < static_cast<int>(tables.skin_strip.size());
             const Vec3 p =
@@ -317,12 +320,12 @@ Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe&
 
     const auto on_head = [&](const Vec3& p) {
         Vec3 q = clear_of_globe(head.project(p), globe, 1.3);
-        q.z() += philtrum(q);
+        q.z() += philtrum(tables.philtrum, q);
         return q;
     };
     mesh.relax(60, 0.5, on_head, Hold::kOnHead);
     mesh.relax(40, 0.5, nullptr, Hold::kSmooth);
-    add_skirt(skin);
+    add_skirt(skin, tables);
     smooth_joints(skin);
     shape_nose(skin, tables);
     fit_landmarks(skin, tables);

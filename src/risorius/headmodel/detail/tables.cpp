@@ -122,6 +122,64 @@ std::map<std::string, std::vector<SkinReliefPoint>> read_nose_relief(
     return out;
 }
 
+std::vector<SkinLevel> read_skin_columns(const std::filesystem::path& file) {
+    const auto cells = read_csv(file);
+    if (cells[0].size() < 5) throw Error(file.string(), "five columns or more", cells[0][0]);
+    std::vector<SkinLevel> out;
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto& row = cells[r];
+        SkinLevel level{row[0],
+                        static_cast<int>(number(file, row[1])),
+                        static_cast<int>(number(file, row[2])),
+                        {}};
+        for (std::size_t c = 3; c < row.size(); ++c)
+            if (!row[c].empty())
+                level.azimuth.emplace_back(static_cast<int>(number(file, cells[0][c])),
+                                           number(file, row[c]));
+        const std::string where = file.string() + ": row " + std::to_string(r + 1);
+        if (level.azimuth.size() < 2) throw Error(where, "two azimuths or more", "less");
+        if (level.last_row < level.first_row ||
+            (!out.empty() && level.first_row <= out.back().last_row))
+            throw Error(where, "rows below those of the level above", row[1]);
+        out.push_back(std::move(level));
+    }
+    if (out.size() < 2) throw Error(file.string(), "two levels or more", "one");
+    return out;
+}
+
+std::vector<Vec3> read_lip_contact(const std::filesystem::path& file) {
+    std::vector<Vec3> out;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const std::vector<double> n = numbers_of(file, cells[r], 0, 3);
+        out.emplace_back(n[0], n[1], n[2]);
+    }
+    return out;
+}
+
+std::map<std::string, double> read_philtrum(const std::filesystem::path& file) {
+    std::map<std::string, double> out;
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r)
+        out[cells[r][0]] = numbers_of(file, cells[r], 1, 1)[0];
+    for (const char* name : {"behind_z", "top_y", "fade_top", "bottom_y", "fade_bottom", "ridge_x",
+                             "ridge_spread", "spread_from_y", "spread_length", "ridge_height",
+                             "ridge_width", "groove_depth", "groove_width"})
+        if (!out.count(name))
+            throw Error(file.string(), std::string("the measure ") + name, "none");
+    return out;
+}
+
+BustEdge read_bust_edge(const std::filesystem::path& file, const std::string& edge) {
+    const auto cells = read_csv(file);
+    for (std::size_t r = 1; r < cells.size(); ++r)
+        if (cells[r][0] == edge) {
+            const std::vector<double> n = numbers_of(file, cells[r], 1, 8);
+            return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+        }
+    throw Error(file.string(), "the edge " + edge, "none");
+}
+
 std::vector<MouthSection> read_mouth_sections(const std::filesystem::path& file) {
     std::vector<MouthSection> out;
     const auto cells = read_csv(file);
@@ -186,9 +244,14 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     if (tables.skin_rows.columns.size() != 4 || tables.skin_rows.rows.size() < 2)
         throw Error((folder / "skin_rows.csv").string(), "four azimuths and two rows or more",
                     "others");
+    tables.skin_columns = read_skin_columns(folder / "skin_columns.csv");
     tables.skin_strip = read_skin_strip(folder / "skin_strip.csv");
     tables.nose_relief = read_nose_relief(folder / "nose_relief.csv");
     tables.mouth_sections = read_mouth_sections(folder / "mouth_sections.csv");
+    tables.lip_contact = read_lip_contact(folder / "lip_contact.csv");
+    tables.philtrum = read_philtrum(folder / "philtrum.csv");
+    tables.neck_base = read_bust_edge(folder / "bust_edges.csv", "neck_base");
+    tables.bust = read_bust_edge(folder / "bust_edges.csv", "bust");
     tables.measures = read_measures(folder / "anthropometry.csv");
     tables.handles = read_handles(folder / "parameters.csv");
     const auto tones = folder / "tones.csv";

@@ -49,6 +49,19 @@ struct MouthSection {
     double bend;      ///< how far the sides lie behind it
 };
 
+/// One level of the columns of the skin's grid.
+struct SkinLevel {
+    std::string name;
+    int first_row, last_row;                      ///< rows on which the level holds
+    std::vector<std::pair<int, double>> azimuth;  ///< column, degrees; even between them
+};
+
+/// The edge of the neck or of the bust by the angle a about the axis of the neck, 0 in front, mm:
+/// x = half_width sin^roundness a, y = height + slope cos a + curve cos^2 a, z = middle + (front or back) cos a.
+struct BustEdge {
+    double half_width, roundness, height, slope, curve, middle, front, back;
+};
+
 /// A distance between two landmarks and its distribution among adults.
 struct Measure {
     std::string name, from, to;
@@ -72,11 +85,15 @@ struct DesignTables {
     std::map<std::string, std::vector<LoopPoint>>
         ear_loops;  ///< left side, ear frame: back, up, out
     std::map<std::string, std::vector<ReliefPoint>> ear_relief;  ///< ridges and pits by name
-    GridTable skin_rows;             ///< y of rows of the skin's grid over columns azimuth
+    GridTable skin_rows;                  ///< y of rows of the skin's grid over columns azimuth
+    std::vector<SkinLevel> skin_columns;  ///< from the crown to the jaw
     std::vector<double> skin_strip;  ///< y of rows 34 and on, from the tip of the nose to the lip
     std::map<std::string, std::vector<SkinReliefPoint>>
         nose_relief;                           ///< ridges and grooves by name
     std::vector<MouthSection> mouth_sections;  ///< from the lips to the throat
+    std::vector<Vec3> lip_contact;             ///< where the lips touch, midline to corner
+    std::map<std::string, double> philtrum;    ///< its measures by name, mm
+    BustEdge neck_base, bust;
     std::vector<Measure> measures;
     std::vector<Handle> handles;
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
