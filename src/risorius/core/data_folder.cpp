@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::mutex mutex;
+std::mutex folder_mutex;
 fs::path chosen;
 
 bool holds_data(const fs::path& folder) {
@@ -60,7 +60,7 @@ std::vector<fs::path> candidates() {
 }  // namespace
 
 std::filesystem::path data_folder() {
-    const std::lock_guard<std::mutex> lock(mutex);
+    const std::lock_guard<std::mutex> lock(folder_mutex);
     if (!chosen.empty()) return chosen;
     if (const char* named = std::getenv("RISORIUS_DATA"); named && *named) {
         if (!holds_data(named))
@@ -76,7 +76,7 @@ std::filesystem::path data_folder() {
 }
 
 void set_data_folder(const std::filesystem::path& folder) {
-    const std::lock_guard<std::mutex> lock(mutex);
+    const std::lock_guard<std::mutex> lock(folder_mutex);
     chosen = folder;
 }
 

@@ -51,10 +51,10 @@ Vec3 ear_relief(const std::map<std::string, std::vector<ReliefPoint>>& features,
 }  // namespace
 
 void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTables& tables) {
-    constexpr int kRows = 10, kAcross = 6, kLoop = 2 * (kRows + kAcross);
+    constexpr int kRows = 10, kAcross = 6, kRing = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
     const auto named = [&](const char* name) {
-        return loop_points(tables.nose_loops, name, kLoop, [](double p) { return p; });
+        return loop_points(tables.nose_loops, name, kRing, [](double p) { return p; });
     };
     const std::vector<Vec3> crease = named("crease"), wing = named("wing"), under = named("under"),
                             edge = named("edge"), rim = named("rim");
@@ -68,17 +68,17 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     const auto between = [&](const std::vector<Vec3>& before, const std::vector<Vec3>& a,
                              const std::vector<Vec3>& b, const std::vector<Vec3>& after) {
         std::vector<Vec3> points;
-        for (int k = 0; k < kLoop; ++k)
+        for (int k = 0; k < kRing; ++k)
             points.push_back((9 * (a[k] + b[k]) - before[k] - after[k]) / 16);
         return points;
     };
     std::vector<Vec3> halfway;
-    for (int k = 0; k < kLoop; ++k)
+    for (int k = 0; k < kRing; ++k)
         halfway.push_back(0.5 * (mesh.point[static_cast<std::size_t>(block[k])] + crease[k]));
     ring(halfway, Hold::kSmooth);
     // Beside the wing it is cheek and lip, which are hollow there.
-    for (int k = kRows + 2; k < kLoop - 2; ++k)
-        mesh.hold[mesh.hold.size() - kLoop + k] = Hold::kOnHead;
+    for (int k = kRows + 2; k < kRing - 2; ++k)
+        mesh.hold[mesh.hold.size() - kRing + k] = Hold::kOnHead;
     ring(crease, Hold::kPinned);
     ring(between(halfway, crease, wing, under), Hold::kSmooth);
     ring(wing, Hold::kPinned);
@@ -86,7 +86,7 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(under, Hold::kPinned);
     ring(edge, Hold::kPinned);
     ring(rim, Hold::kPinned);
-    const std::size_t inner = mesh.point.size() - kLoop;
+    const std::size_t inner = mesh.point.size() - kRing;
     // Deep enough that who looks in looks into the dark
     mesh.adding = Region::kNostril;
     const std::vector<Vec3> vestibule = named("vestibule"), depth = named("depth");
@@ -94,8 +94,8 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
     ring(vestibule, Hold::kPinned);
     std::vector<Vec3> halfway_in, end;
     Vec3 centre = Vec3::Zero();
-    for (const Vec3& p : depth) centre += p / kLoop;
-    for (int k = 0; k < kLoop; ++k) {
+    for (const Vec3& p : depth) centre += p / kRing;
+    for (int k = 0; k < kRing; ++k) {
         halfway_in.push_back(0.5 * (vestibule[k] + depth[k]));
         end.push_back(centre + 0.6 * (depth[k] - centre) + 0.4 * (depth[k] - vestibule[k]));
     }
@@ -109,11 +109,11 @@ void add_nasal_wing(Skin& skin, const std::vector<int>& block, const DesignTable
 
 void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tables,
              const HeadSurface& head) {
-    constexpr int kRows = 22, kAcross = 6, kLoop = 2 * (kRows + kAcross);
+    constexpr int kRows = 22, kAcross = 6, kRing = 2 * (kRows + kAcross);
     HalfMesh& mesh = skin.mesh;
     // The tables count 36 places, 12 along each long side. The mesh has its 56 where the outline is long or bends: along the front,
     // around the lobe, up the back, over the top. They begin after the corner of the block, so that none turns far.
-    constexpr double kFront = 15, kLobe = 10, kBack = 18, kTop = kLoop - kFront - kLobe - kBack,
+    constexpr double kFront = 15, kLobe = 10, kBack = 18, kTop = kRing - kFront - kLobe - kBack,
                      kBegin = 3;
     const auto place = [](double p) {
         if (p <= 12) return kBegin + p * kFront / 12;
@@ -133,7 +133,7 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         return Vec3(d.dot(back), d.dot(up), d.dot(out));
     };
     const auto named = [&](const char* name) {
-        return loop_points(tables.ear_loops, name, kLoop, place);
+        return loop_points(tables.ear_loops, name, kRing, place);
     };
     // Square to the plane of the ear, which the rays of the head surface are not
     const auto on_head = [&](const Vec3& flat) {
@@ -149,7 +149,7 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     };
     std::vector<Vec3> behind = named("behind"), edge = named("outline");
     const std::vector<Vec3> inner = named("inner");
-    for (int k = 0; k < kLoop; ++k) {
+    for (int k = 0; k < kRing; ++k) {
         behind[k] = on_head(behind[k]);
         edge[k] += attached(k) * (on_head(edge[k]) - edge[k]);
     }
@@ -157,7 +157,7 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
     std::vector<int> previous = block;
     const auto ring = [&](const std::function<Vec3(int)>& at, Hold hold) {
         std::vector<int> ids;
-        for (int k = 0; k < kLoop; ++k) ids.push_back(mesh.add(at(k), hold));
+        for (int k = 0; k < kRing; ++k) ids.push_back(mesh.add(at(k), hold));
         mesh.bridge(previous, ids, true);
         previous = ids;
     };
@@ -189,9 +189,9 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
         ring([&](int k) { return Vec3(edge[k] + f * (inner[k] - edge[k])); }, Hold::kPinned);
     mesh.fill(previous, kRows, kAcross, Hold::kPinned);
     for (std::size_t v = first; v < mesh.point.size(); ++v) {
-        const auto ring_of = (v - first) / kLoop;
+        const auto ring_of = (v - first) / kRing;
         const double fraction = ring_of > 2 ? 1.0 : static_cast<double>(ring_of) / 3.0;
-        const int k = static_cast<int>((v - first) % kLoop);
+        const int k = static_cast<int>((v - first) % kRing);
         // Nothing is raised where the edge lies on the cheek.
         const double rise = ring_of > 2 ? 1.0 : 1 - attached(k) * (1 - fraction);
         mesh.point[v] =
