@@ -2,11 +2,8 @@
 // What the manual shows is what happens: examples follow their schema, names of sources and options are
 // right. tests/scenario/manual_test.cpp runs its commands.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -15,6 +12,7 @@
 #include "message_of.h"
 #include "paths.h"
 #include "risorius/core/json_cursor.h"
+#include "shell.h"
 #include "temporary_folder.h"
 #include "tools/risorius/schema_check.h"
 
@@ -25,19 +23,9 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = RISORIUS_SOURCE_DIR;
 
-struct Said {
-    int code = -1;
-    std::string text;
-};
-
-Said run(const std::string& command) {
-    std::FILE* pipe = ::popen(("cd '" + kRoot.string() + "' && " + command + " 2>&1").c_str(), "r");
-    Said said;
-    std::array<char, 4096> block;
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
-        said.text.append(block.data(), got);
-    said.code = WEXITSTATUS(::pclose(pipe));
-    return said;
+/// Runs a command in the root of the repository and catches standard error too.
+ShellResult run(const std::string& command) {
+    return run_shell("cd '" + kRoot.string() + "' && " + command + " 2>&1");
 }
 
 TEST(Documents, PageOfTheCommandLineSaysWhatHelpSays) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -13,6 +12,7 @@
 
 #include "paths.h"
 #include "risorius/core/error.h"
+#include "shell.h"
 #include "temporary_folder.h"
 
 namespace risorius::io {
@@ -166,17 +166,6 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
 
 constexpr const char* kThree = "/usr/share/javascript/three";  // of Debian's libjs-three
 
-std::string output_of(const std::string& command) {
-    std::string out;
-    FILE* pipe = ::popen(command.c_str(), "r");
-    if (!pipe) return out;
-    std::array<char, 4096> part;
-    while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe))
-        out.append(part.data(), read);
-    ::pclose(pipe);
-    return out;
-}
-
 /// What three.js says of a file, in headless Chromium where there is one, else in node; empty without either.
 std::string loaded_in_three(const std::filesystem::path& file, const std::string& bytes,
                             const std::filesystem::path& folder) {
@@ -194,16 +183,18 @@ std::string loaded_in_three(const std::filesystem::path& file, const std::string
         out << "]);\nload(bytes.buffer, (what) => document.getElementById('said').textContent = "
                "'[[[' + JSON.stringify(what) + ']]]');</script>\n";
         out.close();
-        const std::string dom = output_of(
-            "chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 "
-            "--user-data-dir='" +
-            (folder / "profile").string() + "' --dump-dom 'file://" + page.string() +
-            "' 2>/dev/null");
+        const std::string dom =
+            run_shell(
+                "chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 "
+                "--user-data-dir='" +
+                (folder / "profile").string() + "' --dump-dom 'file://" + page.string() +
+                "' 2>/dev/null")
+                .output;
         const std::size_t from = dom.find("[[["), to = dom.find("]]]", from);
         return to == std::string::npos ? "nothing said" : dom.substr(from + 3, to - from - 3);
     }
     if (std::system("command -v node >/dev/null 2>&1") == 0)
-        return output_of("node '" + script + "' " + kThree + " '" + file.string() + "'");
+        return run_shell("node '" + script + "' " + kThree + " '" + file.string() + "'").output;
     return {};
 }
 

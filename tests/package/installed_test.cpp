@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library and the program as others have them: installed, moved, found by CMake and pkg-config, far from the sources.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -12,6 +9,7 @@
 #include <string>
 
 #include "paths.h"
+#include "shell.h"
 #include "temporary_folder.h"
 
 namespace risorius {
@@ -21,23 +19,12 @@ namespace fs = std::filesystem;
 
 const fs::path kSamples = fs::path(RISORIUS_SOURCE_DIR) / "samples/cpp";
 
-struct Said {
-    int code = -1;
-    std::string text;
-};
-
 /// What a command prints, standard error too, and its exit code; without the data folder that tests may be given.
-Said run(const std::string& command) {
+ShellResult run(const std::string& command) {
     // By way of bash whatever the system's shell is, since completions are bash's
     const std::string script = "exec bash -c \"$(cat <<'END_OF_TEST'\nunset RISORIUS_DATA\n" +
                                command + "\nEND_OF_TEST\n)\" 2>&1";
-    std::FILE* pipe = ::popen(script.c_str(), "r");
-    Said said;
-    std::array<char, 4096> block;
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
-        said.text.append(block.data(), got);
-    said.code = WEXITSTATUS(::pclose(pipe));
-    return said;
+    return run_shell(script);
 }
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
@@ -54,13 +41,13 @@ class Installed : public testing::Test {
         if (install_.code == 0) fs::rename(first, prefix());
     }
     static void TearDownTestSuite() { folder_.reset(); }
-    void SetUp() override { ASSERT_EQ(install_.code, 0) << install_.text; }
+    void SetUp() override { ASSERT_EQ(install_.code, 0) << install_.output; }
 
     static fs::path prefix() { return *folder_ / "opt/risorius"; }
     static fs::path scratch(const std::string& name) { return *folder_ / name; }
     /// The samples against the installation, built when first asked for.
-    static const Said& samples() {
-        static const Said said =
+    static const ShellResult& samples() {
+        static const ShellResult said =
             run("cmake -S " + quoted(kSamples) + " -B " + quoted(scratch("samples")) +
                 " -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=" + quoted(prefix()) +
                 " && cmake --build " + quoted(scratch("samples")));
@@ -69,49 +56,49 @@ class Installed : public testing::Test {
 
   private:
     static std::unique_ptr<TemporaryFolder> folder_;
-    static Said install_;
+    static ShellResult install_;
 };
 std::unique_ptr<TemporaryFolder> Installed::folder_;
-Said Installed::install_;
+ShellResult Installed::install_;
 
 TEST_F(Installed, ProgramFindsItsDataFromAnyFolder) {
-    const Said said =
+    const ShellResult said =
         run("cd / && " + quoted(prefix() / "bin/risorius") +
             " head --identity imani --mesh-only --quiet -o " + quoted(scratch("imani")));
-    EXPECT_EQ(said.code, 0) << said.text;
+    EXPECT_EQ(said.code, 0) << said.output;
     EXPECT_TRUE(fs::exists(scratch("imani") / "head.obj"));
-    const Said still =
+    const ShellResult still =
         run("cd / && " + quoted(prefix() / "bin/risorius") + " render " +
             quoted(prefix() / "share/risorius/samples/smile/script.json") +
             " --still 0.1 --draft --size 64x64 --quiet -o " + quoted(scratch("still.png")));
-    EXPECT_EQ(still.code, 0) << still.text;
+    EXPECT_EQ(still.code, 0) << still.output;
     EXPECT_GT(fs::file_size(scratch("still.png")), 500u);
 }
 
 TEST_F(Installed, SamplesBuildWithoutTheSources) {
-    EXPECT_EQ(samples().code, 0) << samples().text;
-    EXPECT_EQ(samples().text.find("warning"), std::string::npos) << samples().text;
+    EXPECT_EQ(samples().code, 0) << samples().output;
+    EXPECT_EQ(samples().output.find("warning"), std::string::npos) << samples().output;
 }
 
 TEST_F(Installed, FaceToPictureMovesTheCornerOfTheMouthAndDrawsIt) {
     ASSERT_EQ(samples().code, 0);
-    const Said said =
+    const ShellResult said =
         run("RISORIUS_DATA=" + quoted(prefix() / "share/risorius") + " " +
             quoted(scratch("samples/face_to_picture")) + " " + quoted(scratch("smile.png")));
-    EXPECT_EQ(said.code, 0) << said.text;
+    EXPECT_EQ(said.code, 0) << said.output;
     double x = 0, y = 0, z = 0;
     ASSERT_EQ(
-        std::sscanf(said.text.c_str(), "left corner of the mouth: %lf %lf %lf mm", &x, &y, &z), 3)
-        << said.text;
+        std::sscanf(said.output.c_str(), "left corner of the mouth: %lf %lf %lf mm", &x, &y, &z), 3)
+        << said.output;
     EXPECT_GT(x, 25);  // at rest it is 23 mm from the middle
     EXPECT_GT(fs::file_size(scratch("smile.png")), 20'000u);
 }
 
 TEST_F(Installed, SoftBodyKeepsItsVolume) {
     ASSERT_EQ(samples().code, 0);
-    const Said said = run(quoted(scratch("samples/soft_body")));
-    EXPECT_EQ(said.code, 0) << said.text;
-    std::istringstream lines(said.text);
+    const ShellResult said = run(quoted(scratch("samples/soft_body")));
+    EXPECT_EQ(said.code, 0) << said.output;
+    std::istringstream lines(said.output);
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "time_s\tlowest_mm\tvolume_percent");
@@ -129,39 +116,41 @@ TEST_F(Installed, SoftBodyKeepsItsVolume) {
 
 TEST_F(Installed, BakeShapesWritesAGlb) {
     ASSERT_EQ(samples().code, 0);
-    const Said said = run("RISORIUS_DATA=" + quoted(prefix() / "share/risorius") + " " +
-                          quoted(scratch("samples/bake_shapes")) + " " + quoted(scratch("shapes")));
-    EXPECT_EQ(said.code, 0) << said.text;
+    const ShellResult said =
+        run("RISORIUS_DATA=" + quoted(prefix() / "share/risorius") + " " +
+            quoted(scratch("samples/bake_shapes")) + " " + quoted(scratch("shapes")));
+    EXPECT_EQ(said.code, 0) << said.output;
     EXPECT_GT(fs::file_size(scratch("shapes") / "shapes.glb"), 100'000u);
 }
 
 TEST_F(Installed, PkgConfigLinksAProgram) {
-    const Said said = run("export PKG_CONFIG_PATH=$(dirname \"$(find " + quoted(prefix()) +
-                          " -name risorius.pc)\"); " + "c++ " + quoted(kSamples / "soft_body.cpp") +
-                          " -o " + quoted(scratch("soft_body")) +
-                          " $(pkg-config --define-prefix --cflags --libs risorius) && " +
-                          quoted(scratch("soft_body")));
-    EXPECT_EQ(said.code, 0) << said.text;
-    EXPECT_TRUE(said.text.starts_with("time_s\t")) << said.text;
+    const ShellResult said =
+        run("export PKG_CONFIG_PATH=$(dirname \"$(find " + quoted(prefix()) +
+            " -name risorius.pc)\"); " + "c++ " + quoted(kSamples / "soft_body.cpp") + " -o " +
+            quoted(scratch("soft_body")) +
+            " $(pkg-config --define-prefix --cflags --libs risorius) && " +
+            quoted(scratch("soft_body")));
+    EXPECT_EQ(said.code, 0) << said.output;
+    EXPECT_TRUE(said.output.starts_with("time_s\t")) << said.output;
 }
 
 // A program that would see other layouts than the library does is refused when it is compiled, not when it crashes.
 TEST_F(Installed, OtherFlagsThanTheLibrarysAreRefused) {
     const std::string compile = "c++ -std=c++20 -fsyntax-only -I/usr/include/eigen3 -I" +
                                 quoted(prefix() / "include") + " ";
-    const Said bare = run(compile + quoted(kSamples / "soft_body.cpp"));
+    const ShellResult bare = run(compile + quoted(kSamples / "soft_body.cpp"));
     EXPECT_NE(bare.code, 0);
-    EXPECT_NE(bare.text.find("Compile with the flags of the library"), std::string::npos)
-        << bare.text;
+    EXPECT_NE(bare.output.find("Compile with the flags of the library"), std::string::npos)
+        << bare.output;
 }
 
 TEST_F(Installed, ManPagesAndCompletionsKnowEveryCommand) {
-    const Said completed =
+    const ShellResult completed =
         run("source " + quoted(prefix() / "share/bash-completion/completions/risorius") +
             " && COMP_WORDS=(risorius ba) COMP_CWORD=1 && _risorius && echo \"${COMPREPLY[@]}\" "
             "&& COMP_WORDS=(risorius render --cam) COMP_CWORD=2 && _risorius && echo "
             "\"${COMPREPLY[@]}\"");
-    EXPECT_EQ(completed.text, "batch\n--camera\n");
+    EXPECT_EQ(completed.output, "batch\n--camera\n");
     for (const char* page : {"risorius.1.gz", "risorius-render.1.gz", "risorius-batch.1.gz"})
         EXPECT_TRUE(fs::exists(prefix() / "share/man/man1" / page)) << page;
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "scenario/run_program.h"
@@ -13,13 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a shell command says, standard error included.
-Outcome shell(const std::string& command) {
-    const Folder scratch;
-    const std::string all =
-        "cd '" + kRoot.string() + "' && " + command + " >'" + (scratch / "out").string() + "' 2>&1";
-    const int status = std::system(all.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(scratch / "out"), ""};
+/// Runs a command in the root of the repository and catches standard error too.
+ShellResult shell(const std::string& command) {
+    return run_shell("cd '" + kRoot.string() + "' && { " + command + "; } 2>&1");
 }
 
 bool installed(const std::string& program) { return shell("command -v " + program).code == 0; }
@@ -30,8 +25,8 @@ void expect_examples_run(const std::vector<std::string>& pages) {
     std::string command =
         "python3 tools/docs/run_examples.py --program '" RISORIUS_BINARY_DIR "/risorius'";
     for (const std::string& page : pages) command += " '" + page + "'";
-    const Outcome outcome = shell(command);
-    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    const ShellResult result = shell(command);
+    EXPECT_EQ(result.code, 0) << result.output;
 }
 
 /// The pages right inside a folder, in the order of their names.
@@ -62,15 +57,15 @@ TEST(ManualReference, CommandsRun) {
 }
 
 TEST(ManualSite, LinksLeadSomewhere) {
-    const Outcome outcome = shell("tools/docs.sh --links");
-    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    const ShellResult result = shell("tools/docs.sh --links");
+    EXPECT_EQ(result.code, 0) << result.output;
 }
 
 TEST(ManualSite, BuildsWithoutWarnings) {
     if (!installed("mkdocs") || !installed("doxygen"))
         GTEST_SKIP() << "mkdocs and doxygen are not installed (tools/setup.sh docs)";
-    const Outcome outcome = shell("tools/docs.sh");
-    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    const ShellResult result = shell("tools/docs.sh");
+    EXPECT_EQ(result.code, 0) << result.output;
 }
 
 TEST(ManualReadme, IsOnePage) {

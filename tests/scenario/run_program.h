@@ -3,11 +3,7 @@
 /// Runs the real program and catches what it says.
 #pragma once
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +11,7 @@
 #include <string>
 
 #include "paths.h"
+#include "shell.h"
 #include "temporary_folder.h"
 
 namespace risorius::scenario {
@@ -39,9 +36,8 @@ inline Outcome run(const std::string& arguments, const std::filesystem::path& fo
                                 RISORIUS_BINARY_DIR "/risorius' " + arguments + " >'" +
                                 (scratch / "out").string() + "' 2>'" +
                                 (scratch / "errors").string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(scratch / "out"),
-            text_of(scratch / "errors")};
+    const int code = exit_code(std::system(command.c_str()));
+    return {code, text_of(scratch / "out"), text_of(scratch / "errors")};
 }
 
 }  // namespace risorius::scenario

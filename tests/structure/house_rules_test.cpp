@@ -2,12 +2,11 @@
 // What the house style asks of every file, where a machine can tell.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "shell.h"
 #include "structure/source_tree.h"
 
 namespace risorius::structure {
@@ -19,16 +18,8 @@ const Names kSources = {".h", ".cpp"};
 const Names kText = {".h",     ".cpp",  ".txt", ".sh",   ".json", ".md",
                      ".cmake", ".glsl", ".js",  ".html", ".tsv",  ".csv"};
 
-/// Output and exit code of a shell command.
-std::pair<std::string, int> run(const std::string& command) {
-    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return {"cannot run " + command, -1};
-    std::string output;
-    std::array<char, 4096> block;
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
-        output.append(block.data(), got);
-    return {output, ::pclose(pipe)};
-}
+/// Runs a command and catches standard error too.
+ShellResult run(const std::string& command) { return run_shell(command + " 2>&1"); }
 
 TEST(HouseRules, TopLevelHoldsOnlyWhatTheReadmeNames) {
     const Names allowed = {"CMakeLists.txt",
@@ -173,11 +164,11 @@ TEST(HouseRules, NoSourcePathIsCompiledIn) {
 }
 
 TEST(HouseRules, NoFunctionIsLongerThanAHundredLines) {
-    const auto [version, status] = run("ctags --version");
+    const auto [status, version] = run("ctags --version");
     if (status != 0 || version.find("Universal Ctags") == std::string::npos)
         GTEST_SKIP() << "Universal Ctags is not installed";
     constexpr int kMaxLines = 100;
-    const auto [tags, listed] = run("cd '" + source_dir().string() +
+    const auto [listed, tags] = run("cd '" + source_dir().string() +
                                     "' && ctags -R -f - --languages=C++ --kinds-C++=f --fields=+ne "
                                     "--output-format=json src tools");
     ASSERT_EQ(listed, 0) << tags.substr(0, 1000);
@@ -196,14 +187,14 @@ TEST(HouseRules, NoFunctionIsLongerThanAHundredLines) {
 
 TEST(HouseRules, SourcesAreLaidOutByClangFormat) {
     // Versions differ in details; the layout is that of Debian 12's.
-    const auto [version, status] = run("clang-format --version");
+    const auto [status, version] = run("clang-format --version");
     if (status != 0) GTEST_SKIP() << "clang-format is not installed";
     if (version.find("version 14.") == std::string::npos)
         GTEST_SKIP() << "not clang-format 14 but " << version;
     std::string command = "cd '" + source_dir().string() + "' && clang-format --dry-run -Werror";
     for (const char* folder : {"src", "tools", "tests"})
         for (const auto& file : files_below(folder, kSources)) command += " '" + shown(file) + "'";
-    const auto [complaints, formatted] = run(command);
+    const auto [formatted, complaints] = run(command);
     EXPECT_EQ(formatted, 0) << complaints.substr(0, 4000)
                             << "\nTo lay them out: clang-format -i the files named above";
 }

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
-
+#include "shell.h"
 #include "structure/source_tree.h"
 
 namespace risorius::structure {
@@ -73,12 +71,8 @@ class Machine {
         const std::string command =
             "cd / && RISORIUS_SKIP_SETUP=0 PATH='" + bin + "' " + settings + " '" + bin +
             "/bash' '" + (source_dir() / "tools/setup.sh").string() + "' " + arguments + " 2>&1";
-        std::FILE* pipe = ::popen(command.c_str(), "r");
-        std::string output;
-        std::array<char, 4096> block;
-        while (const std::size_t got = std::fread(block.data(), 1, block.size(), pipe))
-            output.append(block.data(), got);
-        return {output, WEXITSTATUS(::pclose(pipe))};
+        const ShellResult result = run_shell(command);
+        return {result.output, result.code};
     }
 
   private:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // tools/test.sh with stand-ins for cmake and ctest: what it has run, and whether it tells of what fails.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <regex>
 
+#include "shell.h"
 #include "structure/source_tree.h"
 #include "temporary_folder.h"
 
@@ -30,8 +30,7 @@ class TestScript : public testing::Test {
                                     "':\"$PATH\" RISORIUS_SKIP_SETUP=1 " + environment + " '" +
                                     (source_dir() / "tools/test.sh").string() + "' " + argument +
                                     " >'" + (folder_ / "said").string() + "' 2>&1";
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return exit_code(std::system(command.c_str()));
     }
     /// The call that begins so.
     std::string call(const std::string& begin) const {
