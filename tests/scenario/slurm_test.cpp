@@ -77,7 +77,12 @@ TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
                            << "exec '" RISORIUS_BINARY_DIR "/risorius' \"$@\"\n";
     fs::permissions(program, fs::perms::owner_all);
     stimuli::SlurmOptions slurm;
-    slurm.program = program;
+    slurm.part_command = [&](const fs::path& design, const fs::path& out, int workers,
+                             const std::string& part) {
+        return std::vector<std::string>{
+            program,  "batch", design,  "--out", out, "--workers", std::to_string(workers),
+            "--part", part,    "--json"};
+    };
     slurm.tasks = 2;
     slurm.retries = 0;
     stimuli::BatchReport report = stimuli::make_batch_on_slurm(there, slurm);

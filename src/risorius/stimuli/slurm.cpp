@@ -101,18 +101,18 @@ void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::
         }
 }
 
-}  // namespace
-
+/// The script that every task of the array runs.
 std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks) {
-    return "#!/bin/sh\n# A part of a stimulus set, made by one task of a job array.\nexec " +
-           shell_quoted(slurm.program.string()) + " batch " +
-           shell_quoted(fs::absolute(batch.design).string()) + " --out " +
-           shell_quoted(fs::absolute(batch.out).string()) + " --workers " +
-           std::to_string(slurm.workers) + " --part \"$SLURM_ARRAY_TASK_ID/" +
-           std::to_string(tasks) + "\" --json\n";
+    // Where the part stands, the shell puts the number of the task.
+    const std::string part = "TASK/" + std::to_string(tasks);
+    std::string script =
+        "#!/bin/sh\n# A part of a stimulus set, made by one task of a job array.\nexec";
+    for (const std::string& word : slurm.part_command(fs::absolute(batch.design),
+                                                      fs::absolute(batch.out), slurm.workers, part))
+        script += " " + (word == part ? "\"$SLURM_ARRAY_TASK_ID/" + std::to_string(tasks) + "\""
+                                      : shell_quoted(word));
+    return script + "\n";
 }
-
-namespace {
 
 /// Submits job arrays one after the other, until no clip is missing or all retries are used.
 class Rounds {

@@ -5,23 +5,29 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "risorius/stimuli/batch.h"
 
 namespace risorius::stimuli {
 
 struct SlurmOptions {
-    std::filesystem::path program;  ///< path of this program on the nodes
-    int tasks = 8;                  ///< of the array; at most one for each clip
-    int workers = 1;                ///< clips made at once in a task, and CPUs of a task
-    int retries = 1;                ///< how often tasks with missing clips are submitted again
+    /// The command that makes one part of the set on a node: its words, given the design, the folder of the set, how many clips are
+    /// made at once, and the part as "N/COUNT". N is the number of the task; the batch script puts it in. The command writes one JSON
+    /// object per clip to standard output: {"event": "failed", "stim_id": ..., "why": ...}.
+    std::function<std::vector<std::string>(const std::filesystem::path& design,
+                                           const std::filesystem::path& out, int workers,
+                                           const std::string& part)>
+        part_command;
+    int tasks = 8;    ///< of the array; at most one for each clip
+    int workers = 1;  ///< clips made at once in a task, and CPUs of a task
+    int retries = 1;  ///< how often tasks with missing clips are submitted again
     std::string account, partition, time;  ///< options of sbatch; empty: not given
 };
 
-/// The batch script, DIR/code/slurm.sh. The logs of the tasks are DIR/code/slurm-ROUND-TASK.log.
-std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks);
-
+/// Makes the set by a job array. Its script is DIR/code/slurm.sh, the logs of its tasks are DIR/code/slurm-ROUND-TASK.log.
 /// Throws Error for a wrong design, RunError when Slurm is missing or refuses the job, and Interrupted when the monitor asks to stop
 /// (the job is cancelled then).
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
