@@ -226,7 +226,7 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
                                                 -fields.temple, kTempleRound_mm);
                 out = smooth_union(smooth_cut(out, -under, kRound_mm), vault, 4);
                 out = smooth_cut(out, -fields.carved, 2.5);
-                if (at_nose) out = smooth_union(out, nasal_bone_field(standard, under), 2);
+                if (at_nose) out = smooth_union(out, nasal_bone_field(shapes, standard, under), 2);
             }
             return per_mm * smooth_union(out, fields.inner, 3);
         };

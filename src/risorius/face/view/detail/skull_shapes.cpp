@@ -72,25 +72,25 @@ double wall(const Vec3& p, const std::vector<Knot>& path, double low, double hig
 
 Vec3 one_side(const Vec3& p) { return {std::abs(p.x()), p.y(), p.z()}; }
 
-/// The opening of the orbit is a rounded square, which runs in a cone to behind the bridge of the nose.
-double orbit(const Vec3& p) {
-    const Vec3 front(31.5, 17.5, 82), back(19, 18, 40);
-    const double h = std::clamp((p.z() - back.z()) / (front.z() - back.z()), 0.0, 1.6);
-    const Vec3 axis = back + std::min(h, 1.15) * (front - back);
-    const double half_width = 1.5 + 17.4 * std::min(h, 1.1),
-                 half_height = 1.5 + 15.5 * std::min(h, 1.1);
+/// The cone goes on a little beyond the front of the orbit, so that its rim is open.
+double orbit(const Vec3& p, const SkullShapes::Orbit& shape) {
+    constexpr double kBeyond = 1.6, kAxisBeyond = 1.15, kRimBeyond = 1.1, kFlat = 0.9;
+    const double h =
+        std::clamp((p.z() - shape.back.z()) / (shape.front.z() - shape.back.z()), 0.0, kBeyond);
+    const Vec3 axis = shape.back + std::min(h, kAxisBeyond) * (shape.front - shape.back);
+    const double half_width = shape.apex + shape.half_width * std::min(h, kRimBeyond),
+                 half_height = shape.apex + shape.half_height * std::min(h, kRimBeyond);
     const double u = std::abs(p.x() - axis.x()) / half_width,
-                 v = std::abs(p.y() - axis.y() + 0.10 * (p.x() - axis.x())) / half_height;
-    const double round = std::pow(std::pow(u, 2.6) + std::pow(v, 2.6), 1 / 2.6);
-    return std::max((round - 1) * 0.5 * (half_width + half_height) * 0.9, back.z() - p.z());
+                 v = std::abs(p.y() - axis.y() + shape.tilt * (p.x() - axis.x())) / half_height;
+    const double round = std::pow(std::pow(u, shape.squareness) + std::pow(v, shape.squareness),
+                                  1 / shape.squareness);
+    return std::max((round - 1) * 0.5 * (half_width + half_height) * kFlat, shape.back.z() - p.z());
 }
 
-/// A pear: the width of the opening between the wings, narrow under the nasal bones.
-double nose_opening(const Vec3& p) {
-    const Knot low{{4.6, -18.5, 0}, 7.6}, high{{0, -3, 0}, 4.5};
+double nose_opening(const Vec3& p, const SkullShapes& shapes) {
     Vec3 q = p;
     q.z() = 0;
-    return std::max(rod(q, low, high), 48 - p.z());
+    return std::max(rod(q, shapes.nose_opening), shapes.nose_opening_back - p.z());
 }
 
 constexpr Range kPlace_mm{-300, 300}, kRadius_mm{0.1, 300};
@@ -131,6 +131,60 @@ void read(const JsonCursor& json, SkullShapes::Plate& out) {
         json.at("corners").fail("three or four corners");
     out.radius = json.at("radius").number(kRadius_mm);
 }
+void read(const JsonCursor& json, double& out) { out = json.number(kPlace_mm); }
+void read(const JsonCursor& json, SkullShapes::Heights& out) {
+    const std::vector<JsonCursor> ends = json.items();
+    if (ends.size() != 2) json.fail("two heights");
+    out = {ends[0].number(kPlace_mm), ends[1].number(kPlace_mm)};
+    if (!(out.low < out.high)) json.fail("the lower height first");
+}
+void read(const JsonCursor& json, SkullShapes::Orbit& out) {
+    json.allow_keys({"front", "back", "apex", "half_width", "half_height", "squareness", "tilt"});
+    out = {place_of(json.at("front")),
+           place_of(json.at("back")),
+           json.at("apex").number(kRadius_mm),
+           json.at("half_width").number(kRadius_mm),
+           json.at("half_height").number(kRadius_mm),
+           json.at("squareness").number({1, 20}),
+           json.at("tilt").number({-1, 1})};
+    if (!(out.back.z() < out.front.z())) json.at("back").fail("a place behind \"front\"");
+}
+void read(const JsonCursor& json, SkullShapes::NasalBone& out) {
+    json.allow_keys({"thickness", "lower_edge", "edge_slope", "top", "half_width", "back"});
+    out = {json.at("thickness").number(kRadius_mm),  json.at("lower_edge").number(kPlace_mm),
+           json.at("edge_slope").number({-10, 10}),  json.at("top").number(kPlace_mm),
+           json.at("half_width").number(kRadius_mm), json.at("back").number(kPlace_mm)};
+}
+template <typename Visit>
+void visit_rounding(SkullShapes::Rounding& rounding, Visit visit) {
+    visit("braincase_floor", rounding.braincase_floor);
+    visit("skull_base", rounding.skull_base);
+    visit("mastoid_root", rounding.mastoid_root);
+    visit("mastoid", rounding.mastoid);
+    visit("nasal_process", rounding.nasal_process);
+    visit("alveolar_process", rounding.alveolar_process);
+    visit("cheek_buttress", rounding.cheek_buttress);
+    visit("cheekbone", rounding.cheekbone);
+    visit("maxilla", rounding.maxilla);
+    visit("zygomatic_arch", rounding.zygomatic_arch);
+    visit("hard_palate", rounding.hard_palate);
+    visit("pterygoid_plate", rounding.pterygoid_plate);
+    visit("nasal_spine", rounding.nasal_spine);
+    visit("nasal_bone", rounding.nasal_bone);
+    visit("body", rounding.body);
+    visit("chin", rounding.chin);
+    visit("coronoid_process", rounding.coronoid_process);
+    visit("condyle_neck", rounding.condyle_neck);
+    visit("condyle", rounding.condyle);
+    visit("ramus", rounding.ramus);
+}
+void read(const JsonCursor& json, SkullShapes::Rounding& out) {
+    std::vector<std::string_view> keys;
+    visit_rounding(out, [&](const char* key, double&) { keys.push_back(key); });
+    json.allow_keys(keys);
+    visit_rounding(
+        out, [&](const char* key, double& value) { value = json.at(key).number(kRadius_mm); });
+}
 void read(const JsonCursor& json, std::vector<Vec3>& out) {
     for (const JsonCursor& item : json.items()) out.push_back(place_of(item));
 }
@@ -167,13 +221,22 @@ void visit_shapes(SkullShapes& shapes, Visit visit) {
     visit("ramus_lower", shapes.ramus_lower);
     visit("ramus_upper", shapes.ramus_upper);
     visit("body_top", shapes.body_top);
+    visit("body_radius", shapes.body_radius);
+    visit("orbit", shapes.orbit);
+    visit("nose_opening", shapes.nose_opening);
+    visit("nose_opening_back", shapes.nose_opening_back);
+    visit("nasal_bone", shapes.nasal_bone);
+    visit("upper_sockets", shapes.upper_sockets);
+    visit("lower_sockets", shapes.lower_sockets);
+    visit("braincase_floor", shapes.braincase_floor);
+    visit("rounding", shapes.rounding);
 }
 
 }  // namespace
 
 SkullShapes read_skull_shapes(const JsonCursor& json) {
     json.at("format").one_of({"risorius-skull-shapes"});
-    SkullShapes out;
+    SkullShapes out{};
     std::vector<std::string_view> keys{"format", "version", "source"};
     visit_shapes(out, [&](const char* key, auto&) { keys.push_back(key); });
     json.allow_keys(keys);
@@ -192,79 +255,86 @@ const SkullShapes& standard_skull_shapes() {
 
 BoneFields skull_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
+    const SkullShapes::Rounding& rounding = shapes.rounding;
     // The braincase, hollowed at the temples
     double braincase = ellipsoid(p, shapes.braincase);
-
-    braincase = smooth_cut(braincase, -(p.y() + 26), 24);
+    braincase = smooth_cut(braincase, -(p.y() - shapes.braincase_floor), rounding.braincase_floor);
     const double base = ellipsoid(p, shapes.skull_base);
-    const double mastoid =
-        smooth_union(ellipsoid(p, shapes.mastoid), ellipsoid(p, shapes.mastoid_root), 6);
+    const double mastoid = smooth_union(ellipsoid(p, shapes.mastoid),
+                                        ellipsoid(p, shapes.mastoid_root), rounding.mastoid_root);
     BoneFields fields{};
-    fields.vault = smooth_union(smooth_union(braincase, base, 6), mastoid, 8);
+    fields.vault =
+        smooth_union(smooth_union(braincase, base, rounding.skull_base), mastoid, rounding.mastoid);
     fields.temple = ellipsoid(p, shapes.temple);
 
     // The middle face
     double out = std::min(rods(p, shapes.upper_rim), rods(p, shapes.lower_rim));
     double maxilla = ellipsoid(p, shapes.maxilla);
-    maxilla = smooth_union(maxilla, rods(p, shapes.nasal_process), 6);
-    maxilla = smooth_union(maxilla, ellipsoid(p, shapes.alveolar_process), 6);
-    const double cheek =
-        smooth_union(ellipsoid(p, shapes.cheekbone), rod(p, shapes.cheek_buttress), 6);
-    maxilla = smooth_union(maxilla, cheek, 6);
-    out = smooth_union(out, maxilla, 6);
-    out = smooth_union(out, rods(p, shapes.zygomatic_arch), 4);
+    maxilla = smooth_union(maxilla, rods(p, shapes.nasal_process), rounding.nasal_process);
+    maxilla =
+        smooth_union(maxilla, ellipsoid(p, shapes.alveolar_process), rounding.alveolar_process);
+    const double cheek = smooth_union(ellipsoid(p, shapes.cheekbone), rod(p, shapes.cheek_buttress),
+                                      rounding.cheek_buttress);
+    maxilla = smooth_union(maxilla, cheek, rounding.cheekbone);
+    out = smooth_union(out, maxilla, rounding.maxilla);
+    out = smooth_union(out, rods(p, shapes.zygomatic_arch), rounding.zygomatic_arch);
 
     fields.outer = out;
     const double ear = rod(p, shapes.ear_canal);
-    fields.carved = std::min({orbit(p), nose_opening(p), ear});
+    fields.carved = std::min({orbit(p, shapes.orbit), nose_opening(p, shapes), ear});
     // Sockets of the teeth with the roof of the mouth, plates behind them, the partition of the nose and its spine
-    double inner = wall(p, shapes.upper_arch, -42, -29);
-    inner = smooth_union(inner, ellipsoid(p, shapes.hard_palate), 4);
-    inner = smooth_union(inner, plate(p, shapes.pterygoid_plate), 5);
+    double inner = wall(p, shapes.upper_arch, shapes.upper_sockets.low, shapes.upper_sockets.high);
+    inner = smooth_union(inner, ellipsoid(p, shapes.hard_palate), rounding.hard_palate);
+    inner = smooth_union(inner, plate(p, shapes.pterygoid_plate), rounding.pterygoid_plate);
     const double partition = plate(p, shapes.nasal_septum);
     const double spine = rod(p, shapes.nasal_spine);
     const double shell = std::min(rod(p, shapes.lower_concha), rod(p, shapes.middle_concha));
-    fields.inner = std::min({inner, partition, smooth_union(spine, inner, 3), shell});
+    fields.inner =
+        std::min({inner, partition, smooth_union(spine, inner, rounding.nasal_spine), shell});
     return fields;
 }
 
 BoneFields mandible_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
+    const SkullShapes::Rounding& rounding = shapes.rounding;
     double out = rods(p, shapes.lower_border);
     // The body between the border and the sockets, wall by wall
     for (std::size_t i = 0; i + 1 < shapes.lower_border.size(); ++i) {
         out = smooth_union(out,
                            plate(p, shapes.lower_border[i].at, shapes.lower_border[i + 1].at,
-                                 shapes.body_top[i + 1], shapes.body_top[i], 4.6),
-                           3);
+                                 shapes.body_top[i + 1], shapes.body_top[i], shapes.body_radius),
+                           rounding.body);
     }
-    out = smooth_union(out, ellipsoid(p, shapes.chin), 5);
+    out = smooth_union(out, ellipsoid(p, shapes.chin), rounding.chin);
     // The ramus, its two processes, the condyle
     double ramus = plate(p, shapes.ramus_lower);
     ramus = std::min(ramus, plate(p, shapes.ramus_upper));
-    ramus = smooth_union(ramus, rod(p, shapes.coronoid_process), 4);
-    ramus = smooth_union(ramus, rod(p, shapes.condyle_neck), 4);
-    ramus = smooth_union(ramus, rod(p, shapes.condyle), 4);
-    out = smooth_union(out, ramus, 8);
-    return {.vault = 1e9,
-            .temple = 1e9,
-            .outer = out,
-            .carved = 1e9,
-            .inner = wall(p, shapes.lower_arch, -67, -61.5)};
+    ramus = smooth_union(ramus, rod(p, shapes.coronoid_process), rounding.coronoid_process);
+    ramus = smooth_union(ramus, rod(p, shapes.condyle_neck), rounding.condyle_neck);
+    ramus = smooth_union(ramus, rod(p, shapes.condyle), rounding.condyle);
+    out = smooth_union(out, ramus, rounding.ramus);
+    return {
+        .vault = 1e9,
+        .temple = 1e9,
+        .outer = out,
+        .carved = 1e9,
+        .inner = wall(p, shapes.lower_arch, shapes.lower_sockets.low, shapes.lower_sockets.high)};
 }
 
 bool near_nasal_bone(const Vec3& p_mm) {
     return std::abs(p_mm.x()) < 20 && p_mm.y() > -16 && p_mm.y() < 38 && p_mm.z() > 74;
 }
 
-double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm) {
-    constexpr double kThickness = 3.2;
+double nasal_bone_field(const SkullShapes& shapes, const Vec3& p_mm, double depth_under_tissue_mm) {
+    const SkullShapes::NasalBone& bone = shapes.nasal_bone;
     const Vec3 p = one_side(p_mm);
-    const double slab = std::abs(depth_under_tissue_mm - 0.5 * kThickness) - 0.5 * kThickness;
+    const double slab =
+        std::abs(depth_under_tissue_mm - 0.5 * bone.thickness) - 0.5 * bone.thickness;
     // From the forehead down to where cartilage begins, wider below; the free edge runs backwards to the side
-    const double edge = -3.5 + 0.5 * p.x();
-    const double bounds = std::max({edge - p.y(), p.y() - 30, p.x() - 11, 80 - p.z()});
-    return smooth_cut(slab, bounds, 1.5);
+    const double edge = bone.lower_edge + bone.edge_slope * p.x();
+    const double bounds =
+        std::max({edge - p.y(), p.y() - bone.top, p.x() - bone.half_width, bone.back - p.z()});
+    return smooth_cut(slab, bounds, shapes.rounding.nasal_bone);
 }
 
 }  // namespace risorius::face

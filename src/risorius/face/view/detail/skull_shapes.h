@@ -39,7 +39,39 @@ struct SkullShapes {
         condyle_neck, condyle;
     Plate pterygoid_plate, nasal_septum, ramus_lower, ramus_upper;
     std::vector<Vec3>
-        body_top;  ///< top of the body of the mandible over each knot of `lower_border`
+        body_top;        ///< top of the body of the mandible over each knot of `lower_border`
+    double body_radius;  ///< half the thickness of the body of the mandible
+
+    /// The opening of the orbit: a rounded square about `front` that runs in a cone to `back`.
+    struct Orbit {
+        Vec3 front, back;
+        double apex;                     ///< half the width and height at `back`
+        double half_width, half_height;  ///< added to `apex` from `back` to `front`
+        double squareness;               ///< exponent of the outline; 2: an ellipse
+        double tilt;                     ///< the outline falls so much per mm to the side
+    } orbit;
+    /// The opening of the nose: a pear between two circles, from its floor upwards.
+    Rod nose_opening;
+    double nose_opening_back;  ///< z where the opening ends
+    /// The nasal bones: a plate of even thickness under the tissue, cut by planes.
+    struct NasalBone {
+        double thickness;
+        double lower_edge,
+            edge_slope;  ///< height of the free edge in the midline; how it rises to the side
+        double top, half_width, back;  ///< y, x, z where the plate ends
+    } nasal_bone;
+    /// Heights between which the sockets of the teeth stand.
+    struct Heights {
+        double low, high;
+    } upper_sockets, lower_sockets;
+    double braincase_floor;  ///< y
+
+    /// How far the joints between two bodies are rounded, named after the body that is joined.
+    struct Rounding {
+        double braincase_floor, skull_base, mastoid_root, mastoid, nasal_process, alveolar_process,
+            cheek_buttress, cheekbone, maxilla, zygomatic_arch, hard_palate, pterygoid_plate,
+            nasal_spine, nasal_bone, body, chin, coronoid_process, condyle_neck, condyle, ramus;
+    } rounding;
 };
 
 /// Throws Error on an unknown or missing key or a value out of range.
@@ -63,7 +95,7 @@ BoneFields mandible_fields(const SkullShapes& shapes, const Vec3& p_mm);
 /// Whether a point can be near the nasal bones.
 bool near_nasal_bone(const Vec3& p_mm);
 /// Signed distance to the nasal bones, the thin roof of the nose, for a point at this depth under the tissue, mm.
-double nasal_bone_field(const Vec3& p_mm, double depth_under_tissue_mm);
+double nasal_bone_field(const SkullShapes& shapes, const Vec3& p_mm, double depth_under_tissue_mm);
 
 /// Smooth union and intersection of two fields: min and max, rounded where they differ by less than `round`.
 double smooth_union(double a, double b, double round);
