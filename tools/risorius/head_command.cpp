@@ -89,6 +89,7 @@ void add_head(CLI::App& app) {
                       "Calibrate the strength of each muscle on this head, which takes minutes. "
                       "Otherwise muscles are as strong as those of the adult");
     add_common(*command, arguments->common);
+    command->footer(std::string());  // not that of all commands
     command->footer(footer);
     command->callback([arguments] { run(*arguments); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line: turns arguments into calls of the libraries, and exceptions into messages and exit codes.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <regex>
 #include <string>
@@ -94,6 +95,18 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
+/// Names the value of every option that takes text after the option: -o,--out OUT instead of TEXT.
+void name_values(CLI::App& command) {
+    for (CLI::Option* option : command.get_options())
+        if (option->get_type_name() == "TEXT" && !option->get_lnames().empty()) {
+            std::string name = option->get_lnames().front();
+            std::transform(name.begin(), name.end(), name.begin(),
+                           [](unsigned char c) { return c == '-' ? '_' : std::toupper(c); });
+            option->type_name(name);
+        }
+    for (CLI::App* part : command.get_subcommands({})) name_values(*part);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -120,6 +133,7 @@ int main(int argc, char** argv) {
         app.add_subcommand("manual-pages", "Man pages, completions and docs/cli.md into a folder");
     manual->group("")->add_option("FOLDER", manual_folder, "The folder")->required();  // hidden
     manual->callback([&] { cli::write_manual_pages(app, manual_folder); });
+    name_values(app);
     cli::catch_interrupts();
     try {
         app.parse(argc, argv);  // runs the command
