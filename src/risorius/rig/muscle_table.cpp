@@ -142,6 +142,8 @@ MuscleTable read_muscle_table(JsonCursor json) {
         muscle.activation_s = 1e-3 * item.at("t_act_ms").number({1, 1000});
         muscle.deactivation_s = 1e-3 * item.at("t_deact_ms").number({1, 1000});
         muscle.force_n = item.at("F0_N").number({0, 1e4});
+        if (const auto area = item.find("csa_mm2"))
+            muscle.area_m2 = 1e-6 * area->number({0.1, 1e5});
         read_line(item, muscle);
         if (const auto tonic = item.find("tonic_rest_activation"))
             muscle.tonic = tonic->number({0, 1}) > 0;

@@ -50,6 +50,7 @@ struct Muscle {
 
     // Given for muscles of jaw and hyoid, and for others where the table gives them; 0 or empty: not given
     double width_m = 0, thickness_m = 0;  ///< of the belly
+    double area_m2 = 0;                   ///< physiological cross-section, per side
     double optimal_length_m = 0;          ///< of its fibres
     double tendon_slack_m = 0;            ///< both tendons together
     double pennation_deg = 0;             ///< at optimal length
