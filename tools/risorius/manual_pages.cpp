@@ -140,7 +140,9 @@ std::string markdown_pages(const CLI::App& app) {
         "measured number of a figure lies outside its accepted range. |\n"
         "| 2 | The input or the command line is wrong. The message names place, expected and "
         "found. Nothing is left behind. |\n"
-        "| 130 | The run was interrupted (Ctrl-C). Nothing is left behind. |\n";
+        "| 130 | The run was interrupted (Ctrl-C). Half-made files are removed; finished clips of "
+        "a set "
+        "stay. |\n";
     for (const CLI::App* command : commands_of(app)) {
         page += "\n## risorius " + command->get_name() + "\n\n" + command->get_description() +
                 ".\n\n```text\n" + usage_of(*command) + "\n```\n";
@@ -179,8 +181,10 @@ std::string man_page(const CLI::App& app, const CLI::App* command) {
                     troff(one->get_description()) + "\n";
         page +=
             ".SH EXIT STATUS\n.TP\n0\nThe run is done.\n.TP\n1\nThe run failed.\n.TP\n2\nThe input "
-            "or the command line is wrong; nothing is left behind.\n.TP\n130\nThe run was "
-            "interrupted; nothing is left behind.\n.SH ENVIRONMENT\n.TP\n.B RISORIUS_DATA\nThe "
+            "or the command line is wrong; the message gives the place, the expected value and "
+            "the found one. Nothing is left behind.\n.TP\n130\nThe run was interrupted. "
+            "Half-made files are removed; finished clips of a set stay.\n.SH ENVIRONMENT\n.TP\n.B "
+            "RISORIUS_DATA\nThe "
             "folder that holds rigs, models and samples.\n.TP\n.B RISORIUS_GL\nWhat draws: auto, "
             "osmesa or egl.\n";
         return page;

@@ -119,7 +119,8 @@ void add_shapes(CLI::App& app) {
                         "A script to convert to weights: an animation in shapes.glb, live_link.csv "
                         "(for arkit52) and, with --formats cache, the vertices in every frame");
     command->add_flag("!--no-correctives", options.correctives,
-                      "Make only shapes, without correctives for the errors of their sums");
+                      "Make only shapes, without correctives for the errors of their sums. "
+                      "risorius render --shapes cannot play such a file");
     command
         ->add_option(
             "--pairs", options.pairs,

@@ -19,6 +19,27 @@ const std::vector<std::string>& control_names() {
     return kNames;
 }
 
+bool Control::shows_otherwise() const {
+    switch (kind) {
+        case ControlKind::kReversed:
+        case ControlKind::kScrambled:
+        case ControlKind::kApex:
+        case ControlKind::kUpsideDown:
+        case ControlKind::kPhaseScrambled:
+        case ControlKind::kEyesOnly:
+        case ControlKind::kMouthOnly:
+            return true;
+        case ControlKind::kNone:
+        case ControlKind::kFlipped:
+        case ControlKind::kNeutral:
+        case ControlKind::kKnockOut:
+        case ControlKind::kPalsy:
+        case ControlKind::kLateSide:
+            return false;
+    }
+    return false;
+}
+
 std::string Control::name() const {
     if (kind == ControlKind::kNone) return {};
     const std::string plain = control_names()[static_cast<std::size_t>(kind) - 1];

@@ -35,15 +35,13 @@ const std::vector<std::string>& control_names();
 struct Control {
     ControlKind kind = ControlKind::kNone;
     std::string muscle;  ///< kKnockOut: the name of a channel of the script, with or without a side
-    std::string side;    ///< kPalsy, kLateSide: "l" or "r"
+    std::string side;    ///< kPalsy, kLateSide: "left" or "right"
     double weakness = 1;               ///< kPalsy: fraction of the strength that is missing, [0, 1]
     double late_s = 0.1;               ///< kLateSide
     std::map<std::string, Json> when;  ///< only for conditions with these values
 
     /// Whether the control shows the pictures of the condition in another way, and does not change the face.
-    bool shows_otherwise() const {
-        return kind >= ControlKind::kReversed && kind <= ControlKind::kMouthOnly;
-    }
+    bool shows_otherwise() const;
     std::string name() const;  ///< for names of files: "reversed", "withoutZygomaticusMajorL"
 };
 
