@@ -83,8 +83,7 @@ TEST_F(Installed, SamplesBuildWithoutTheSources) {
 TEST_F(Installed, FaceToPictureMovesTheCornerOfTheMouthAndDrawsIt) {
     ASSERT_EQ(samples().code, 0);
     const ShellResult said =
-        run("RISORIUS_DATA=" + quoted(prefix() / "share/risorius") + " " +
-            quoted(scratch("samples/face_to_picture")) + " " + quoted(scratch("smile.png")));
+        run(quoted(scratch("samples/face_to_picture")) + " " + quoted(scratch("smile.png")));
     EXPECT_EQ(said.code, 0) << said.output;
     double x = 0, y = 0, z = 0;
     ASSERT_EQ(
@@ -117,18 +116,37 @@ TEST_F(Installed, SoftBodyKeepsItsVolume) {
 TEST_F(Installed, BakeShapesWritesAGlb) {
     ASSERT_EQ(samples().code, 0);
     const ShellResult said =
-        run("RISORIUS_DATA=" + quoted(prefix() / "share/risorius") + " " +
-            quoted(scratch("samples/bake_shapes")) + " " + quoted(scratch("shapes")));
+        run(quoted(scratch("samples/bake_shapes")) + " " + quoted(scratch("shapes")));
     EXPECT_EQ(said.code, 0) << said.output;
     EXPECT_GT(fs::file_size(scratch("shapes") / "shapes.glb"), 100'000u);
+}
+
+TEST_F(Installed, ComponentThatWasNotAskedForIsNamed) {
+    const fs::path project = scratch("components");
+    fs::create_directories(project);
+    std::ofstream(project / "main.cpp") << "int main() {}\n";
+    const auto configured = [&](const std::string& components) {
+        std::ofstream(project / "CMakeLists.txt")
+            << "cmake_minimum_required(VERSION 3.25)\nproject(components CXX)\n"
+            << "find_package(risorius CONFIG REQUIRED COMPONENTS " << components << ")\n"
+            << "add_executable(it main.cpp)\ntarget_link_libraries(it PRIVATE risorius::scene)\n";
+        return run("cd " + quoted(project) +
+                   " && cmake -S . -B build --fresh -DCMAKE_PREFIX_PATH=" + quoted(prefix()));
+    };
+    const ShellResult too_few = configured("face io");
+    EXPECT_EQ(too_few.code, 1);
+    EXPECT_NE(too_few.output.find("risorius::add_scene_to_the_COMPONENTS_of_find_package"),
+              std::string::npos)
+        << too_few.output;
+    const ShellResult enough = configured("scene");
+    EXPECT_EQ(enough.code, 0) << enough.output;
 }
 
 TEST_F(Installed, PkgConfigLinksAProgram) {
     const ShellResult said =
         run("export PKG_CONFIG_PATH=$(dirname \"$(find " + quoted(prefix()) +
             " -name risorius.pc)\"); " + "c++ " + quoted(kSamples / "soft_body.cpp") + " -o " +
-            quoted(scratch("soft_body")) +
-            " $(pkg-config --define-prefix --cflags --libs risorius) && " +
+            quoted(scratch("soft_body")) + " $(pkg-config --cflags --libs risorius) && " +
             quoted(scratch("soft_body")));
     EXPECT_EQ(said.code, 0) << said.output;
     EXPECT_TRUE(said.output.starts_with("time_s\t")) << said.output;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/installed_data.h"
 
 namespace risorius {
 namespace {
@@ -17,6 +18,12 @@ namespace fs = std::filesystem;
 
 std::mutex folder_mutex;
 fs::path chosen;
+
+/// A function, since programs add to it before main().
+std::vector<fs::path>& installed() {
+    static std::vector<fs::path> folders;
+    return folders;
+}
 
 bool holds_data(const fs::path& folder) {
     std::error_code ignored;
@@ -54,10 +61,16 @@ std::vector<fs::path> candidates() {
         if (end > begin) folders.push_back(fs::path(rest.substr(begin, end - begin)) / "risorius");
         begin = end + 1;
     }
+    folders.insert(folders.end(), installed().begin(), installed().end());
     return folders;
 }
 
 }  // namespace
+
+bool add_installed_data(const char* folder) {
+    installed().emplace_back(folder);
+    return true;
+}
 
 std::filesystem::path data_folder() {
     const std::lock_guard<std::mutex> lock(folder_mutex);
@@ -71,8 +84,13 @@ std::filesystem::path data_folder() {
     const std::vector<fs::path> folders = candidates();
     for (const fs::path& folder : folders)
         if (holds_data(folder)) return chosen = folder;
-    throw Error("data files", "rigs/standard and models in " + folders.front().string(),
-                "no such folders; set RISORIUS_DATA to the folder that holds them");
+    std::string listed;
+    for (const fs::path& folder : folders) listed += (listed.empty() ? "" : ", ") + folder.string();
+    throw Error("data files",
+                "rigs/standard and models in the folder that the environment variable "
+                "RISORIUS_DATA or set_data_folder() names, or in one of " +
+                    listed,
+                "no such folders");
 }
 
 void set_data_folder(const std::filesystem::path& folder) {

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "risorius/core/installed_data.h"
+
 #ifndef RISORIUS_EIGEN_ALIGN_BYTES
 #error \
     "Compile with the flags of the library: target risorius::core in CMake, or pkg-config --cflags risorius"
