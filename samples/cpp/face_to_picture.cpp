@@ -7,6 +7,7 @@
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
 #include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/scene/rig_files.h"
@@ -35,7 +36,7 @@ int main(int argc, char** argv) try {
                 1e3 * corner.z());
 
     render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
-    scene::add_wrinkles(face.wrinkle_lines(), scene);
+    scene::add_wrinkles(face.surfaces().wrinkle_lines(), scene);
     render::OffscreenView view(scene, {.width_px = 512, .height_px = 512});
     media::write_png(view.draw(scene::pose_for_view(pose)), argc > 1 ? argv[1] : "smile.png");
 } catch (const Error& error) {

@@ -14,6 +14,7 @@
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/inverse/evaluate.h"
 #include "risorius/inverse/solve_activations.h"
 #include "risorius/io/morph_model.h"
@@ -230,12 +231,12 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     // Its skin folds by its own strain, and not at rest
     track::Drive smile = shape("mouthSmileLeft").goal.drive;
     face::FacePose folded = player.pose(smile);
-    face.fold(folded, smile);
+    face.surfaces().fold(folded, smile);
     ASSERT_EQ(folded.fold_depth.rows(), rest.rows());
     EXPECT_GT(folded.fold_depth.maxCoeff(), 0.02e-3);
     smile.excitation.setZero();
     face::FacePose still = player.pose(smile);
-    face.fold(still, smile);
+    face.surfaces().fold(still, smile);
     EXPECT_LT(still.fold_depth.cwiseAbs().maxCoeff(), 1e-9);
     // The head's own turn and the eyes' are no part of the shapes
     track::Drive turned = shape("mouthSmileLeft").goal.drive;

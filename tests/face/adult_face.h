@@ -6,7 +6,11 @@
 #include <string>
 
 #include "rig/heads.h"
+#include "risorius/face/calibration.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
+#include "risorius/face/statics.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/facs.h"
 

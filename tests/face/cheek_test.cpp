@@ -32,7 +32,7 @@ TEST(Cheek, HasACreaseBesideTheFoldAndFatBelowTheCheekbone) {
 
 // Skin point nearest to p, of the mesh.
 int nearest(const Face& face, const Vec3& p) {
-    const Triangles& skin = face.simulated_skin();
+    const Triangles& skin = face.surfaces().simulated_skin();
     int best = skin(0, 0);
     for (long i = 0; i < skin.size(); ++i)
         if ((face.head().vertices.row(skin.data()[i]).transpose() - p).squaredNorm() <

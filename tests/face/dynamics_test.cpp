@@ -63,11 +63,11 @@ TEST(Dynamics, LyingOnTheBackCheeksSinkTowardsTheEars) {
 TEST(Dynamics, ATiltedHeadHangsAsOneUnderTiltedWeight) {
     Face& face = shared_face();
     const FacePose tilted = equilibrium_pose(face, with_kinematic(Kinematic::kHeadRoll, 40));
-    const Points nodes = face.skin_nodes();
+    const Points nodes = face.diagnostics().skin_nodes();
     face.set_gravity(Vec3(tilted.head.linear().transpose() * Vec3(0, -kG, 0)));
     equilibrium_pose(face, neutral());
-    EXPECT_LT(furthest_mm(nodes, face.skin_nodes()), 1e-3);
-    EXPECT_GT(furthest_mm(nodes, face.rest_skin_nodes()), 0.3);
+    EXPECT_LT(furthest_mm(nodes, face.diagnostics().skin_nodes()), 1e-3);
+    EXPECT_GT(furthest_mm(nodes, face.diagnostics().rest_skin_nodes()), 0.3);
 }
 
 // D'Alembert: a head that gains speed evenly feels a weight the other way.
@@ -84,9 +84,11 @@ TEST(Dynamics, SteadyAccelerationIsATiltedWeight) {
     still.set_gravity(Vec3(0, -kG, -a));
     still.start(always(neutral()));
     // Still swinging a little about that shape
-    EXPECT_LT(furthest_mm(moving.skin_nodes(), still.skin_nodes()),
-              0.35 * furthest_mm(still.skin_nodes(), still.rest_skin_nodes()));
-    EXPECT_GT(furthest_mm(still.skin_nodes(), still.rest_skin_nodes()), 0.3);
+    EXPECT_LT(furthest_mm(moving.diagnostics().skin_nodes(), still.diagnostics().skin_nodes()),
+              0.35 * furthest_mm(still.diagnostics().skin_nodes(),
+                                 still.diagnostics().rest_skin_nodes()));
+    EXPECT_GT(furthest_mm(still.diagnostics().skin_nodes(), still.diagnostics().rest_skin_nodes()),
+              0.3);
 }
 
 // Nodes on which nothing acts stay where they are in space, however the head turns: no force has been invented.
@@ -188,7 +190,7 @@ TEST(Dynamics, LongAndShortStepsShowTheSameMoments) {
         shown.emplace_back();
         for (int i = 1; i <= 12; ++i) {
             face.pose_at(i / 30.0, drive);
-            shown.back().push_back(face.skin_nodes());
+            shown.back().push_back(face.diagnostics().skin_nodes());
         }
     }
     for (std::size_t other = 1; other < shown.size(); ++other)

@@ -2,6 +2,7 @@
 // A force that is new to the face: added to its list of energy terms, it acts as its law says.
 #include "face/adult_face.h"
 #include "force_term_checks.h"
+#include "risorius/face/anatomy/tissue_mesh.h"
 #include "risorius/solve/energy_term.h"
 
 namespace risorius::face {
@@ -36,7 +37,7 @@ class SpringToPoint : public solve::EnergyTerm {
 /// The skin node at the middle of the lower lip, which the extra iterations of the mouth move too.
 int lip_node(const Face& face) {
     const Vec3 lip = face.head().landmark("li");
-    const Points skin = face.rest_skin_nodes();
+    const Points skin = face.diagnostics().rest_skin_nodes();
     int nearest = 0;
     (skin.rowwise() - lip.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
     return node_of(nearest, kSkin);
@@ -55,20 +56,22 @@ TEST(FaceTerms, ANewForceKeepsTheDefaultsOfEnergyTerm) {
 TEST(FaceTerms, ASpringAddedToTheFacePullsAsItsLawSays) {
     Face plain = adult_face(kCoarse), sprung = adult_face(kCoarse);
     const int node = lip_node(plain);
-    const Vec3 rest = plain.nodes().row(node).transpose();
+    const Vec3 rest = plain.statics().nodes().row(node).transpose();
     const Vec3 p = rest + Vec3(0, 0, 5e-3);
     const double k = 20;
     sprung.add_force(std::make_shared<SpringToPoint>(node, p, k));
 
     EXPECT_TRUE(sprung.solve_equilibrium(neutral().excitation, neutral()).converged);
     plain.solve_equilibrium(neutral().excitation, neutral());
-    const Vec3 x = sprung.nodes().row(node).transpose();
+    const Vec3 x = sprung.statics().nodes().row(node).transpose();
     EXPECT_GT(x.z() - rest.z(), 0.1e-3);
     EXPECT_LT((x - p).norm(), (rest - p).norm());
 
     // Tissue balances the spring: its own gradient there is - k (x - p)
-    const Points own = plain.static_gradient(sprung.nodes(), neutral().excitation, neutral());
-    const Points whole = sprung.static_gradient(sprung.nodes(), neutral().excitation, neutral());
+    const Points own =
+        plain.statics().gradient(sprung.statics().nodes(), neutral().excitation, neutral());
+    const Points whole =
+        sprung.statics().gradient(sprung.statics().nodes(), neutral().excitation, neutral());
     EXPECT_LT((Vec3((whole - own).row(node).transpose()) - k * (x - p)).norm(), 1e-9);
     EXPECT_LT(whole.row(node).norm(), 0.02 * k * (x - p).norm());
 }
@@ -79,13 +82,13 @@ TEST(FaceTerms, ASpringActsInStepsOfMotionAndInTheIterationsOfTheMouth) {
     quality.iterations = 12;
     Face face = adult_face(quality);
     const int node = lip_node(face);
-    const Vec3 rest = face.nodes().row(node).transpose();
+    const Vec3 rest = face.statics().nodes().row(node).transpose();
     face.add_force(std::make_shared<SpringToPoint>(node, rest + Vec3(0, 0, 5e-3), 20));
     face.start(always(neutral()));
     for (int i = 0; i < 60; ++i) face.step(always(neutral()));
-    const double moved = face.nodes().row(node).z() - rest.z();
+    const double moved = face.statics().nodes().row(node).z() - rest.z();
     face.solve_equilibrium(neutral().excitation, neutral());
-    EXPECT_NEAR(moved, face.nodes().row(node).z() - rest.z(), 0.2e-3);
+    EXPECT_NEAR(moved, face.statics().nodes().row(node).z() - rest.z(), 0.2e-3);
 }
 
 TEST(FaceTerms, ADriveAsConstructedMeansThatNothingIsActive) {
@@ -101,37 +104,39 @@ TEST(FaceTerms, ADriveAsConstructedMeansThatNothingIsActive) {
     face.solve_equilibrium(nothing.excitation, nothing);
     other.solve_equilibrium(neutral().excitation, neutral());
     EXPECT_EQ(face.pose().vertices, other.pose().vertices);
-    EXPECT_EQ(face.driven(nothing).excitation, other.driven(neutral()).excitation);
+    EXPECT_EQ(face.diagnostics().driven(nothing).excitation,
+              other.diagnostics().driven(neutral()).excitation);
 }
 
 TEST(FaceTerms, TheEnergyAndTheTetrahedraOfAFaceCanBeAskedFor) {
     Face face = adult_face(kCoarse);
-    EXPECT_EQ(face.tets().rows(), face.tet_count());
-    EXPECT_LT(face.tets().maxCoeff(), face.node_count());
-    const double rest = face.energy_j();
+    EXPECT_EQ(face.diagnostics().tets().rows(), face.diagnostics().tet_count());
+    EXPECT_LT(face.diagnostics().tets().maxCoeff(), face.diagnostics().node_count());
+    const double rest = face.diagnostics().energy_j();
     const track::Drive smile = with_muscle("zygomaticus_major", 0.5);
     face.solve_equilibrium(smile.excitation, smile);
-    EXPECT_LT(face.energy_j(), rest - 1e-6);  // muscles have given their work
+    EXPECT_LT(face.diagnostics().energy_j(), rest - 1e-6);  // muscles have given their work
     face.solve_equilibrium({}, {});
-    EXPECT_NEAR(face.energy_j(), rest, 1e-6);
+    EXPECT_NEAR(face.diagnostics().energy_j(), rest, 1e-6);
 }
 
 TEST(FaceTerms, AMuscleThatActsIsShorterAndPullsAndItsLandmarkMoves) {
     Face face = adult_face(kCoarse);
     const std::string muscle = "risorius";
-    const MuscleState rest = face.muscle_state(muscle, Side::kLeft).value();
-    const Vec3 corner = face.landmark("nl3_l");
+    const MuscleState rest = face.diagnostics().muscle_state(muscle, Side::kLeft).value();
+    const Vec3 corner = face.diagnostics().landmark("nl3_l");
     EXPECT_LT((corner - face.head().landmark("nl3_l")).norm(), 1e-9);
     const track::Drive smile = with_muscle(muscle, 0.5, Side::kLeft);
     face.solve_equilibrium(smile.excitation, smile);
-    const MuscleState now = face.muscle_state(muscle, Side::kLeft).value();
+    const MuscleState now = face.diagnostics().muscle_state(muscle, Side::kLeft).value();
     EXPECT_GT(rest.length_m, 0.02);
     EXPECT_LT(now.length_m, rest.length_m);
     EXPECT_GT(now.force_n, rest.force_n + 0.05);
     EXPECT_NEAR(now.stretch / rest.stretch, now.length_m / rest.length_m, 0.05);
-    EXPECT_GT((face.landmark("nl3_l") - corner).norm(), 0.3e-3);
-    EXPECT_FALSE(face.muscle_state("zygomaticus_major", Side::kLeft)) << "a volume muscle";
-    EXPECT_FALSE(face.muscle_state("no such muscle", Side::kLeft).has_value());
+    EXPECT_GT((face.diagnostics().landmark("nl3_l") - corner).norm(), 0.3e-3);
+    EXPECT_FALSE(face.diagnostics().muscle_state("zygomaticus_major", Side::kLeft))
+        << "a volume muscle";
+    EXPECT_FALSE(face.diagnostics().muscle_state("no such muscle", Side::kLeft).has_value());
 }
 
 }  // namespace

@@ -35,7 +35,10 @@ track::Drive openers() {
 
 TEST(JawInFace, RestStaysAtRest) {
     const FacePose pose = pose_after(5, neutral());
-    EXPECT_LT((chewing().skin_nodes() - chewing().rest_skin_nodes()).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((chewing().diagnostics().skin_nodes() - chewing().diagnostics().rest_skin_nodes())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-6);
     EXPECT_LT(std::abs(pose.jaw.open_m), 1e-6);
     EXPECT_NEAR(pose.jaw_open, 0.0, 1e-9);
 }
@@ -44,7 +47,7 @@ TEST(JawInFace, OpensByMostOfItsRangeAndClosesWhenLetGo) {
     const FacePose open = pose_after(40, openers());
     EXPECT_GT(open.jaw.open_m, 0.7 * 56e-3);
     EXPECT_LT(std::abs(open.jaw.side_m), 0.1e-3);
-    EXPECT_EQ(chewing().inverted_tets(), 0);
+    EXPECT_EQ(chewing().diagnostics().inverted_tets(), 0);
     // Chin and lower lip go with the bone.
     const Points moved = moved_mm(chewing(), open);
     EXPECT_LT(at(moved, "pg").y(), -25);
@@ -109,7 +112,7 @@ TEST(JawInFace, FewIterationsFindWhatManyFind) {
     drive.excitation *= 0.3;
     careful.start(always(neutral()));
     for (int i = 0; i < 5; ++i) careful.step(always(drive));
-    EXPECT_TRUE(careful.history().back().converged);
+    EXPECT_TRUE(careful.diagnostics().history().back().converged);
     EXPECT_GT(careful.pose().jaw.open_m, 5e-3);
     EXPECT_NEAR(pose_after(5, drive).jaw.open_m, careful.pose().jaw.open_m, 2e-3);
 }

@@ -151,7 +151,8 @@ const OpenJaw& opened(double open) {
     static std::map<double, OpenJaw> known;
     if (!known.contains(open)) {
         FacePose pose = equilibrium_pose(face(), with_kinematic(Kinematic::kJawOpen, open));
-        known[open] = {std::move(pose), face().tissue_volume_m3(), face().inverted_tets()};
+        known[open] = {std::move(pose), face().diagnostics().tissue_volume_m3(),
+                       face().diagnostics().inverted_tets()};
     }
     return known[open];
 }

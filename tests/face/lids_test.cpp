@@ -54,7 +54,7 @@ TEST_F(Lids, ABlinkClosesBothEyesFromCanthusToCanthus) {
     EXPECT_GT(gap_mm(open, "_l"), 8);
     for (const char* unit : {"AU43", "AU45"}) {
         EXPECT_LT(gaps_mm(equilibrium_pose(face(), with_unit(unit))), 0.3) << unit;
-        EXPECT_EQ(face().inverted_tets(), 0) << unit;
+        EXPECT_EQ(face().diagnostics().inverted_tets(), 0) << unit;
     }
     for (const auto& [yaw, pitch] : {std::pair{0., -30.}, {30., 20.}})
         EXPECT_LT(gaps_mm(equilibrium_pose(face(), gaze(yaw, pitch, with_unit("AU45")))), 0.3)

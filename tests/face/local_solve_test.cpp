@@ -41,15 +41,17 @@ Face played(const Quality& quality, int steps) {
 
 TEST(LocalSolve, AStepThatHasConvergedStaysWhereItIs) {
     constexpr int kSteps = 4;
-    const Points whole = played(with_mouth(500, 0, 1e-9), kSteps).nodes();
-    const Points both = played(with_mouth(500, 30, 1e-9), kSteps).nodes();
+    const Points whole = played(with_mouth(500, 0, 1e-9), kSteps).statics().nodes();
+    const Points both = played(with_mouth(500, 30, 1e-9), kSteps).statics().nodes();
     // What iterations of less than 0.001 micrometres RMS leave at the softest nodes
     EXPECT_LT((both - whole).rowwise().norm().maxCoeff(), 5e-6);
 }
 
 TEST(LocalSolve, TheMouthsOwnIterationsBringItNearerToTheConvergedStep) {
     constexpr int kSteps = 24;
-    const auto skin = [](const Quality& quality) { return played(quality, kSteps).skin_nodes(); };
+    const auto skin = [](const Quality& quality) {
+        return played(quality, kSteps).diagnostics().skin_nodes();
+    };
     const Points converged = skin(with_mouth(500, 0, 1e-9));
     // Once it has come: on the way single nodes of lips snap over each other a step sooner or later.
     const auto off = [&](int mouth_passes) {

@@ -58,12 +58,12 @@ TEST(Motion, FiveSecondsOfRandomDriveStayBounded) {
         ASSERT_TRUE(now.allFinite()) << "at step " << i;
         fastest = std::max(fastest, (now - before).rowwise().norm().maxCoeff() / kStep_s);
         furthest = std::max(furthest, (now - face.head().vertices).rowwise().norm().maxCoeff());
-        inverted = std::max(inverted, face.inverted_tets());
+        inverted = std::max(inverted, face.diagnostics().inverted_tets());
         before = now;
     }
     EXPECT_LT(fastest, 2.5) << "m/s";
     EXPECT_LT(furthest, 0.05) << "m";
-    EXPECT_LT(inverted, face.tet_count() / 20);
+    EXPECT_LT(inverted, face.diagnostics().tet_count() / 20);
     RecordProperty("fastest_m_per_s", std::to_string(fastest));
     RecordProperty("furthest_mm", std::to_string(1e3 * furthest));
     RecordProperty("inverted", inverted);
@@ -78,16 +78,16 @@ TEST(Motion, HeldStillTheFaceComesToRest) {
     double max = 0;
     for (int i = 0; i < 60; ++i) {
         face.step(drive);
-        max = std::max(max, face.kinetic_energy_j());
+        max = std::max(max, face.diagnostics().kinetic_energy_j());
     }
     for (int i = 0; i < 120; ++i) face.step(drive);
     // What is left is a tremor of lips in contact, some hundredths of a millimetre a step.
-    EXPECT_LT(face.kinetic_energy_j(), 1e-3 * max);
+    EXPECT_LT(face.diagnostics().kinetic_energy_j(), 1e-3 * max);
     const Points before = face.pose().vertices;
     face.step(drive);
     const double speed = (face.pose().vertices - before).rowwise().norm().maxCoeff() / kStep_s;
     EXPECT_LT(speed, 15e-3) << "m/s";
-    RecordProperty("ratio", std::to_string(max / face.kinetic_energy_j()));
+    RecordProperty("ratio", std::to_string(max / face.diagnostics().kinetic_energy_j()));
     RecordProperty("speed_mm_per_s", std::to_string(1e3 * speed));
 }
 
@@ -97,9 +97,10 @@ TEST(Motion, AHeldExpressionDoesNotTremble) {
         const DriveAt drive = [&](double t) { return with_unit(unit, std::min(1.0, t / 0.3)); };
         face.start(drive);
         for (int i = 0; i < 100; ++i) face.step(drive);
-        const Points before = face.skin_nodes();
+        const Points before = face.diagnostics().skin_nodes();
         face.step(drive);
-        const double fastest = (face.skin_nodes() - before).rowwise().norm().maxCoeff() / kStep_s;
+        const double fastest =
+            (face.diagnostics().skin_nodes() - before).rowwise().norm().maxCoeff() / kStep_s;
         EXPECT_LT(fastest, 0.2e-3) << unit << " in " << quality << ", m/s";
     };
     for (const char* unit : {"AU12", "AU17", "AU27"}) held(unit, moving_face(), "preview");
@@ -127,7 +128,7 @@ TEST(Motion, TheSameDrivesGiveTheSameBits) {
         b.step(drive);
     }
     EXPECT_TRUE((a.pose().vertices.array() == b.pose().vertices.array()).all());
-    EXPECT_EQ(a.kinetic_energy_j(), b.kinetic_energy_j());
+    EXPECT_EQ(a.diagnostics().kinetic_energy_j(), b.diagnostics().kinetic_energy_j());
 }
 
 TEST(Motion, AFaceStartedAgainForgetsWhatItDid) {
@@ -141,7 +142,7 @@ TEST(Motion, AFaceStartedAgainForgetsWhatItDid) {
     equilibrium_pose(face, with_unit("AU27"), nullptr, kNearRest);
     const Points second = run();
     EXPECT_TRUE((first.array() == second.array()).all());
-    EXPECT_EQ(face.history().size(), 30u);
+    EXPECT_EQ(face.diagnostics().history().size(), 30u);
 }
 
 TEST(Motion, EveryFrameRateShowsTheSameMoments) {

@@ -39,7 +39,7 @@ class MuscleSolidsInFace : public testing::Test {
         return one;
     }
     static SolidFigures of(const std::string& muscle) {
-        for (const SolidFigures& figures : face().solid_figures())
+        for (const SolidFigures& figures : face().diagnostics().solid_figures())
             if (figures.muscle == muscle) return figures;
         ADD_FAILURE() << "no volume muscle " << muscle;
         return {};
@@ -49,7 +49,7 @@ class MuscleSolidsInFace : public testing::Test {
 TEST_F(MuscleSolidsInFace, WithoutActivationNothingMoves) {
     const FacePose pose = equilibrium_pose(face(), neutral());
     EXPECT_LT((pose.vertices - face().head().vertices).rowwise().norm().maxCoeff(), 1e-6);
-    for (const SolidFigures& figures : face().solid_figures())
+    for (const SolidFigures& figures : face().diagnostics().solid_figures())
         EXPECT_NEAR(figures.volume_ratio, 1.0, 1e-9) << figures.muscle;
 }
 
@@ -108,10 +108,11 @@ TEST_F(MuscleSolidsInFace, TheSameDrivesGiveTheSameBits) {
 
 TEST(MuscleSolids, TheRigChoosesMuscleByMuscle) {
     const Face bundles = small_face("{}"), one = small_face(R"({"zygomaticus_major": {}})");
-    EXPECT_TRUE(bundles.solid_figures().empty());
-    ASSERT_EQ(one.solid_figures().size(), 2u);
-    EXPECT_EQ(one.solid_figures()[1].side, Side::kRight);
-    EXPECT_LT(one.fibre_count(), bundles.fibre_count()) << "the bundle it replaces is gone";
+    EXPECT_TRUE(bundles.diagnostics().solid_figures().empty());
+    ASSERT_EQ(one.diagnostics().solid_figures().size(), 2u);
+    EXPECT_EQ(one.diagnostics().solid_figures()[1].side, Side::kRight);
+    EXPECT_LT(one.diagnostics().fibre_count(), bundles.diagnostics().fibre_count())
+        << "the bundle it replaces is gone";
 }
 
 /// The solids alone, with the mandible somewhere and everything a little out of place.

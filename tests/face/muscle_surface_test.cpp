@@ -19,11 +19,11 @@ class MuscleSurface : public testing::Test {
 
     static Points at_rest() {
         face->start(always(neutral()));
-        return face->muscle_vertices_at(0);
+        return face->surfaces().muscle_vertices_at(0);
     }
     static const risorius::face::MuscleSurface& of(const std::string& muscle,
                                                    std::optional<Side> side) {
-        for (const auto& surface : face->muscle_surfaces().muscles)
+        for (const auto& surface : face->surfaces().muscles().muscles)
             if (surface.muscle == muscle && surface.side == side) return surface;
         throw std::runtime_error("no surface of " + muscle);
     }
@@ -57,7 +57,7 @@ TEST_F(MuscleSurface, EveryMuscleOfTheTableHasOneOnEverySideWithItsColumn) {
 
 TEST_F(MuscleSurface, EachIsClosedAndEnclosesSomeFlesh) {
     const Points x = at_rest();
-    for (const auto& surface : face->muscle_surfaces().muscles) {
+    for (const auto& surface : face->surfaces().muscles().muscles) {
         // Closed: each edge is run through once in each direction
         std::map<std::pair<int, int>, int> edges;
         for (long f = 0; f < surface.triangles.rows(); ++f)
@@ -73,7 +73,7 @@ TEST_F(MuscleSurface, EachIsClosedAndEnclosesSomeFlesh) {
 
 TEST_F(MuscleSurface, AtRestTheyAreMirrorImages) {
     const Points x = at_rest();
-    for (const auto& left : face->muscle_surfaces().muscles) {
+    for (const auto& left : face->surfaces().muscles().muscles) {
         if (left.side != Side::kLeft) continue;
         const auto& right = of(left.muscle, Side::kRight);
         const Vec3 a = middle(left.triangles, x), b = middle(right.triangles, x);
@@ -90,9 +90,9 @@ TEST_F(MuscleSurface, AContractedMuscleIsShorterAndThickerAndKeepsItsVolume) {
     const auto& zygomaticus = of("zygomaticus_major", Side::kLeft);
     const track::Drive drive = with_muscle("zygomaticus_major", 1.0);
     equilibrium_pose(*face, drive);
-    const Points x = face->muscle_vertices_at(0);
+    const Points x = face->surfaces().muscle_vertices_at(0);
     const auto extent = [&](const Points& p) {  // between the ends of the fibres
-        const MuscleSurfaces& all = face->muscle_surfaces();
+        const MuscleSurfaces& all = face->surfaces().muscles();
         Vec3 low = Vec3::Zero(), high = Vec3::Zero();
         double min = 1e9, max = -1e9;
         for (long i = 0; i < zygomaticus.triangles.size(); ++i) {
@@ -119,7 +119,7 @@ TEST_F(MuscleSurface, JawMusclesRideOnTheJawAndOthersOfTheHeadTurnWithIt) {
     const auto& upper = of("temporalis_posterior", Side::kRight);
     track::Drive drive = with_kinematic(track::Kinematic::kJawOpen, 1.0);
     face->start(always(drive));
-    Points x = face->muscle_vertices_at(0);
+    Points x = face->surfaces().muscle_vertices_at(0);
     EXPECT_LT(middle(deep.triangles, x).y(), middle(deep.triangles, rest).y() - 0.002);
     const auto highest = [&](const Points& p) {
         double y = -1;
@@ -132,7 +132,7 @@ TEST_F(MuscleSurface, JawMusclesRideOnTheJawAndOthersOfTheHeadTurnWithIt) {
 
     drive = with_kinematic(track::Kinematic::kHeadYaw, 20.0);
     face->start(always(drive));
-    x = face->muscle_vertices_at(0);
+    x = face->surfaces().muscle_vertices_at(0);
     const Rigid turn = face->pose().head;
     for (long i = 0; i < upper.triangles.size(); i += 7) {
         const int v = upper.triangles.data()[i];

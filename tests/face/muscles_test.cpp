@@ -39,7 +39,7 @@ class Muscles : public testing::Test {
         if (!known.contains(key)) {
             Points u = moved_mm(face(), equilibrium_pose(face(), with_muscle(muscle, 1.0, side),
                                                          nullptr, kWithinATenth));
-            known[key] = {std::move(u), face().mean_stretch(muscle)};
+            known[key] = {std::move(u), face().diagnostics().mean_stretch(muscle)};
         }
         return known[key];
     }
@@ -122,8 +122,8 @@ TEST_F(Muscles, LeftAndRightAreMirrorImages) {
 TEST_F(Muscles, BothSidesTogetherMoveAsMirrorImages) {
     // The skin of both sides, by pairs of vertices of the simulated surface
     const Face& one = face();
-    const geom::MirrorPairs mirror =
-        geom::find_mirror_pairs(one.simulated_skin(), one.head().vertices, Vec3::UnitX(), 0.0);
+    const geom::MirrorPairs mirror = geom::find_mirror_pairs(
+        one.surfaces().simulated_skin(), one.head().vertices, Vec3::UnitX(), 0.0);
     ASSERT_TRUE(mirror.found());
     for (const char* unit : {"AU9", "AU12", "AU45"}) {
         const Points u = moved_mm(one, equilibrium_pose(face(), with_unit(unit)));
@@ -238,18 +238,18 @@ TEST_F(Muscles, OrbicularisOculiRaisesTheCheek) {
 
 TEST_F(Muscles, ASmileKeepsTheVolumeOfTheTissue) {
     face().start(always(neutral()));
-    const double rest = face().tissue_volume_m3();
+    const double rest = face().diagnostics().tissue_volume_m3();
     EXPECT_GT(rest, 1e-4);
     EXPECT_LT(rest, 1e-3);
     equilibrium_pose(face(), with_unit("AU12"));
-    EXPECT_NEAR(face().tissue_volume_m3() / rest, 1.0, 0.03);
+    EXPECT_NEAR(face().diagnostics().tissue_volume_m3() / rest, 1.0, 0.03);
 }
 
 TEST_F(Muscles, AStrongerMuscleMovesMore) {
     Face other = adult_face();
     const double before =
         at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm();
-    other.scale_muscle("risorius", 2.0);
+    other.calibration().scale_muscle("risorius", 2.0);
     EXPECT_GT(
         at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm(),
         1.2 * before);

@@ -59,7 +59,8 @@ TEST(OtherPeople, MoveAndStayWhole) {
             const double farthest_mm = 1e3 * (moved - rest).rowwise().norm().maxCoeff();
             EXPECT_GT(farthest_mm, 4) << unit;
             EXPECT_LT(farthest_mm, 60) << unit;
-            EXPECT_LT(face.inverted_tets(), face.tet_count() / 60) << unit;
+            EXPECT_LT(face.diagnostics().inverted_tets(), face.diagnostics().tet_count() / 60)
+                << unit;
         }
     };
     look_at(kIslands, 800, {"AU26"});

@@ -14,7 +14,7 @@ TEST(Rest, IsTheImportedFace) {
     EXPECT_LT((pose.vertices - face.head().vertices).cwiseAbs().maxCoeff(), 1e-9);
     for (const Mat3& eye : pose.eye_rotation) EXPECT_LT((eye - Mat3::Identity()).norm(), 1e-12);
     EXPECT_TRUE(pose.head.isApprox(Rigid::Identity()));
-    EXPECT_EQ(face.inverted_tets(), 0);
+    EXPECT_EQ(face.diagnostics().inverted_tets(), 0);
 }
 
 TEST(Rest, LastsThroughASecondOfSteps) {
@@ -24,7 +24,7 @@ TEST(Rest, LastsThroughASecondOfSteps) {
     for (int i = 0; i < 60; ++i) face.step(drive);
     EXPECT_NEAR(face.time_s(), 1.0, 1e-12);
     EXPECT_LT((face.pose().vertices - face.head().vertices).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LT(face.kinetic_energy_j(), 1e-18);
+    EXPECT_LT(face.diagnostics().kinetic_energy_j(), 1e-18);
 }
 
 TEST(Rest, IsTheEquilibriumWithoutDrive) {

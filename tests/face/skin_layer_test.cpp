@@ -339,7 +339,7 @@ TEST(SkinLayer, WithoutWrinklesHasNone) {
     smooth.skin.wrinkles = 0;
     Face face(smooth, rig::adult().mesh, preview(), "adult");
     EXPECT_EQ(equilibrium_pose(face, with_unit("AU1")).fold_depth.rows(), 0);
-    EXPECT_EQ(face.wrinkle_lines().phase.rows(), 0);
+    EXPECT_EQ(face.surfaces().wrinkle_lines().phase.rows(), 0);
 }
 
 }  // namespace

@@ -39,12 +39,13 @@ TEST(FaceStatics, SettlesToForcesThatBalance) {
     const StepStats figures = face.solve_equilibrium(some_drive().excitation, some_drive());
     EXPECT_TRUE(figures.converged);
     const Points equilibrium_pose =
-        face.static_gradient(face.nodes(), face.activation(), some_drive());
-    const Points pulled = face.static_gradient(face.nodes(), 1.1 * face.activation(), some_drive());
+        face.statics().gradient(face.statics().nodes(), face.activation(), some_drive());
+    const Points pulled =
+        face.statics().gradient(face.statics().nodes(), 1.1 * face.activation(), some_drive());
     // A tenth more of the muscles pulls with some 0.1 N; what is left moves nothing by some micrometres, though pressed teeth
     // and lips are so stiff there
     EXPECT_LT(equilibrium_pose.norm(), 5e-3 * pulled.norm());
-    EXPECT_LT(face.solve_static(equilibrium_pose).rowwise().norm().maxCoeff(), 5e-6);
+    EXPECT_LT(face.statics().solve(equilibrium_pose).rowwise().norm().maxCoeff(), 5e-6);
 }
 
 TEST(FaceStatics, SaysThatItHasNotConverged) {
@@ -74,7 +75,7 @@ TEST(FaceStatics, SensitivitiesForetellSettledPoses) {
         else
             columns.push_back(p.column);
     }
-    const std::vector<Points> slopes = face.sensitivities(columns, kinematic);
+    const std::vector<Points> slopes = face.statics().sensitivities(columns, kinematic);
     ASSERT_EQ(slopes.size(), parameters.size());
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const auto pose_at = [&](double amount) {
@@ -97,32 +98,34 @@ TEST(FaceStatics, SensitivitiesForetellSettledPoses) {
 TEST(FaceStatics, TheAdjointGivesTheSameSlopesOfANumber) {
     Face& face = posed();
     const Points by_vertex = noise(face.pose().vertices.rows(), 5);
-    const Points by_node = face.pull_back(by_vertex);
+    const Points by_node = face.statics().pull_back(by_vertex);
     // A muscle far from what touches: slopes by the adjoint take contact planes as they are
     const int brow = column("frontalis_medial", Side::kLeft);
-    const std::vector<Points> slope = face.sensitivities(std::vector<int>{brow}, {});
+    const std::vector<Points> slope = face.statics().sensitivities(std::vector<int>{brow}, {});
     const double forward = by_vertex.cwiseProduct(slope[0]).sum();
 
     Eigen::VectorXd more = face.activation();
     more[brow] += 1e-3;
-    const Points dg = (face.static_gradient(face.nodes(), more, some_drive()) -
-                       face.static_gradient(face.nodes(), face.activation(), some_drive())) /
-                      1e-3;
-    const double backward = -face.solve_static(by_node).cwiseProduct(dg).sum();
+    const Points dg =
+        (face.statics().gradient(face.statics().nodes(), more, some_drive()) -
+         face.statics().gradient(face.statics().nodes(), face.activation(), some_drive())) /
+        1e-3;
+    const double backward = -face.statics().solve(by_node).cwiseProduct(dg).sum();
     // Forward with the folds of the skin, backward without
     EXPECT_NEAR(backward, forward, 0.1 * std::abs(forward));
 
     // H^-1 is symmetric
-    const Points a = noise(face.nodes().rows(), 6), b = noise(face.nodes().rows(), 7);
-    const double ab = face.solve_static(a).cwiseProduct(b).sum();
-    const double ba = face.solve_static(b).cwiseProduct(a).sum();
+    const Points a = noise(face.statics().nodes().rows(), 6),
+                 b = noise(face.statics().nodes().rows(), 7);
+    const double ab = face.statics().solve(a).cwiseProduct(b).sum();
+    const double ba = face.statics().solve(b).cwiseProduct(a).sum();
     EXPECT_NEAR(ab, ba, 1e-8 * std::abs(ab));
 }
 
 TEST(FaceStatics, SlopesAreRefusedWhileMusclesMoveTheJaw) {
     Face face = adult_face(kCoarse);
     face.drive_jaw_by(track::JawDrive::kMuscles);
-    EXPECT_THROW(face.solve_static(face.nodes()), std::logic_error);
+    EXPECT_THROW(face.statics().solve(face.statics().nodes()), std::logic_error);
 }
 
 }  // namespace

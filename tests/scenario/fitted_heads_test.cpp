@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "paths.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/scene/landmark_points.h"
 #include "risorius/scene/rig_files.h"
@@ -199,7 +200,7 @@ TEST_P(FittedHead, EveryActionUnitComesToRestAndPassesThroughNothing) {
         const face::FacePose pose = fitted->equilibrium_pose(fitted->drive_of(unit.id));
         EXPECT_TRUE(pose.vertices.allFinite()) << unit.id;
         EXPECT_TRUE(fitted->in_equilibrium) << unit.id;
-        const face::Penetration penetration = fitted->face->penetration();
+        const face::Penetration penetration = fitted->face->diagnostics().penetration();
         EXPECT_LT(1e3 * penetration.lips_m, 0.3) << unit.id;
         EXPECT_LT(1e3 * penetration.bone_m, 0.2) << unit.id;
         EXPECT_LT(1e3 * penetration.eyeball_m, 0.2) << unit.id;
@@ -215,7 +216,7 @@ TEST_P(FittedHead, ALipSuckedInComesToRestOnAFineMesh) {
     face::Quality quality = face::quality_named("preview");
     quality.shell_vertices = 3400;
     face::Face face(fitted->files.rig, fitted->files.mesh, quality, fitted->files.place());
-    EXPECT_GT(face.node_count(), 10000);
+    EXPECT_GT(face.diagnostics().node_count(), 10000);
     const track::Drive drive = fitted->drive_of("AU28_lower");
     track::Drive none = drive;
     none.excitation.setZero();

@@ -14,6 +14,7 @@
 #include "risorius/animate/animate.h"
 #include "risorius/core/data_folder.h"
 #include "risorius/core/version.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/solver/stress.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/median.h"
@@ -116,10 +117,10 @@ struct Bench {
             iterations += face.step(drive()).iterations;
             step_ms.push_back(1e3 * stopwatch.seconds());
         }
-        return {{"nodes", face.node_count()},
-                {"tets", face.tet_count()},
-                {"fibres", face.fibre_count()},
-                {"build_s", face.build_s()},
+        return {{"nodes", face.diagnostics().node_count()},
+                {"tets", face.diagnostics().tet_count()},
+                {"fibres", face.diagnostics().fibre_count()},
+                {"build_s", face.diagnostics().build_s()},
                 {"step_ms", report::median(step_ms)},
                 {"slowest_step_ms", *std::max_element(step_ms.begin(), step_ms.end())},
                 {"mean_iterations", static_cast<double>(iterations) / steps}};
@@ -155,8 +156,8 @@ struct Bench {
         const auto sum = [](const std::vector<double>& ms) {
             return std::accumulate(ms.begin(), ms.end(), 0.0);
         };
-        return {{"volume_muscles", faces[1].solid_figures().size()},
-                {"nodes", faces[1].node_count()},
+        return {{"volume_muscles", faces[1].diagnostics().solid_figures().size()},
+                {"nodes", faces[1].diagnostics().node_count()},
                 {"step_ms_without", without},
                 {"step_ms_with", with},
                 {"ratio", with / without},
@@ -248,7 +249,7 @@ Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
     return {{"rig", rig_file.generic_string()},
             {"quality", options.quality},
             {"seed", options.seed},
-            {"tets", face.tet_count()},
+            {"tets", face.diagnostics().tet_count()},
             {"steps", report.steps},
             {"broken_steps", report.broken_steps},
             {"most_inverted_tets", report.max_inverted_tets},

@@ -9,6 +9,7 @@
 #include "risorius/animate/render_job.h"
 #include "risorius/animate/run_render_job.h"
 #include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/media/luminance.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
@@ -48,7 +49,7 @@ Json stages(const animate::RenderJob& job) {
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
     face::Face face(files.rig, files.mesh, face::quality_named(job.quality), files.place());
     render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
-    scene::add_wrinkles(face.wrinkle_lines(), scene);
+    scene::add_wrinkles(face.surfaces().wrinkle_lines(), scene);
     render::OffscreenView view(scene, job.view);
 
     std::vector<double> simulate, draw, read_back, measure;

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
+#include "risorius/face/statics.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/rig/expression_drive.h"
 
@@ -28,8 +30,8 @@ Json solve_equilibrium(face::Face& face, const std::string& unit, const track::D
     const report::CoreStopwatch stopwatch;
     const face::StepStats figures = face.solve_equilibrium(drive.excitation, drive);
     const double seconds = stopwatch.seconds();
-    const int inverted = face.inverted_tets();
-    const Points at_rest = face.nodes();
+    const int inverted = face.diagnostics().inverted_tets();
+    const Points at_rest = face.statics().nodes();
     face::StaticOptions closer{.iterations = face::kRestIterations};
     closer.tolerance_m /= kCloser;
     closer.planes_m /= kCloser;
@@ -39,7 +41,7 @@ Json solve_equilibrium(face::Face& face, const std::string& unit, const track::D
             {"seconds", seconds},
             {"at_rest", figures.converged},
             {"inverted", inverted},
-            {"left_mm", 1e3 * (face.nodes() - at_rest).rowwise().norm().maxCoeff()}};
+            {"left_mm", 1e3 * (face.statics().nodes() - at_rest).rowwise().norm().maxCoeff()}};
 }
 
 }  // namespace
@@ -59,14 +61,15 @@ Json bench_poses(const scene::RigFiles& files, const PoseBench& bench,
         face::Face face(files.rig, files.mesh, quality, files.place());
         Json poses = Json::array();
         for (std::size_t i = 0; i < drives.size(); ++i) {
-            monitor.report(done / all,
-                           bench.units[i] + ", " + std::to_string(face.node_count()) + " nodes");
+            monitor.report(
+                done / all,
+                bench.units[i] + ", " + std::to_string(face.diagnostics().node_count()) + " nodes");
             poses.push_back(solve_equilibrium(face, bench.units[i], drives[i]));
             done += vertices;
         }
         out.push_back({{"shell_vertices", vertices},
-                       {"nodes", face.node_count()},
-                       {"tets", face.tet_count()},
+                       {"nodes", face.diagnostics().node_count()},
+                       {"tets", face.diagnostics().tet_count()},
                        {"poses", std::move(poses)}});
     }
     return out;

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "risorius/face/diagnostics.h"
 #include "risorius/report/median.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/track/timeline.h"
@@ -67,16 +68,16 @@ StepRun play(const scene::RigFiles& files, const face::DriveAt& drive, const Ste
     face::Face face(files.rig, files.mesh, one.quality, files.place());
     face.start(drive);
     StepRun out;
-    out.nodes = face.node_count();
-    out.tets = face.tet_count();
+    out.nodes = face.diagnostics().node_count();
+    out.tets = face.diagnostics().tet_count();
     for (int step = 0; step < one.steps; ++step) {
         if (step % 20 == 0)
             monitor.report(static_cast<double>(step) / one.steps, "steps, " + one.quality.name);
         const report::CoreStopwatch stopwatch;
         out.iterations += face.step(drive).iterations / static_cast<double>(one.steps);
         out.step_ms.push_back(1e3 * stopwatch.seconds());
-        out.skin.push_back(face.skin_nodes());
-        out.max_inverted_tets = std::max(out.max_inverted_tets, face.inverted_tets());
+        out.skin.push_back(face.diagnostics().skin_nodes());
+        out.max_inverted_tets = std::max(out.max_inverted_tets, face.diagnostics().inverted_tets());
     }
     return out;
 }

@@ -6,7 +6,11 @@
 #include <memory>
 
 #include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/calibration.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
+#include "risorius/face/statics.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/scene/expression_score.h"
 #include "risorius/solve/box_quadratic.h"
 
@@ -43,9 +47,9 @@ class Calibration {
                 const std::vector<Parameter>& parameters, const Options& options)
         : files_(files), parameters_(parameters), options_(options) {
         const face::Face face = make_face(files.rig);
-        const face::Shell& shell = face.shell();
+        const face::Shell& shell = face.diagnostics().shell();
         const Eigen::VectorXd fine =
-            scene::vertex_areas(face.simulated_skin(), face.head().vertices);
+            scene::vertex_areas(face.surfaces().simulated_skin(), face.head().vertices);
         root_area_ = Eigen::VectorXd::Zero(static_cast<long>(shell.vertex.size()));
         for (long v = 0; v < fine.size(); ++v)
             if (fine[v] > 0) root_area_[shell.collapsed_to[static_cast<std::size_t>(v)]] += fine[v];
@@ -147,7 +151,9 @@ class Calibration {
             out.faces.push_back(std::make_unique<face::Face>(make_face(rig)));
             face::Face& face = *out.faces.back();
             face.solve_equilibrium(out.drives.back().excitation, out.drives.back());
-            out.miss.push_back(weighted(face.skin_nodes() - face.rest_skin_nodes()) - one.goal);
+            out.miss.push_back(
+                weighted(face.diagnostics().skin_nodes() - face.diagnostics().rest_skin_nodes()) -
+                one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
             const Eigen::VectorXd a = z.segment(one.first, one.table.size());
             out.cost +=
@@ -184,11 +190,10 @@ class Calibration {
             for (const double side : {+1.0, -1.0}) {
                 Eigen::VectorXd at = p;
                 at[i] += side * step;
-                face::Face::Variant variant(*now.faces.front(),
-                                            changed(files_.rig, parameters_, at));
+                face::Variant variant(*now.faces.front(), changed(files_.rig, parameters_, at));
                 for (std::size_t e = 0; e < expressions_.size(); ++e) {
-                    Points gradient = variant.static_gradient(
-                        now.faces[e]->nodes(), now.drives[e].excitation, now.drives[e]);
+                    Points gradient = variant.gradient(now.faces[e]->statics().nodes(),
+                                                       now.drives[e].excitation, now.drives[e]);
                     if (side > 0)
                         more.push_back(std::move(gradient));
                     else
@@ -206,8 +211,8 @@ class Calibration {
             const Expression& one = expressions_[e];
             const long own = one.table.size();
             face::Face& face = *now.faces[e];
-            face::Face::Variant same(face, rig);
-            const Points nodes = face.nodes();
+            face::Variant same(face, rig);
+            const Points nodes = face.statics().nodes();
             for (long i = 0; i < own; ++i) {
                 const inverse::ActivationUnknown& unknown =
                     one.unknowns[static_cast<std::size_t>(i)];
@@ -215,7 +220,7 @@ class Calibration {
                 const auto at = [&](double change) {
                     track::Drive drive = now.drives[e];
                     inverse::set_value(unknown, z_[one.first + i] + change, drive);
-                    return same.static_gradient(nodes, drive.excitation, drive);
+                    return same.gradient(nodes, drive.excitation, drive);
                 };
                 force[e].push_back(difference(at(kStep), at(-kStep), 2 * kStep));
             }
@@ -226,7 +231,7 @@ class Calibration {
                 const SparseForce& change = force[e][static_cast<std::size_t>(i)];
                 for (std::size_t k = 0; k < change.row.size(); ++k)
                     b.row(change.row[k]) = -change.value[k].cast<double>().transpose();
-                const Points moved = face.solve_static(b);
+                const Points moved = face.statics().solve(b);
                 Points skin(root_area_.size(), 3);
                 for (long v = 0; v < skin.rows(); ++v)
                     skin.row(v) = moved.row(face::node_of(static_cast<int>(v), face::kSkin));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/inverse/evaluate.h"
 #include "risorius/rig/head.h"
@@ -34,7 +35,7 @@ std::map<std::string, double> stretches(const scene::RigFiles& files,
             activation[channels.column(band.muscle, side)] = 1;
         face.start([&](double) { return rest; });
         face.solve_equilibrium(activation, rest);
-        out[band.muscle] = face.mean_stretch(band.muscle);
+        out[band.muscle] = face.diagnostics().mean_stretch(band.muscle);
     }
     return out;
 }

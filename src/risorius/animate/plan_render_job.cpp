@@ -9,7 +9,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
-#include "risorius/face/face.h"
+#include "risorius/face/quality.h"
 #include "risorius/media/hdr_file.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"

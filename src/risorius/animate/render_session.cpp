@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/animate/render_session.h"
 
+#include "risorius/face/surfaces.h"
 #include "risorius/scene/scene_from_rig.h"
 
 namespace risorius::animate {
@@ -26,9 +27,9 @@ const render::Scene& RenderSession::scene(const render::ViewOptions& view, int v
     }
     views_.clear();
     scene_.emplace(scene::scene_from_rig(face_->head(), rig_->files.rig, rig_->files.mesh));
-    scene::add_wrinkles(face_->wrinkle_lines(), *scene_);
+    scene::add_wrinkles(face_->surfaces().wrinkle_lines(), *scene_);
     if (view.show == render::Show::kMuscles)
-        scene_->muscles = scene::muscles_for_view(face_->muscle_surfaces());
+        scene_->muscles = scene::muscles_for_view(face_->surfaces().muscles());
     skull_.reset();
     if (view.show == render::Show::kSkull) {
         skull_ = face::estimate_skull(face_->head(), rig_->files.rig);

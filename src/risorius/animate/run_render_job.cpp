@@ -14,7 +14,9 @@
 #include "risorius/animate/detail/pipeline.h"
 #include "risorius/animate/detail/reference_run.h"
 #include "risorius/blendshapes/shape_player.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/media/sha256.h"
 #include "risorius/render/gl_choice.h"
 #include "risorius/render/offscreen_view.h"
@@ -74,10 +76,10 @@ RunRecord describe(const RenderJob& job, const face::Face& face) {
     record.antialiasing = job.view.supersampling;
     record.graphics = render::gl_in_use();
     record.jaw = job.script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
-    record.nodes = face.node_count();
-    record.tets = face.tet_count();
-    record.dropped_tets = face.dropped_tets();
-    record.fibres = face.fibre_count();
+    record.nodes = face.diagnostics().node_count();
+    record.tets = face.diagnostics().tet_count();
+    record.dropped_tets = face.diagnostics().dropped_tets();
+    record.fibres = face.diagnostics().fibre_count();
     record.warnings = warnings_about(job.script, job.rig->files.rig.muscles);
     record.timing.threads = job.threads;
     return record;
@@ -168,7 +170,7 @@ class JobRun {
             },
             [this](int frame, Drawn drawn) { show(frame, std::move(drawn)); });
         record.frames_sha256 = hash_.finish();
-        record.solver = solver_stats(face_.history(), max_inverted_tets_);
+        record.solver = solver_stats(face_.diagnostics().history(), max_inverted_tets_);
         record.timing.total_s = job_.planning_s + total_.seconds();
         result_.table = table_.text();
         return std::move(result_);
@@ -181,7 +183,7 @@ class JobRun {
         double draw_s;
     };
 
-    track::Drive driven(double t_s) const { return face_.driven(timeline_.at(t_s)); }
+    track::Drive driven(double t_s) const { return face_.diagnostics().driven(timeline_.at(t_s)); }
 
     FrameTableOptions table_columns() {
         FrameTableOptions columns{
@@ -217,7 +219,7 @@ class JobRun {
         else
             simulate_until(t_s, frame == 0 && moment == 0);
         face::FacePose pose = shapes_ ? shapes_->pose(*played) : face_.pose_at(t_s, drive_);
-        if (shapes_) face_.fold(pose, *played);
+        if (shapes_) face_.surfaces().fold(pose, *played);
         if (job_.flipped_motion) flip_motion(face_.head().vertices, pose);
         const double angle_rad =
             job_.turntable ? 2 * std::numbers::pi * (frame + offset) / job_.frames : 0.0;
@@ -228,7 +230,8 @@ class JobRun {
         RunRecord& record = result_.record;
         record.max_jaw_opening_mm = std::max(record.max_jaw_opening_mm, 1e3 * pose.jaw.open_m);
         record.max_tooth_force_n = std::max(record.max_tooth_force_n, pose.tooth_force_n);
-        if (!shapes_) max_inverted_tets_ = std::max(max_inverted_tets_, face_.inverted_tets());
+        if (!shapes_)
+            max_inverted_tets_ = std::max(max_inverted_tets_, face_.diagnostics().inverted_tets());
         return seen(pose, activation, t_s, angle_rad);
     }
 
@@ -247,10 +250,10 @@ class JobRun {
                       double angle_rad) {
         render::Pose out = scene::pose_for_view(pose);
         if (job_.view.show == render::Show::kMuscles) {
-            Points muscles = face_.muscle_vertices_at(t_s);
+            Points muscles = face_.surfaces().muscle_vertices_at(t_s);
             if (job_.turntable)
                 muscles *= Mat3(Eigen::AngleAxisd(angle_rad, Vec3::UnitY())).transpose();
-            scene::add_muscles(face_.muscle_surfaces(), activation, std::move(muscles), out);
+            scene::add_muscles(face_.surfaces().muscles(), activation, std::move(muscles), out);
         }
         if (const auto& skull = session_.skull()) scene::add_bones(*skull, pose, out);
         out.values = visualization_.values(

@@ -9,6 +9,7 @@
 #include "risorius/blendshapes/detail/shape_files.h"
 #include "risorius/blendshapes/detail/shapes_page.h"
 #include "risorius/core/known_names.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/stopwatch.h"
@@ -261,7 +262,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     report.channels = files.rig.channels();
     report.left_out = set.left_out;
     report.vertices = static_cast<int>(head.vertices.rows());
-    report.nodes = solver.face().node_count();
+    report.nodes = solver.face().diagnostics().node_count();
 
     // What other programs read
     std::vector<std::string> written{"index.html", "results.json"};

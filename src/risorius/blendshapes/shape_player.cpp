@@ -6,6 +6,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/io/morph_model.h"
 
 namespace risorius::blendshapes {
@@ -107,7 +108,7 @@ ShapePlayer::ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::Cha
 face::FacePose ShapePlayer::pose(const track::Drive& drive) const {
     Points vertices = face_.head().vertices;
     played_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
-    return face_.posed(std::move(vertices), drive);
+    return face_.surfaces().posed(std::move(vertices), drive);
 }
 
 }  // namespace risorius::blendshapes

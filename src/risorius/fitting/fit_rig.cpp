@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/data_folder.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/fitting/detail/fit_landmarks.h"
 #include "risorius/fitting/detail/fit_page.h"
 #include "risorius/fitting/detail/fit_strengths.h"
@@ -198,11 +199,11 @@ void report_head(const rig::RigDescription& rig, const face::Face& face,
     report.given_landmarks = static_cast<int>(landmarks.size());
     report.warped_landmarks = head.warped_landmarks;
     report.worth_giving = worth_giving(head, rig.atlas);
-    report.nodes = face.node_count();
-    report.tets = face.tet_count();
-    report.dropped_tets = face.dropped_tets();
-    report.inverted_tets = face.inverted_tets();
-    report.fibres = face.fibre_count();
+    report.nodes = face.diagnostics().node_count();
+    report.tets = face.diagnostics().tet_count();
+    report.dropped_tets = face.diagnostics().dropped_tets();
+    report.inverted_tets = face.diagnostics().inverted_tets();
+    report.fibres = face.diagnostics().fibre_count();
     report.eyes = head.eyes[0].present && head.eyes[1].present;
     report.teeth = head.has_teeth;
     if (!report.eyes)
@@ -283,7 +284,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     // Write it and say what came out
     write_files(options, standard, report.lips_cut || regrouped, mesh, rig);
     report_head(rig, face, landmarks, report);
-    const BoneEstimate bone = bone_estimate(head, rig, face.shell());
+    const BoneEstimate bone = bone_estimate(head, rig, face.diagnostics().shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/inverse/detail/evaluation_page.h"
 #include "risorius/inverse/detail/evaluation_pictures.h"
 #include "risorius/inverse/fit_activations.h"
@@ -178,7 +180,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
         options.shapes, {.only = options.only, .separate_sides = options.separate_sides}, files.rig,
         face.head());
     const Points& rest = face.head().vertices;
-    const Eigen::VectorXd area = scene::vertex_areas(face.simulated_skin(), rest);
+    const Eigen::VectorXd area = scene::vertex_areas(face.surfaces().simulated_skin(), rest);
     const std::vector<int> landmarks =
         inner_landmarks(files.rig, scene::LandmarkPoints(face.head(), files.rig), area);
 
@@ -187,7 +189,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
     out.calibrated_on = rig::calibrated_on(options.rig);
     out.rig = options.rig.generic_string();
     out.shapes = options.shapes.generic_string();
-    out.nodes = face.node_count();
+    out.nodes = face.diagnostics().node_count();
     out.channels = files.rig.channels();
     const double converging = converging_fraction(options);
     track::Drive at_rest;
@@ -203,7 +205,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
         one.table.drive = shape.drive;
         one.table.converged = face.solve_equilibrium(shape.drive.excitation, shape.drive).converged;
         one.table.vertices = face.pose().vertices;
-        one.table.inverted_tets = face.inverted_tets();
+        one.table.inverted_tets = face.diagnostics().inverted_tets();
         one.table.score =
             scene::score(one.table.vertices - rest, shape.displacement, area, landmarks);
         if (options.fit) {
@@ -211,7 +213,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
             const auto unknowns = activation_unknowns(files.rig, shape.drive, shape.sided);
             fitted.drive = fit_activations(face, unknowns, shape.displacement, area, shape.drive);
             fitted.vertices = face.pose().vertices;
-            fitted.inverted_tets = face.inverted_tets();
+            fitted.inverted_tets = face.diagnostics().inverted_tets();
             fitted.score =
                 scene::score(fitted.vertices - rest, shape.displacement, area, landmarks);
         }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/progress_monitor.h"
+#include "risorius/face/statics.h"
 #include "risorius/solve/box_quadratic.h"
 
 namespace risorius::inverse {
@@ -131,7 +132,7 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
             columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
             channels.insert(channels.end(), unknown.channels.begin(), unknown.channels.end());
         }
-        const std::vector<Points> moved = face.sensitivities(columns, channels);
+        const std::vector<Points> moved = face.statics().sensitivities(columns, channels);
         Eigen::MatrixXd J = Eigen::MatrixXd::Zero(goal.size(), count);
         std::size_t by_column = 0, by_channel = columns.size();
         for (long i = 0; i < count; ++i) {

@@ -12,6 +12,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/parallel.h"
 #include "risorius/face/face.h"
+#include "risorius/face/statics.h"
 #include "risorius/inverse/detail/fit_target.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
@@ -308,7 +309,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
         for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
             columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
         const std::vector<Points> ways =
-            face.sensitivities(columns, std::array{Kinematic::kJawOpen});
+            face.statics().sensitivities(columns, std::array{Kinematic::kJawOpen});
         std::vector<double> max_m;
         for (const std::string& id : points.ids()) {
             double max = 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/face/surfaces.h"
+
 namespace risorius::scene {
 
 Json ExpressionScore::json() const {
@@ -31,7 +33,7 @@ Eigen::VectorXd vertex_areas(const Triangles& triangles, const Points& rest) {
 
 Eigen::VectorXd seen_areas(const face::Face& face) {
     constexpr double kOtherThanSkin = 0.2;
-    Eigen::VectorXd out = vertex_areas(face.simulated_skin(), face.head().vertices);
+    Eigen::VectorXd out = vertex_areas(face.surfaces().simulated_skin(), face.head().vertices);
     const double mean = out.sum() / static_cast<double>((out.array() > 0).count());
     for (long v = 0; v < out.size(); ++v) {
         const rig::Carrier carrier = face.head().carrier[static_cast<std::size_t>(v)];

@@ -3,7 +3,7 @@
 /// Makes the scene that the renderer draws, and the pose of a frame, from the head and its face.
 #pragma once
 
-#include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/face/view/skull.h"
 #include "risorius/geom/polygon_mesh.h"
 #include "risorius/render/scene.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/face/face.h"
+#include "risorius/face/step_stats.h"
 
 namespace risorius::animate {
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "risorius/face/anatomy/lid_measures.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/scene/landmark_points.h"
 
 namespace risorius::blendshapes {
@@ -278,8 +279,8 @@ class Maker {
         if (mirror_ && are_mirrored(made.goal.drive, set_.goals[partner].drive, channels_))
             certificate.asymmetry_m =
                 made.solved_at * blendshapes::asymmetry_m(*mirror_, field, fields[partner]);
-        certificate.stretch =
-            blendshapes::stretch_of(solver_.face().simulated_skin(), head_.vertices, shown);
+        certificate.stretch = blendshapes::stretch_of(solver_.face().surfaces().simulated_skin(),
+                                                      head_.vertices, shown);
         certificate.peak_m = field.rowwise().norm().maxCoeff();
         certificate.moved_vertices = static_cast<int>(made.shape.vertex.size());
     }

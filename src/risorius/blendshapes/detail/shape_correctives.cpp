@@ -7,6 +7,7 @@
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/low_rank.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/expression_score.h"
 
@@ -139,7 +140,8 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
                              const ScriptFrames& played, const ProgressMonitor& monitor) {
     const rig::Head& head = solver.face().head();
     const track::ChannelTable channels = files.rig.channels();
-    const Eigen::VectorXd area = scene::vertex_areas(solver.face().simulated_skin(), head.vertices);
+    const Eigen::VectorXd area =
+        scene::vertex_areas(solver.face().surfaces().simulated_skin(), head.vertices);
     const std::vector<Unit> units = units_of(shapes, channels, head.vertices.rows());
     const std::vector<Candidate> candidates =
         candidates_of(units, shapes, area, options.pairs, played.weights);
@@ -228,7 +230,8 @@ TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig
                        const std::vector<Eigen::VectorXd>& weights,
                        const ProgressMonitor& monitor) {
     const rig::Head& head = solver.face().head();
-    const Eigen::VectorXd area = scene::vertex_areas(solver.face().simulated_skin(), head.vertices);
+    const Eigen::VectorXd area =
+        scene::vertex_areas(solver.face().surfaces().simulated_skin(), head.vertices);
     const std::vector<SolvedPose> poses = solver.solve(drives, monitor, {.again = false});
     blendshapes::BlendShapeRig plain{rig.shapes};
     TrackError out;

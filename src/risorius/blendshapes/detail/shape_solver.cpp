@@ -2,6 +2,7 @@
 #include "risorius/blendshapes/detail/shape_solver.h"
 
 #include "risorius/core/parallel.h"
+#include "risorius/face/diagnostics.h"
 
 namespace risorius::blendshapes {
 
@@ -33,7 +34,7 @@ ShapeSolver::ShapeSolver(const scene::RigFiles& files, const face::Quality& qual
     : files_(files), quality_(quality), threads_(threads) {
     faces_.push_back(another());
     idle_.push_back(faces_.front().get());
-    rest_volume_m3_ = face().tissue_volume_m3();
+    rest_volume_m3_ = face().diagnostics().tissue_volume_m3();
 }
 ShapeSolver::~ShapeSolver() = default;
 
@@ -72,14 +73,14 @@ SolvedPose ShapeSolver::pose(face::Face& face, const track::Drive& drive, const 
                                         .stopped = stopped});
             if (stopped && stopped()) throw Interrupted();
         }
-        out.inverted_tets = face.inverted_tets();
+        out.inverted_tets = face.diagnostics().inverted_tets();
     };
     approach(how.steps);
     if (how.again && how.steps < kSmallSteps && !out.figures.converged) approach(kSmallSteps);
     const face::FacePose pose = face.pose();
     out.moved = pose.vertices - face.head().vertices;
     out.eye_rotation = pose.eye_rotation;
-    out.volume_ratio = face.tissue_volume_m3() / rest_volume_m3_;
+    out.volume_ratio = face.diagnostics().tissue_volume_m3() / rest_volume_m3_;
     return out;
 }
 

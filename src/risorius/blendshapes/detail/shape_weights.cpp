@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "risorius/face/statics.h"
 #include "risorius/scene/expression_score.h"
 
 namespace risorius::blendshapes {
@@ -32,7 +33,7 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
         kinematic_.push_back(static_cast<std::size_t>(k));
         moving.push_back(channel);
     }
-    const std::vector<Points> ways = face.sensitivities(columns, moving);
+    const std::vector<Points> ways = face.statics().sensitivities(columns, moving);
     const Eigen::VectorXd weight = scene::seen_areas(face);
     const long count = static_cast<long>(ways.size());
     Eigen::MatrixXd G(count, count);

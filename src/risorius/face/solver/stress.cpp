@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "risorius/core/counter_rng.h"
+#include "risorius/face/diagnostics.h"
 
 namespace risorius::face {
 
@@ -92,23 +93,23 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
         rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
         return rest;
     });
-    const Points rest = face.skin_nodes();
+    const Points rest = face.diagnostics().skin_nodes();
     int in_a_row = 0;
     std::vector<double> lips_m, bone_m, eyeball_m;
     for (report.steps = 0; report.steps < options.steps; ++report.steps) {
         face.step(drive);
-        const Points now = face.skin_nodes();
+        const Points now = face.diagnostics().skin_nodes();
         if (!now.allFinite()) {
             ++report.broken_steps;
             break;  // nothing that comes after could mean anything
         }
-        const int inverted = face.inverted_tets();
+        const int inverted = face.diagnostics().inverted_tets();
         in_a_row = inverted > 0 ? in_a_row + 1 : 0;
         report.max_inverted_tets = std::max(report.max_inverted_tets, inverted);
         report.longest_inverted_steps = std::max(report.longest_inverted_steps, in_a_row);
         report.mean_inverted_tets += static_cast<double>(inverted) / options.steps;
         report.furthest_m = std::max(report.furthest_m, (now - rest).rowwise().norm().maxCoeff());
-        const Penetration penetration = face.penetration();
+        const Penetration penetration = face.diagnostics().penetration();
         lips_m.push_back(penetration.lips_m);
         bone_m.push_back(penetration.bone_m);
         eyeball_m.push_back(penetration.eyeball_m);
@@ -118,8 +119,9 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
     report.deepest_penetration = {fraction_below(lips_m, 1), fraction_below(bone_m, 1),
                                   fraction_below(eyeball_m, 1)};
     for (int step = 0; step < options.rest_steps; ++step) face.step(drive);
-    report.inverted_at_rest = face.inverted_tets();
-    report.residual_displacement_m = (face.skin_nodes() - rest).rowwise().norm().maxCoeff();
+    report.inverted_at_rest = face.diagnostics().inverted_tets();
+    report.residual_displacement_m =
+        (face.diagnostics().skin_nodes() - rest).rowwise().norm().maxCoeff();
     return report;
 }
 

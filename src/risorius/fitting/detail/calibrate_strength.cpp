@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "risorius/face/calibration.h"
+#include "risorius/face/diagnostics.h"
+
 namespace risorius::fitting {
 
 namespace {
@@ -44,12 +47,12 @@ std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigD
                                static_cast<double>(out.size()),
                            muscle.muscle);
             const double strength = std::exp(log_strength);
-            face.scale_muscle(muscle.muscle, strength / muscle.strength);
+            face.calibration().scale_muscle(muscle.muscle, strength / muscle.strength);
             muscle.strength = strength;
             muscle.converged =
                 face.solve_equilibrium(activation, rest, {.iterations = kTrialIterations})
                     .converged;
-            muscle.stretch = face.mean_stretch(muscle.muscle);
+            muscle.stretch = face.diagnostics().mean_stretch(muscle.muscle);
             const double miss = muscle.stretch - muscle.target_stretch;
             if (std::abs(miss) < kTolerance) break;
             double step = miss > 0 ? 0.4 : -0.4;

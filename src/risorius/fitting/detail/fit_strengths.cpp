@@ -8,6 +8,9 @@
 
 #include "risorius/core/error.h"
 #include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/calibration.h"
+#include "risorius/face/diagnostics.h"
+#include "risorius/face/statics.h"
 #include "risorius/solve/box_quadratic.h"
 
 namespace risorius::fitting {
@@ -105,11 +108,12 @@ class Fit {
         if (value == z_[i]) return;
         const auto muscles = static_cast<long>(muscles_.size());
         if (i < muscles) {
-            face_.scale_muscle(muscles_[static_cast<std::size_t>(i)], std::exp(value - z_[i]));
+            face_.calibration().scale_muscle(muscles_[static_cast<std::size_t>(i)],
+                                             std::exp(value - z_[i]));
         } else {
             auto& [ratio, first] = lip_ratios_[static_cast<std::size_t>(i - muscles)];
             *ratio = first * std::exp(value);
-            face_.scale_lips(lips_);
+            face_.calibration().scale_lips(lips_);
         }
         z_[i] = value;
     }
@@ -175,7 +179,7 @@ class Fit {
 
     // d(ways)/dz in the equilibrium just found, in the order of a Points' numbers.
     Eigen::MatrixXd slopes(const track::Drive& drive) {
-        const Points nodes = face_.nodes();
+        const Points nodes = face_.statics().nodes();
         std::vector<Points> force;
         for (long i = 0; i < z_.size(); ++i) {
             if (!works(i, drive)) {
@@ -184,9 +188,9 @@ class Fit {
             }
             const double at = z_[i];
             set(i, at + kDifference);
-            const Points more = face_.static_gradient(nodes, drive.excitation, scaled(drive));
+            const Points more = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
             set(i, at - kDifference);
-            const Points less = face_.static_gradient(nodes, drive.excitation, scaled(drive));
+            const Points less = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
             force.push_back((more - less) / (2 * kDifference));
             set(i, at);
         }
@@ -194,10 +198,10 @@ class Fit {
         Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * count, z_.size());
         for (long i = 0; i < z_.size(); ++i) {
             if (force[static_cast<std::size_t>(i)].size() == 0) continue;
-            const Points moved = face_.solve_static(-force[static_cast<std::size_t>(i)]);
+            const Points moved = face_.statics().solve(-force[static_cast<std::size_t>(i)]);
             Points ways = Points::Zero(count, 3);
             for (long k = 0; k < count; ++k) {
-                const int v = face_.shell().collapsed_to[static_cast<std::size_t>(
+                const int v = face_.diagnostics().shell().collapsed_to[static_cast<std::size_t>(
                     ways_.vertex(static_cast<std::size_t>(k)))];
                 if (v >= 0)
                     ways.row(k) = moved.row(face::node_of(v, face::kSkin)) / face_.head().size;

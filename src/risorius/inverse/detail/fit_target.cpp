@@ -9,6 +9,7 @@
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/inverse/measured_shapes.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/scene/expression_score.h"
@@ -28,7 +29,7 @@ constexpr double kOnTheSkull_m =
 // Skin by its area, and whatever else any of the shapes moves.
 Eigen::VectorXd weights_of(const face::Face& face, const std::vector<Points>& fields) {
     const rig::Head& head = face.head();
-    Eigen::VectorXd weight = scene::vertex_areas(face.simulated_skin(), head.vertices);
+    Eigen::VectorXd weight = scene::vertex_areas(face.surfaces().simulated_skin(), head.vertices);
     const double mean = weight.sum() / static_cast<double>((weight.array() > 0).count());
     std::array<bool, 8> moves{};
     const auto part = [&](long v) {

@@ -24,6 +24,7 @@
 #include "risorius/face/anatomy/detail/wrench.h"
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_surface.h"
+#include "risorius/face/muscle/detail/solid_figures.h"
 #include "risorius/face/muscle/detail/solid_placement.h"
 #include "risorius/muscle/chain_set.h"
 #include "risorius/solve/hessian_builder.h"
@@ -39,15 +40,6 @@ enum class Curvature;
 namespace risorius::face {
 
 using Wrenches = std::array<Wrench, kBodies>;
-
-struct SolidFigures {
-    std::string muscle;
-    Side side = Side::kLeft;
-    double volume_ratio = 1;     ///< now / rest
-    double min_cell_ratio = 1;   ///< of its cells, now / rest
-    double mean_stretch = 1;     ///< of its fibres, now / rest
-    double thickness_ratio = 1;  ///< of the middle section, now / rest
-};
 
 class MuscleSolids {
   public:

@@ -35,6 +35,7 @@
 #include "risorius/face/solver/detail/face_terms.h"
 #include "risorius/face/solver/detail/local_solve.h"
 #include "risorius/face/solver/detail/separation.h"
+#include "risorius/face/step_stats.h"
 #include "risorius/muscle/fibre_set.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/rig_description.h"
@@ -55,23 +56,6 @@ namespace risorius::face {
 
 /// Steps this long seek rest, not motion.
 inline constexpr double kSettling_s = 0.1;
-
-struct StepStats {
-    int iterations = 0;
-    int evaluations = 0;
-    double last_step_rms_m = 0;
-    double contact_depth_m = 0;      ///< deepest penetration left
-    double lip_depth_m = 0;          ///< the same, of lip by lip
-    double bone_depth_m = 0;         ///< the same, of bone and teeth
-    double muscle_volume_error = 0;  ///< greatest of the volume muscles, ratio
-    bool converged = false;
-};
-
-/// How deep surfaces lie in each other beyond what they do at rest, m: lip in lip, tissue in bone and teeth, lids in the eyeball
-/// (its cornea included).
-struct Penetration {
-    double lips_m = 0, bone_m = 0, eyeball_m = 0;
-};
 
 /// What moves by itself and takes the tissue along.
 struct BoundaryState {

@@ -11,26 +11,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "risorius/core/types.h"
 #include "risorius/face/solver/detail/face_tissue.h"
+#include "risorius/face/solver/detail/static_options.h"
 #include "risorius/solve/quasi_newton.h"
 
 namespace risorius::face {
-
-struct StaticOptions {
-    int iterations = 1500;      ///< of L-BFGS, at most
-    double tolerance_m = 1e-6;  ///< converged when |B g| is no longer on any node,
-    double planes_m = 1e-6;     ///< and contact was sought no farther away on any node
-    int round = 12;             ///< iterations between searches for contacts
-    int memory = 8;
-    double step_cap_m = 6e-3;
-    std::function<bool()> stopped = {};  ///< asked between rounds; then the pose is left as it is
-};
 
 class StaticSolver {
   public:

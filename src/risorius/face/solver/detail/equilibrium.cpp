@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/face/solver/detail/face_statics.h"
+#include "risorius/face/solver/detail/equilibrium.h"
 
 #include <utility>
 
@@ -16,7 +16,7 @@ constexpr double kGain = 0.7,
 
 }  // namespace
 
-FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
+Equilibrium::Equilibrium(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
                          Eigen::VectorXd min)
     : tissue_(tissue),
       prescribe_(std::move(set_boundary_conditions)),
@@ -24,13 +24,13 @@ FaceStatics::FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, 
       min_(std::move(min)),
       solver_(tissue) {}
 
-StepStats FaceStatics::solve_equilibrium(const Eigen::VectorXd& activation,
+StepStats Equilibrium::solve_equilibrium(const Eigen::VectorXd& activation,
                                          const StaticOptions& options, Points& x) {
     moved();
     return solver_.solve_equilibrium(activation, options, x);
 }
 
-void FaceStatics::prepare(const Pose& pose) {
+void Equilibrium::prepare(const Pose& pose) {
     prescribe_(pose.activation, pose.drive);
     tissue_.begin_rest(pose.x);
     tissue_.find_rest_contacts(pose.x);
@@ -38,7 +38,7 @@ void FaceStatics::prepare(const Pose& pose) {
     factored_ = true;
 }
 
-Points FaceStatics::gradient(const Pose& pose, const Points& nodes,
+Points Equilibrium::gradient(const Pose& pose, const Points& nodes,
                              const Eigen::VectorXd& activation, const track::Drive& drive) {
     prescribe_(activation, drive);
     tissue_.begin_rest(nodes);
@@ -50,14 +50,14 @@ Points FaceStatics::gradient(const Pose& pose, const Points& nodes,
     return g;
 }
 
-Points FaceStatics::solve(const Pose& pose, const Points& b) {
+Points Equilibrium::solve(const Pose& pose, const Points& b) {
     prepare(pose);
     Points y;
     solver_.solve(b, y);
     return y;
 }
 
-std::vector<Points> FaceStatics::sensitivities(const Pose& pose, std::span<const int> columns,
+std::vector<Points> Equilibrium::sensitivities(const Pose& pose, std::span<const int> columns,
                                                std::span<const track::Kinematic> channels) {
     prepare(pose);
     const std::vector<tissue::Contacts::Contact> found = tissue_.contacts().list();

@@ -21,7 +21,7 @@
 
 namespace risorius::face {
 
-class FaceStatics {
+class Equilibrium {
   public:
     /// Puts bones, lids and air of the tissue where the drive wants them.
     using Prescribe =
@@ -37,7 +37,7 @@ class FaceStatics {
     };
 
     /// Keeps references to all. `least` is the lower limit of each column.
-    FaceStatics(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
+    Equilibrium(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
                 Eigen::VectorXd min);
 
     /// Moves x to the equilibrium; the tissue must be prescribed.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/face/calibration.h"
+
+#include "risorius/face/detail/face_impl.h"
+
+namespace risorius::face {
+
+void Calibration::scale_muscle(const std::string& muscle, double factor) {
+    face_->equilibrium->moved();
+    face_->tissue.forget_mouth();
+    face_->tissue.solids().scale_strength(muscle, factor);
+    for (Side side : {Side::kLeft, Side::kRight}) {
+        const int column = face_->channels.column(muscle, side);
+        if (side == Side::kRight && column == face_->channels.column(muscle, Side::kLeft)) continue;
+        for (std::size_t f = 0; f < face_->tissue.fibres().fibres().size(); ++f)
+            if (face_->tissue.fibres().fibres()[f].column == column)
+                face_->tissue.fibres().set_f0(static_cast<int>(f),
+                                              factor * face_->tissue.fibres().fibres()[f].f0_n);
+    }
+}
+
+void Calibration::scale_lips(const rig::LipsDescription& lips) {
+    face_->equilibrium->moved();
+    face_->tissue.scale_lips(lips);
+}
+
+struct Variant::Parts {
+    const FaceImpl& face;
+    rig::RigDescription rig;
+    FaceTissue tissue;
+    Parts(const FaceImpl& of, const rig::RigDescription& changed)
+        : face(of), rig(changed), tissue(of.head, rig, of.jaw, of.lids, of.shell, of.mesh) {}
+};
+Variant::Variant(const Face& face, const rig::RigDescription& changed)
+    : parts_(std::make_unique<Parts>(*face.impl_, changed)) {}
+Variant::~Variant() = default;
+
+Points Variant::gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                         const track::Drive& drive) {
+    parts_->tissue.set_boundary_conditions(parts_->face.boundary_state(activation, drive));
+    parts_->tissue.begin_rest(nodes);
+    return parts_->tissue.static_gradient(nodes, activation);
+}
+
+}  // namespace risorius::face

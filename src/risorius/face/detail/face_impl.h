@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The state of a face. `Face` and its views (statics.h, diagnostics.h, surfaces.h, calibration.h) share one of these.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/face/anatomy/detail/jaw.h"
+#include "risorius/face/anatomy/detail/jaw_dynamics.h"
+#include "risorius/face/anatomy/lids.h"
+#include "risorius/face/anatomy/shell.h"
+#include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/face.h"
+#include "risorius/face/muscle/detail/muscle_surface.h"
+#include "risorius/face/skin/detail/face_poser.h"
+#include "risorius/face/solver/detail/driven_jaw.h"
+#include "risorius/face/solver/detail/equilibrium.h"
+#include "risorius/face/solver/detail/face_tissue.h"
+#include "risorius/face/solver/detail/tissue_motion.h"
+#include "risorius/face/view/detail/muscle_ribbons.h"
+#include "risorius/muscle/activation.h"
+#include "risorius/track/channels.h"
+
+namespace risorius::face {
+
+struct FaceImpl {
+    /// What the solver knows about one moment.
+    struct State {
+        Points x;                    ///< n x 3, m, rows as in FaceTissue::rest()
+        Eigen::VectorXd activation;  ///< per column, 0..1
+        track::Drive drive;
+        JawDynamics::State jaw;  ///< used only when muscles move the jaw
+    };
+
+    rig::RigDescription rig;
+    Quality quality;
+    int substeps;        ///< per step
+    double substep_s;    ///< length of one implicit solve, s
+    double build_s = 0;  ///< wall time of the construction, s
+    rig::Head head;
+    std::array<EyeLids, 2> lids;
+    Jaw jaw;
+    Shell shell;
+    TissueMesh mesh;
+    FaceTissue tissue;
+    std::optional<FacePoser> poser;
+
+    State now,
+        before;  ///< at the last substep and at the one before; frames between are interpolated
+    std::optional<Equilibrium> equilibrium;
+    DrivenJaw driven_jaw;
+    bool went_back = false;  ///< the last substep reversed the move of the one before
+    Points last_move;  ///< move of x in the last substep relative to bone, n x 3, m; or no rows
+    Neck neck;
+    TissueMotion motion;
+    std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
+    Motion how = Motion::kDynamic;
+    long done = 0;         ///< substeps since start()
+    bool in_step = false;  ///< the state comes from a substep, not from an equilibrium
+    std::vector<StepStats> history;
+    std::optional<muscle::ActivationDynamics> dynamics;
+    track::ChannelTable channels;
+    MuscleSurfaces surfaces;
+    std::optional<MuscleRibbons> ribbons;  ///< of the surfaces, built at the first request
+
+    FaceImpl(const rig::RigDescription& rig_description, const geom::PolygonMesh& polygon_mesh,
+             const Quality& q, const std::string& place);
+    FaceImpl(const FaceImpl&) = delete;  // members refer to one another
+    FaceImpl& operator=(const FaceImpl&) = delete;
+
+    /// Returns the drive with one excitation per column. A drive as constructed has none: no muscle is active.
+    track::Drive complete(track::Drive drive) const;
+    /// Returns the activation that a constant drive leads to, per column.
+    Eigen::VectorXd steady_activation(const track::Drive& drive) const;
+    /// Returns gravity in the head frame, m/s^2; that of the rest shape if gravity is off.
+    Vec3 gravity_at(const track::Drive& drive) const;
+    /// Returns the part of gravity that the rest shape does not contain, m/s^2.
+    Vec3 weight_at(const track::Drive& drive) const;
+    BoundaryState boundary_state(const Eigen::VectorXd& activation,
+                                 const track::Drive& drive) const;
+    /// Moves bones, lids and air to where the drive places them, and x with the bones.
+    void set_boundary_conditions(Points& x, const Eigen::VectorXd& activation,
+                                 const track::Drive& drive);
+    void set_boundary_conditions(const Eigen::VectorXd& activation, const track::Drive& drive);
+
+    void start(const DriveAt& drive);
+    StepStats substep(const DriveAt& drive_at);
+    StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& drive,
+                                const StaticOptions& options);
+    /// Returns the state as an equilibrium. Throws std::logic_error when muscles move the jaw.
+    Equilibrium::Pose equilibrium_pose() const;
+
+    /// Returns how many substeps lead to t, as a real number. A time that is a substep but for rounding gives a whole number.
+    double substeps_until(double t_s) const;
+    /// Returns where t lies between the last two substeps, 0..1.
+    double fraction_of_step(double t_s) const;
+    /// Interpolates between the last two substeps: drives are interpolated, not the bones and lids they move.
+    State between(double fraction) const;
+    /// Returns the nodes as they are shown, n x 3, m. Substeps leave surfaces in each other, equilibria hardly do.
+    Points shown(const State& state) const;
+    FacePose pose(double fraction) const;
+    FacePose pose_of(const State& state) const;
+
+    void make_surfaces();
+    Points muscle_vertices(double fraction);
+
+  private:
+    int iterations() const;
+    track::Drive drive_between(double fraction) const;
+    JawVector jaw_between(double fraction) const;
+};
+
+}  // namespace risorius::face

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/face/diagnostics.h"
+
+#include <limits>
+#include <utility>
+
+#include "risorius/face/detail/face_impl.h"
+
+namespace risorius::face {
+
+track::Drive Diagnostics::driven(track::Drive drive) const {
+    drive = face_->complete(std::move(drive));
+    drive.excitation = face_->driven_jaw.excitation(drive.excitation, drive);
+    return drive;
+}
+
+double Diagnostics::energy_j() const {
+    Points unused;
+    face_->tissue.begin_rest(face_->now.x);
+    return face_->tissue.static_energy(face_->now.x, face_->now.activation, unused);
+}
+
+std::vector<SolidFigures> Diagnostics::solid_figures() const {
+    return face_->tissue.solids().figures(face_->now.x, face_->now.activation);
+}
+
+std::optional<MuscleState> Diagnostics::muscle_state(const std::string& muscle, Side side) const {
+    const int column = face_->channels.column(muscle, side);
+    const muscle::FibreSet& fibres = face_->tissue.fibres();
+    const auto states = fibres.states(face_->now.x, face_->now.activation);
+    MuscleState out{.length_m = 0, .stretch = 0, .force_n = 0};
+    int count = 0;
+    for (std::size_t f = 0; f < states.size(); ++f) {
+        if (column < 0 || fibres.fibres()[f].column != column) continue;
+        out.length_m += states[f].length_m;
+        out.stretch += states[f].stretch;
+        out.force_n += states[f].force_n;
+        ++count;
+    }
+    if (count == 0) return std::nullopt;
+    out.length_m /= count;
+    out.stretch /= count;
+    return out;
+}
+
+Vec3 Diagnostics::landmark(const std::string& id) const {
+    const rig::Head& head = face_->head;
+    const Vec3 rest = head.landmark(id);
+    const auto given = face_->rig.landmarks.find(id);
+    int vertex = given != face_->rig.landmarks.end() ? given->second.vertex : -1;
+    Vec3 offset = Vec3::Zero();
+    if (vertex < 0) {
+        double min_squared = std::numeric_limits<double>::infinity();
+        for (const int v : head.skin.reshaped()) {
+            const double squared = (head.vertices.row(v).transpose() - rest).squaredNorm();
+            if (squared >= min_squared) continue;
+            min_squared = squared;
+            vertex = v;
+        }
+        offset = rest - head.vertices.row(vertex).transpose();
+    }
+    return face_->pose(1.0).vertices.row(vertex).transpose() + offset;
+}
+
+double Diagnostics::mean_stretch(const std::string& muscle) const {
+    if (face_->tissue.solids().is_solid(muscle))
+        return face_->tissue.solids().mean_stretch(muscle, face_->now.x, face_->now.activation);
+    const Eigen::VectorXd stretch = face_->tissue.fibres().mean_stretch(face_->now.x);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t f = 0; f < face_->tissue.fibres().fibres().size(); ++f)
+        for (Side side : {Side::kLeft, Side::kRight})
+            if (face_->tissue.fibres().fibres()[f].column == face_->channels.column(muscle, side)) {
+                sum += stretch[static_cast<long>(f)];
+                ++count;
+            }
+    return count ? sum / count : 1.0;
+}
+
+Points Diagnostics::skin_nodes() const {
+    Points out(static_cast<long>(face_->shell.vertex.size()), 3);
+    for (long v = 0; v < out.rows(); ++v)
+        out.row(v) = face_->now.x.row(node_of(static_cast<int>(v), kSkin));
+    return out;
+}
+
+Points Diagnostics::rest_skin_nodes() const {
+    Points out(static_cast<long>(face_->shell.vertex.size()), 3);
+    for (long v = 0; v < out.rows(); ++v)
+        out.row(v) = face_->mesh.nodes.row(node_of(static_cast<int>(v), kSkin));
+    return out;
+}
+
+double Diagnostics::tissue_volume_m3() const {
+    const Points& x = face_->now.x;
+    double six = 0;
+    for (long t = 0; t < face_->mesh.tets.rows(); ++t) {
+        const auto edge = [&](int k) -> Vec3 {
+            return (x.row(face_->mesh.tets(t, k)) - x.row(face_->mesh.tets(t, 0))).transpose();
+        };
+        six += edge(1).dot(edge(2).cross(edge(3)));
+    }
+    return six / 6;
+}
+
+double Diagnostics::kinetic_energy_j() const {
+    const Points velocity = face_->motion.velocity();
+    double sum = 0;
+    for (long i = 0; i < velocity.rows(); ++i)
+        sum += 0.5 * face_->tissue.mass()[i] * velocity.row(i).squaredNorm();
+    return sum;
+}
+
+Penetration Diagnostics::penetration() const {
+    return face_->tissue.penetration(face_->shown(face_->now));
+}
+
+const Tets& Diagnostics::tets() const { return face_->mesh.tets; }
+int Diagnostics::node_count() const { return face_->tissue.nodes(); }
+int Diagnostics::tet_count() const { return static_cast<int>(face_->mesh.tets.rows()); }
+int Diagnostics::inverted_tets() const { return face_->tissue.tets().inverted_count(face_->now.x); }
+int Diagnostics::dropped_tets() const { return face_->mesh.dropped_tets; }
+int Diagnostics::fibre_count() const {
+    return static_cast<int>(face_->tissue.fibres().fibres().size());
+}
+const Shell& Diagnostics::shell() const { return face_->shell; }
+const std::vector<StepStats>& Diagnostics::history() const { return face_->history; }
+double Diagnostics::build_s() const { return face_->build_s; }
+
+}  // namespace risorius::face

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/face/quality.h"
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+
+namespace risorius::face {
+
+Quality quality_named(const std::string& name) {
+    if (name == "draft")
+        return {.name = "draft",
+                .iterations = 8,
+                .mouth_passes = 10,
+                .step_s = 2 * kStep_s,
+                .max_substep_s = 2 * kStep_s};
+    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_passes = 9};
+    if (name == "video")
+        return {.name = "video",
+                .iterations = 80,
+                .min_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .max_substep_s = kStep_s / 2};
+    if (name == "fine")
+        return {.name = "fine",
+                .shell_vertices = 1700,
+                .iterations = 120,
+                .min_iterations = 4,
+                .tolerance_rms_m = 0.0025e-3,
+                .max_substep_s = kStep_s / 2};
+    throw Error(option_name("quality"),
+                "\"draft\", \"preview\", \"video\" or \"fine\"" +
+                    did_you_mean(name, {"draft", "preview", "video", "fine"}),
+                "\"" + name + "\"");
+}
+
+}  // namespace risorius::face
