@@ -2,6 +2,7 @@
 // A force that is new to the face: added to its list of energy terms, it acts as its law says.
 #include "face/adult_face.h"
 #include "force_term_checks.h"
+#include "message_of.h"
 #include "risorius/face/anatomy/tissue_mesh.h"
 #include "risorius/solve/energy_term.h"
 
@@ -120,6 +121,14 @@ TEST(FaceTerms, TheEnergyAndTheTetrahedraOfAFaceCanBeAskedFor) {
     EXPECT_NEAR(face.diagnostics().energy_j(), rest, 1e-6);
 }
 
+/// The cross-section of a muscle on this head.
+double area_m2(const Face& face, const std::string& muscle) {
+    const double size = face.head().size;
+    for (const rig::Muscle& one : rig::adult().rig.muscles.muscles)
+        if (one.id == muscle) return one.area_m2 * size * size;
+    return 0;
+}
+
 TEST(FaceTerms, AMuscleThatActsIsShorterAndPullsAndItsLandmarkMoves) {
     Face face = adult_face(kCoarse);
     const std::string muscle = "risorius";
@@ -134,9 +143,55 @@ TEST(FaceTerms, AMuscleThatActsIsShorterAndPullsAndItsLandmarkMoves) {
     EXPECT_GT(now.force_n, rest.force_n + 0.05);
     EXPECT_NEAR(now.stretch / rest.stretch, now.length_m / rest.length_m, 0.05);
     EXPECT_GT((face.diagnostics().landmark("nl3_l") - corner).norm(), 0.3e-3);
-    EXPECT_FALSE(face.diagnostics().muscle_state("zygomaticus_major", Side::kLeft))
-        << "a volume muscle";
-    EXPECT_FALSE(face.diagnostics().muscle_state("no such muscle", Side::kLeft).has_value());
+    // Stress is force over the cross-section of the table, on a head of this size
+    EXPECT_NEAR(now.stress_pa.value(), now.force_n / area_m2(face, muscle), 1e-6);
+}
+
+TEST(FaceTerms, AVolumeMuscleTellsLengthForceAndStressToo) {
+    Face face = adult_face(kCoarse);
+    const std::string muscle = "zygomaticus_major";
+    const MuscleState rest = face.diagnostics().muscle_state(muscle, Side::kLeft).value();
+    const track::Drive smile = with_muscle(muscle, 0.5, Side::kLeft);
+    face.solve_equilibrium(smile.excitation, smile);
+    const MuscleState left = face.diagnostics().muscle_state(muscle, Side::kLeft).value(),
+                      right = face.diagnostics().muscle_state(muscle, Side::kRight).value();
+    EXPECT_NEAR(rest.length_m, 0.05, 0.02);
+    EXPECT_LT(left.length_m, 0.95 * rest.length_m);
+    EXPECT_GT(right.length_m, 0.97 * rest.length_m);
+    EXPECT_GT(left.force_n, right.force_n + 0.5);
+    EXPECT_NEAR(left.stress_pa.value(), left.force_n / area_m2(face, muscle), 1e-6);
+}
+
+TEST(FaceTerms, AMuscleOfTheJawIsKnownWhileMusclesMoveIt) {
+    Face face = adult_face(kCoarse);
+    const std::string muscle = "digastric_anterior";
+    EXPECT_FALSE(face.diagnostics().muscle_state(muscle, Side::kLeft)) << "channels place the jaw";
+    face.drive_jaw_by(track::JawDrive::kMuscles);
+    const track::Drive pull = with_muscle(muscle, 0.3);
+    face.start([&](double) { return pull; });
+    const MuscleState now = face.diagnostics().muscle_state(muscle, Side::kLeft).value();
+    EXPECT_GT(now.force_n, 1);
+    EXPECT_GT(now.length_m, 0.01);
+    EXPECT_NEAR(now.stress_pa.value(), now.force_n / area_m2(face, muscle), 1e-6);
+}
+
+TEST(FaceTerms, WrongNamesAndDrivesAreRefused) {
+    Face face = adult_face(kCoarse);
+    EXPECT_EQ(
+        message_of([&] { face.diagnostics().muscle_state("zygomaticus_mayor", Side::kLeft); }),
+        "muscle: expected one of the rig's muscles (did you mean \"zygomaticus_major\"?), "
+        "found \"zygomaticus_mayor\"");
+    EXPECT_EQ(message_of([&] { face.diagnostics().landmark("ch_left"); }),
+              "landmark: expected one of the head's landmarks (did you mean \"ch_l\"?), found "
+              "\"ch_left\"");
+    track::Drive wrong;
+    wrong.excitation = Eigen::VectorXd::Zero(3);
+    EXPECT_EQ(message_of([&] { face.start([&](double) { return wrong; }); }),
+              "drive: excitation: expected 84 values, one for each column of the rig's channels, "
+              "found 3");
+    wrong = with_muscle("risorius", std::nan(""));
+    EXPECT_EQ(message_of([&] { face.start([&](double) { return wrong; }); }),
+              "drive: excitation: expected finite numbers, found NaN or infinity");
 }
 
 }  // namespace

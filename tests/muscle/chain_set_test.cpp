@@ -59,6 +59,23 @@ TEST(ChainSet, TheGradientIsTheSlopeOfTheEnergy) {
     }
 }
 
+TEST(ChainSet, TheStateOfAChainIsTheSlopeOfItsEnergyByItsLength) {
+    const TwoChains two;
+    const ChainSet set = two.make(kMasseterLike);
+    Points scratch = Points::Zero(10, 3);
+    const auto stretched = [&](double factor) -> Points { return factor * two.rest; };
+    for (const double factor : {0.95, 1.0, 1.1}) {
+        const std::vector<ChainSet::State> states = set.states(stretched(factor), 0.4);
+        ASSERT_EQ(states.size(), 2u);
+        double pulls = 0;  // virtual work of all chains when all lengths grow alike
+        for (const ChainSet::State& state : states)
+            pulls += state.force_n * state.length_m / factor;
+        const double h = 1e-6, up = set.add_energy(stretched(factor + h), 0.4, scratch),
+                     down = set.add_energy(stretched(factor - h), 0.4, scratch);
+        EXPECT_NEAR(pulls, (up - down) / (2 * h), 1e-4 * (1 + std::abs(pulls))) << factor;
+    }
+}
+
 TEST(ChainSet, AtRestARelaxedChainDoesNotPull) {
     const TwoChains two;
     Points gradient = Points::Zero(10, 3);

@@ -164,8 +164,7 @@ void run(BatchArguments& arguments) {
 }  // namespace
 
 void add_batch(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("batch", "Make all clips of the design of an experiment");
+    CLI::App* command = app.add_subcommand("batch", "Make all clips of a set of stimuli");
     auto arguments = std::make_shared<BatchArguments>();
     stimuli::BatchOptions& options = arguments->options;
     options.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -176,11 +175,11 @@ void add_batch(CLI::App& app) {
     command->add_flag(
         "--plan", arguments->plan,
         "Only check the design and print the number of clips, and estimates of time and size");
-    command->add_flag("--list", arguments->list, "Only print the names of the clips, one a line");
+    command->add_flag("--list", arguments->list, "Only print the names of the clips, one per line");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
     command->add_option("--part", arguments->part,
-                        "On several machines with one file system: make only this part of the "
-                        "clips, as 2/8. At the end, run the command without --part");
+                        "Make only this part of the clips, such as 2/8, on one of several machines "
+                        "with one file system. At the end, run without --part");
     constexpr const char* kCluster = "On a cluster";
     command
         ->add_option("--engine", arguments->engine,
@@ -197,10 +196,13 @@ void add_batch(CLI::App& app) {
         ->capture_default_str()
         ->check(CLI::Range(0, 100))
         ->group(kCluster);
-    command->add_option("--account", arguments->slurm.account, "Option of sbatch")->group(kCluster);
-    command->add_option("--partition", arguments->slurm.partition, "Option of sbatch")
+    command->add_option("--account", arguments->slurm.account, "The option --account of sbatch")
         ->group(kCluster);
-    command->add_option("--time", arguments->slurm.time, "Option of sbatch")->group(kCluster);
+    command
+        ->add_option("--partition", arguments->slurm.partition, "The option --partition of sbatch")
+        ->group(kCluster);
+    command->add_option("--time", arguments->slurm.time, "The option --time of sbatch")
+        ->group(kCluster);
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius batch samples/stimuli/design.json --plan\n"

@@ -163,19 +163,19 @@ void run(const BenchArguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure how fast this machine is");
     auto arguments = std::make_shared<BenchArguments>();
-    command->add_option("--rig", arguments->options.rigs, "A rig to measure; default: the adult");
+    command->add_option("--rig", arguments->options.rigs, "A rig to measure. Default: rigs/adult");
     command
         ->add_flag("--solids", arguments->only_solids,
                    "Measure only deformable solids of 13^3, 22^3 and 46^3 nodes, without a face")
         ->excludes("--rig");
     command
         ->add_flag("--steps", arguments->options.only_steps,
-                   "Measure only the time and the error of steps of the rigs")
+                   "Measure only the time and the error of the rigs' time steps")
         ->excludes("--solids");
     command
         ->add_flag("--poses", arguments->options.only_poses,
-                   "Measure only the solution of equilibria on meshes of 2 to 20 thousand nodes; "
-                   "takes minutes")
+                   "Measure only how fast equilibria are found, on meshes of 2,000 to 20,000 "
+                   "nodes; takes minutes")
         ->excludes("--solids")
         ->excludes("--steps");
     command
@@ -202,8 +202,8 @@ void add_bench(CLI::App& app) {
         ->excludes("--pictures");
     command
         ->add_option("--stress", arguments->options.stress_steps,
-                     "Only drive the face at random for this many steps and report inversions and "
-                     "penetration")
+                     "Only move the face at random for this many steps; report inverted tetrahedra "
+                     "and penetration")
         ->check(CLI::Range(1, 1000000))
         ->excludes("--solids")
         ->excludes("--poses");

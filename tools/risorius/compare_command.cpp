@@ -53,7 +53,10 @@ void add_compare(CLI::App& app) {
         app.add_subcommand("compare", "Render two scripts or two heads side by side");
     auto arguments = std::make_shared<CompareArguments>();
     animate::RenderRequest& options = arguments->options;
-    command->add_option("SCRIPT", arguments->scripts, "One script, or two: left, right")
+    command
+        ->add_option(
+            "SCRIPT", arguments->scripts,
+            "Two scripts for the left and the right half of the picture, or one with two rigs")
         ->required();
     command
         ->add_option("-o,--out", options.out,
@@ -61,7 +64,8 @@ void add_compare(CLI::App& app) {
                      "OUT.right.frames.tsv are written beside it")
         ->required();
     command->add_option("--rig", arguments->rigs,
-                        "Use this rig instead of the script's; given twice: left, right");
+                        "Rig instead of the script's; give it twice for the left and the right "
+                        "half of the picture");
     command->add_option("--fps", options.fps,
                         "Frames per second instead of the script's, 1 to 240");
     command->add_option("--show", options.show,

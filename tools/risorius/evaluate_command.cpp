@@ -121,9 +121,8 @@ void add_evaluate(CLI::App& app) {
     command->add_option("--shapes", options.shapes,
                         "Measured displacements of the vertices of the rig's mesh: JSON with a "
                         "file of raw numbers, see docs/formats/measured-shapes.md");
-    command->add_option(
-        "--like", arguments->like,
-        "Instead of --shapes: another rig, whose expressions are compared with those of RIG");
+    command->add_option("--like", arguments->like,
+                        "Instead of --shapes: a rig to compare the expressions of RIG with");
     command->add_option("-o,--out", options.out,
                         "The folder of the report: index.html, contact sheets, pictures, "
                         "results.json, scores.tsv. Without it, numbers are only printed");
@@ -132,11 +131,11 @@ void add_evaluate(CLI::App& app) {
                      "Names of expressions, separated by commas. Default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_flag("--fit", options.fit,
-                      "Also fit activations in [0, 1], sparse, starting from the rig's table");
     command->add_flag(
-        "--apart", options.separate_sides,
-        "Evaluate left and right shapes separately; otherwise x_L and x_R are added to x");
+        "--fit", options.fit,
+        "Also fit activations: as few as will do, from 0 to 1, starting from those of the rig");
+    command->add_flag("--apart", options.separate_sides,
+                      "Evaluate x_L and x_R separately. Default: their sum, as x");
     command
         ->add_option("--quality", options.quality,
                      "Quality of the simulation: \"preview\", \"video\" or \"fine\"")

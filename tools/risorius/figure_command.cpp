@@ -94,18 +94,19 @@ void run(const FigureArguments& arguments) {
 }  // namespace
 
 void add_figure(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "figure", "Run an experiment of samples/figures and compare it with the published result");
+    CLI::App* command = app.add_subcommand("figure",
+                                           "Run a figure of the thesis or of another publication, "
+                                           "and compare it with the published result");
     auto arguments = std::make_shared<FigureArguments>();
     command->add_option(
         "FIGURE", arguments->options.figure,
-        "An id of --list, several ids (8a,8b), all, or the path of an experiment.json");
+        "Ids of --list, separated by commas, as 8a,8b; all; or an experiment file (.json)");
     command->add_option("-o,--out", arguments->options.out,
                         "The folder to write: new, empty, or with earlier results, which are "
                         "replaced. It appears whole or not at all");
     command->add_flag("--list", arguments->list, "Print ids, titles and estimated times");
     command->add_option("--from", arguments->options.from,
-                        "Folder with a folder for each id; default: samples/figures");
+                        "Folder with a folder for each id. Default: samples/figures");
     command
         ->add_option(
             "--threads", arguments->options.threads,

@@ -103,14 +103,15 @@ void add_fit(CLI::App& app) {
     command->add_option("--landmarks", options.landmarks, "The file of its landmarks")->required();
     command->add_option("-o,--out", options.out, "The rig to write")->required();
     command->add_option("--metres-per-unit", options.metres_per_unit,
-                        "0.01 for a mesh in cm; estimated from the landmarks when not given");
-    command->add_option("--name", options.name, "Name of the rig; default: that of the mesh file");
-    command->add_option(
-        "--part", arguments->parts,
-        "ROLE=GROUP,GROUP: the role of groups of the mesh whose names do not tell it");
+                        "Size of one unit of the mesh in metres, 0.01 for cm. Default: estimated "
+                        "from the landmarks");
+    command->add_option("--name", options.name, "Name of the rig. Default: that of the mesh file");
+    command->add_option("--part", arguments->parts,
+                        "ROLE=GROUP,GROUP: sets the role of groups of the mesh whose names do not "
+                        "tell it; docs/formats/rig.md lists the roles");
     command
         ->add_option("--tables", arguments->tables,
-                     "Write the standard anatomy \"inline\", or as a \"reference\" to its files")
+                     "inline: the rig contains its anatomy; reference: it names the files")
         ->capture_default_str();
     command->add_option("--standard", options.standard, "Folder of the standard anatomy");
     command->add_flag("--solids", arguments->options.solids,
@@ -120,11 +121,10 @@ void add_fit(CLI::App& app) {
     command->add_option("--report", options.report,
                         "A folder for a report of the fit with pictures and numbers");
     command->add_flag("--no-calibrate", arguments->no_calibrate,
-                      "Keep the standard strengths of the muscles (fastest)");
-    command->add_flag(
-        "--muscles-apart", arguments->muscles_apart,
-        "Calibrate each muscle only by its shortening, without scaling all muscles together until "
-        "expressions match those of the standard head (three times as fast)");
+                      "Do not calibrate: keep the standard strengths of the muscles (fastest)");
+    command->add_flag("--muscles-apart", arguments->muscles_apart,
+                      "Calibrate each muscle only by its shortening, not all muscles together by "
+                      "the expressions of the standard head (takes a third of the time)");
     add_common(*command, arguments->common);
     std::string required;
     for (const std::string& id : rig::required_landmarks()) required += " " + id;

@@ -69,11 +69,14 @@ void add_head(CLI::App& app) {
     headmodel::IdentityChoice& choice = arguments->choice;
     command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
     command->add_option("--identity", choice.identity,
-                        "A name of models/identities, or a file of that format (.json)");
-    command->add_option("--seed", choice.seed, "Draw a random adult with this seed");
-    command->add_option("--sex", choice.sex, "From -1, female, to 1, male");
+                        "The head: a name in models/identities, or a .json file like those");
+    command->add_option("--seed", choice.seed, "Make a random adult head from this seed");
+    command->add_option("--sex", choice.sex,
+                        "-1: female, 1: male. Default: that of the identity, or else 0");
     command->add_option("--age", choice.age, "Age, 20 to 80 years");
-    command->add_option("--shape", choice.shape, "PARAMETER=NUMBER; may be given several times");
+    command->add_option("--shape", choice.shape,
+                        "PARAMETER=NUMBER, -2 to 2; repeat for several. docs/formats/identity.md "
+                        "lists the parameters");
     command->add_option("--skin", choice.skin, "Name of a skin tone");
     command->add_option("--iris", choice.iris, "Name of an eye colour");
     command->add_option("--hair", choice.hair, "Name of a colour of brows and hair");
@@ -87,7 +90,7 @@ void add_head(CLI::App& app) {
                                      "Write only mesh and landmarks, without rig and pictures"));
     command->add_flag("--calibrate", arguments->options.calibrate,
                       "Calibrate the strength of each muscle on this head, which takes minutes. "
-                      "Otherwise muscles are as strong as those of the adult");
+                      "Default: the strengths of rigs/adult");
     add_common(*command, arguments->common);
     command->footer(std::string());  // not that of all commands
     command->footer(footer);

@@ -83,8 +83,8 @@ void add_render(CLI::App& app) {
         ->required();
     command->add_option("--rig", options.rig, "Use this rig instead of the script's");
     command->add_option("--shapes", options.shapes,
-                        "A file shapes.glb of risorius shapes: its blend shapes and correctives "
-                        "play the script, and nothing is simulated");
+                        "A file shapes.glb of risorius shapes: play the script with its blend "
+                        "shapes and correctives, without simulation");
     command->add_option("--fps", options.fps,
                         "Frames per second instead of the script's, 1 to 240");
     command->add_option("--show", options.show,
@@ -93,20 +93,21 @@ void add_render(CLI::App& app) {
                         "distance from the face of another script; landmarks");
     command->add_option("--against", options.against,
                         "With --show error: the script to compare with");
-    command->add_option(
-        "--scale", options.scale,
-        "With --show strain or error: the value at which the colours end, a ratio (0.4) or mm (5)");
+    command->add_option("--scale", options.scale,
+                        "End of the colour scale with --show strain, a ratio (default: 0.4), or "
+                        "--show error, mm (default: 5)");
     command->add_option("--still", options.still_s, "Render one picture, at this time in seconds");
     command->add_option(
         "--turntable", options.turntable_s,
         "Show the face at this time in seconds, and turn the head once round during the video");
-    command->add_option("--shutter", options.shutter_deg,
-                        "Motion blur: the time for which the shutter is open, 0 to 360 degrees of "
-                        "a frame, centred on the frame's time; 180 is common");
+    command->add_option(
+        "--shutter", options.shutter_deg,
+        "Motion blur: the time for which the shutter is open, 0 to 360 degrees (360: the whole "
+        "frame), centred on the frame's time. Default: 0; common: 180");
     command->add_flag("--landmarks", options.landmarks,
-                      "Add the positions of the landmarks to the table, in mm and in pixels");
+                      "Add the landmarks to the frame table, in mm (head frame) and in pixels");
     command->add_flag("--emg", options.emg,
-                      "Add a simulated surface electromyogram of every muscle to the table");
+                      "Add a simulated surface electromyogram of every muscle to the frame table");
     add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_marks(*command, options.marks);

@@ -64,20 +64,21 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
 
 void add_view(CLI::App& command, animate::RenderRequest& options, std::string& size) {
     options.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
-    command.add_option("--size", size, "Size of the picture instead of the script's, as 1024x1024");
+    command.add_option("--size", size,
+                       "Size of the picture in pixels instead of the script's, such as 1024x1024");
     command.add_option("--camera", options.camera,
                        "View instead of the script's: front, three_quarter, three_quarter_right, "
                        "profile, profile_right, top; close-ups eye, nose, mouth, ear");
     command.add_option("--quality", options.quality,
-                       "Quality of the simulation: draft, preview, video (default) or fine");
+                       "Quality of the simulation: draft, preview, video or fine. Default: video");
     command
         .add_option(
             "--antialiasing", options.antialiasing,
             "Samples per pixel and side, 1 to 4, instead of the script's (2 when it gives none)")
         ->type_name("INT");
     command.add_flag("--draft", options.draft,
-                     "Render a fast preview: skin is shaded at its vertices; --quality draft, "
-                     "--antialiasing 1 and --preset ultrafast are used unless given");
+                     "Render fast: skin is shaded at its vertices; --quality draft, --antialiasing "
+                     "1 and --preset ultrafast are used unless given");
     command
         .add_option_function<std::string>(
             "--gl", [](const std::string& name) { render::choose_gl(name, "--gl"); },

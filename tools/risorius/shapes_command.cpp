@@ -122,20 +122,19 @@ void add_shapes(CLI::App& app) {
                       "Make only shapes, without correctives for the errors of their sums. "
                       "risorius render --shapes cannot play such a file");
     command
-        ->add_option(
-            "--pairs", options.pairs,
-            "Maximum number of pairs of shapes that are simulated together: those that move the "
-            "same skin farthest, or occur together in the script (48; for facs 160)")
+        ->add_option("--pairs", options.pairs,
+                     "Maximum number of pairs to simulate: shapes that move the same skin "
+                     "farthest, or occur together in the script. Default: 48; for facs 160")
         ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
         [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
-        "Sums with a smaller error get no corrective (0.3)");
+        "Sums whose maximum error is smaller get no corrective. Default: 0.3");
     command->add_option_function<double>(
         "--corrective-megabytes",
         [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
-        "Size limit of the correctives in shapes.glb (0.8; for facs 2): with less space they keep "
-        "less detail");
+        "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
+        "Default: 0.8; for facs 2");
     command
         ->add_option("--test-frames", options.test_frames,
                      "Number of frames of random weights, and of the script, for which blend "
@@ -143,13 +142,13 @@ void add_shapes(CLI::App& app) {
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
     command->add_flag("--floats", options.floats,
-                      "Write floats into shapes.glb instead of 16-bit integers, for programs "
+                      "Write floats instead of 16-bit integers into shapes.glb, for programs "
                       "without KHR_mesh_quantization");
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");
-    command->add_option("--threads", options.threads,
-                        "Poses solved at the same time; 0: one for each core. The files are the "
-                        "same for any number");
+    command->add_option(
+        "--threads", options.threads,
+        "Number of threads; 0: one for each core. The files are the same for any number");
     add_common(*command, arguments->common);
     command->footer(
         "Every shape is the face at rest under the muscles that the rig's tables give it, on the "

@@ -60,14 +60,17 @@ void add_sheet(CLI::App& app) {
         ->delimiter(',')
         ->allow_extra_args(false);
     command
-        ->add_option("--beside", options.beside,
-                     "Pictures (.png) to compare with, separated by commas, in rows of their own")
+        ->add_option(
+            "--beside", options.beside,
+            "PNG pictures to compare with, separated by commas; each gets a row of its own")
         ->delimiter(',')
         ->allow_extra_args(false);
     command->add_option("--show", options.view.show,
                         "What to show: skin, muscles, skull, wire, strain or landmarks");
     add_view(*command, options.view, arguments->size);
-    command->get_option("--size")->description("Size of one picture")->capture_default_str();
+    command->get_option("--size")
+        ->description("Size of one picture in pixels")
+        ->capture_default_str();
     add_common(*command, arguments->common);
     command->footer(
         "Example:\n  risorius sheet samples/smile/script.json samples/jaw/script.json --times "

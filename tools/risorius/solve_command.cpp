@@ -89,25 +89,24 @@ void add_solve(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--l1-weight", options.l1_weight,
-                     "The cost of an activation of 1, relative to half the squared norm "
-                     "of the target")
+                     "Penalty on activations: the cost of an activation of 1, relative to half the "
+                     "squared norm of the target")
         ->capture_default_str();
     command
         ->add_option("--l2-weight", options.l2_weight,
-                     "The cost of half its square, in the same unit")
+                     "Penalty on half the square of each activation, in the unit of --l1-weight")
         ->capture_default_str();
     command
         ->add_option("--temporal-weight", options.temporal_weight,
-                     "The cost of half the square of its change between frames, in the "
-                     "same unit")
+                     "Penalty on half the squared change of each activation from frame to frame, "
+                     "in the unit of --l1-weight")
         ->capture_default_str();
     add_old_name(*command, "--price", "--l1-weight", options.l1_weight);
     add_old_name(*command, "--ridge", "--l2-weight", options.l2_weight);
     add_old_name(*command, "--smooth", "--temporal-weight", options.temporal_weight);
     command->add_option("--fps", options.fps, "Maximum number of frames per second that are solved")
         ->capture_default_str();
-    command->add_option("--threads", options.threads,
-                        "Shapes solved at the same time; 0: one for each core");
+    command->add_option("--threads", options.threads, "Number of threads; 0: one for each core");
     add_common(*command, arguments->common);
     command->footer(
         "Examples:\n"

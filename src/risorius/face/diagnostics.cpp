@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/diagnostics.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
 #include "risorius/face/detail/face_impl.h"
 
 namespace risorius::face {
@@ -25,26 +28,49 @@ std::vector<SolidFigures> Diagnostics::solid_figures() const {
 }
 
 std::optional<MuscleState> Diagnostics::muscle_state(const std::string& muscle, Side side) const {
-    const int column = face_->channels.column(muscle, side);
-    const muscle::FibreSet& fibres = face_->tissue.fibres();
-    const auto states = fibres.states(face_->now.x, face_->now.activation);
-    MuscleState out{.length_m = 0, .stretch = 0, .force_n = 0};
-    int count = 0;
-    for (std::size_t f = 0; f < states.size(); ++f) {
-        if (column < 0 || fibres.fibres()[f].column != column) continue;
-        out.length_m += states[f].length_m;
-        out.stretch += states[f].stretch;
-        out.force_n += states[f].force_n;
-        ++count;
+    const std::vector<rig::Muscle>& muscles = face_->rig.muscles.muscles;
+    const auto known = std::find_if(muscles.begin(), muscles.end(),
+                                    [&](const rig::Muscle& one) { return one.id == muscle; });
+    if (known == muscles.end()) {
+        std::vector<std::string> names;
+        for (const rig::Muscle& one : muscles) names.push_back(one.id);
+        throw Error("muscle", "one of the rig's muscles" + did_you_mean(muscle, names),
+                    in_quotes(muscle));
     }
-    if (count == 0) return std::nullopt;
-    out.length_m /= count;
-    out.stretch /= count;
+    const int column = face_->channels.column(muscle, side);
+    const FaceImpl::State& now = face_->now;
+    std::vector<muscle::ChainSet::State> fibres =
+        face_->tissue.solids().chain_states(muscle, side, now.x, now.activation);
+    const std::vector<muscle::FibreSet::State> bundles =
+        face_->tissue.fibres().states(now.x, now.activation);
+    for (std::size_t f = 0; f < bundles.size(); ++f)
+        if (face_->tissue.fibres().fibres()[f].column == column)
+            fibres.push_back({bundles[f].length_m, bundles[f].stretch, bundles[f].force_n});
+    if (fibres.empty() && column >= 0)
+        if (const auto jaw =
+                face_->driven_jaw.muscle_state(column, now.jaw.q, now.activation[column]))
+            fibres.push_back(*jaw);
+    if (fibres.empty()) return std::nullopt;
+
+    MuscleState out{.length_m = 0, .stretch = 0, .force_n = 0, .stress_pa = {}};
+    for (const muscle::ChainSet::State& fibre : fibres) {
+        out.length_m += fibre.length_m / static_cast<double>(fibres.size());
+        out.stretch += fibre.stretch / static_cast<double>(fibres.size());
+        out.force_n += fibre.force_n;
+    }
+    const double size = face_->head.size;
+    if (known->area_m2 > 0) out.stress_pa = out.force_n / (known->area_m2 * size * size);
     return out;
 }
 
 Vec3 Diagnostics::landmark(const std::string& id) const {
     const rig::Head& head = face_->head;
+    if (!head.landmarks.count(id)) {
+        std::vector<std::string> names;
+        for (const auto& [name, place] : head.landmarks) names.push_back(name);
+        throw Error("landmark", "one of the head's landmarks" + did_you_mean(id, names),
+                    in_quotes(id));
+    }
     const Vec3 rest = head.landmark(id);
     const auto given = face_->rig.landmarks.find(id);
     int vertex = given != face_->rig.landmarks.end() ? given->second.vertex : -1;

@@ -17,11 +17,15 @@ namespace risorius::face {
 
 struct FaceImpl;
 
-/// One side of a muscle that consists of fibres.
+/// One side of a muscle.
 struct MuscleState {
-    double length_m = 0;  ///< mean length of its fibres
-    double stretch = 1;   ///< mean of its fibres, length / optimal length
-    double force_n = 0;   ///< sum over its fibres, isometric: without the effect of their speed
+    /// Mean over its fibres, with their tendons where it is a volume muscle.
+    double length_m = 0;
+    double stretch = 1;  ///< mean over its fibres, length / optimal length
+    /// Sum over its fibres. It is isometric: the force at this length and activation if the fibres did not move.
+    double force_n = 0;
+    /// force_n / cross-section, Pa; nothing where the rig's table gives no cross-section (csa_mm2).
+    std::optional<double> stress_pa;
 };
 
 /// A view of a Face, from Face::diagnostics(). Everything refers to the state after the last step or equilibrium, m in the head
@@ -34,14 +38,15 @@ class Diagnostics {
 
     /// Returns the drive as the muscles receive it. When muscles move the jaw, it contains what the jaw's channels ask of them.
     track::Drive driven(track::Drive drive) const;
-    /// Returns nothing for volume muscles and unknown names.
+    /// `muscle` is an id of the rig's table, as "zygomaticus_major". Throws Error for an unknown one. Returns nothing for a muscle
+    /// that the face does not simulate: one of the jaw while channels place the jaw, or one that only moves a lid.
     std::optional<MuscleState> muscle_state(const std::string& muscle, Side side) const;
     /// Returns the mean length of a muscle's fibres over their rest length, both sides; 1 for an unknown name.
     double mean_stretch(const std::string& muscle) const;
     /// Returns one entry per side of each volume muscle.
     std::vector<SolidFigures> solid_figures() const;
     /// Returns the position of a landmark of Face::head() in Face::pose(), m. A landmark that is no vertex moves with the nearest
-    /// vertex of the skin. Throws std::out_of_range for an unknown landmark. Costs as much as Face::pose().
+    /// vertex of the skin. Throws Error for an unknown landmark. Costs as much as Face::pose().
     Vec3 landmark(const std::string& id) const;
 
     // Energy and penetration

@@ -43,7 +43,8 @@ inline constexpr int kRestIterations = 1500;
 
 using track::Motion;
 
-/// The drive as a function of time, s. A drive without excitation (`track::Drive{}`) means that no muscle is active.
+/// The drive as a function of time, s. A drive without excitation (`track::Drive{}`) means that no muscle is active. Functions that take
+/// a drive throw Error when its vectors have another size than the rig has columns, or when an excitation is not finite.
 using DriveAt = std::function<track::Drive(double t_s)>;
 
 class Face {

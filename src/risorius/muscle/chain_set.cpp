@@ -177,4 +177,14 @@ double ChainSet::mean_stretch(const Points& x, double activation) const {
     return chains_.empty() ? 1.0 : sum / static_cast<double>(chains_.size());
 }
 
+std::vector<ChainSet::State> ChainSet::states(const Points& x, double activation) const {
+    std::vector<State> out;
+    for (const Chain& chain : chains_) {
+        const double length_m = length(chain, x);
+        const Pull now = pull(chain, length_m, activation);
+        out.push_back({.length_m = length_m, .stretch = now.stretch, .force_n = now.tension});
+    }
+    return out;
+}
+
 }  // namespace risorius::muscle

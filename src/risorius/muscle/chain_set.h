@@ -53,6 +53,14 @@ class ChainSet {
     void add_hessian(const Points& x, double activation, solve::Curvature curvature,
                      const std::vector<int>& row, solve::HessianBuilder& hessian) const;
 
+    /// What a chain does at an activation, in equilibrium of its fibres and tendon.
+    struct State {
+        double length_m = 0;  ///< L
+        double stretch = 1;   ///< lam
+        double force_n = 0;   ///< dE/dL, the tension along the chain
+    };
+    std::vector<State> states(const Points& x, double activation) const;  ///< one per chain
+
     double mean_stretch(const Points& x, double activation) const;  ///< of lam / r over the chains
 
   private:

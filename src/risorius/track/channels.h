@@ -90,8 +90,10 @@ enum class JawDrive { kChannels, kMuscles };
 
 /// Everything that drives a face at one moment.
 struct Drive {
-    Eigen::VectorXd excitation;  ///< per column, ratio of maximal neural drive, [min, 1]
-    Eigen::VectorXd activation;  ///< per column, activation set directly; NaN where dynamics decide
+    /// Per column, fraction of the maximal neural drive, [min, 1], see clamped_drive(). Empty: no muscle is active.
+    Eigen::VectorXd excitation;
+    /// Per column, activation set directly instead of following the excitation, [0, 1]; NaN where it follows. Empty: all follow.
+    Eigen::VectorXd activation;
     KinematicValues kinematic{};
     double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }
 };

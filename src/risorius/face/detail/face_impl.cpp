@@ -5,8 +5,10 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "risorius/core/error.h"
 #include "risorius/face/skin/detail/head_motion.h"
 
 namespace risorius::face {
@@ -62,6 +64,17 @@ FaceImpl::FaceImpl(const rig::RigDescription& rig_description,
 track::Drive FaceImpl::complete(track::Drive drive) const {
     if (drive.excitation.size() == 0)
         drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
+    const auto check = [&](const char* what, const Eigen::VectorXd& values) {
+        if (values.size() != channels.column_count())
+            throw Error(std::string("drive: ") + what,
+                        std::to_string(channels.column_count()) +
+                            " values, one for each column of the rig's channels",
+                        std::to_string(values.size()));
+    };
+    check("excitation", drive.excitation);
+    if (drive.activation.size() > 0) check("activation", drive.activation);
+    if (!drive.excitation.allFinite())
+        throw Error("drive: excitation", "finite numbers", "NaN or infinity");
     return drive;
 }
 

@@ -212,8 +212,9 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
     const rig::LandmarkWarp warp = to_standard(head, rig);
     const TissueDepth depth(head, rig);
     const double per_mm = head.mm(1);
+    const SkullShapes& shapes = standard_skull_shapes();
     const auto field_of = [&](const std::function<BoneFields(const Vec3&)>& bone, bool nose) {
-        return [&depth, &warp, per_mm, bone, nose](const Vec3& p) {
+        return [&depth, &warp, &shapes, per_mm, bone, nose](const Vec3& p) {
             constexpr double kFar_mm = 12, kTempleRound_mm = 14;
             const Vec3 standard = 1e3 * warp(p);
             const BoneFields fields = bone(standard);
@@ -242,7 +243,6 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
                    max = head.mm(1) * (high_mm + Vec3::Constant(15));
         return std::pair<Vec3, Vec3>(low.cwiseMax(min), high.cwiseMin(max));
     };
-    const SkullShapes& shapes = standard_skull_shapes();
     const auto skull_at = [&](const Vec3& p_mm) { return skull_fields(shapes, p_mm); };
     const auto mandible_at = [&](const Vec3& p_mm) { return mandible_fields(shapes, p_mm); };
     Skull skull;

@@ -82,6 +82,13 @@ double JawMuscles::fibre_length_m(std::size_t muscle, const JawPose& pose,
     return fibre_of(muscles_[muscle], path_length(muscles_[muscle], pose, hyoid));
 }
 
+double JawMuscles::isometric_n(std::size_t muscle, const JawPose& pose, const Vec3& hyoid,
+                               double activation) const {
+    const JawMuscle& one = muscles_[muscle];
+    const double stretch = fibre_length_m(muscle, pose, hyoid) / one.optimal_m;
+    return one.f0_n * (activation * curves_.active.value(stretch) + curves_.passive.value(stretch));
+}
+
 std::vector<JawMuscles::Drive> JawMuscles::drive(const JawPose& pose, const Vec3& hyoid,
                                                  const Eigen::VectorXd& activation) const {
     std::vector<Drive> out;

@@ -62,6 +62,9 @@ class JawMuscles {
                            const Eigen::VectorXd& activation) const;
 
     const std::vector<JawMuscle>& list() const { return muscles_; }
+    /// Isometric tension of a muscle at an activation, N: F0 [a fl + fp].
+    double isometric_n(std::size_t muscle, const JawPose& pose, const Vec3& hyoid,
+                       double activation) const;
     double fibre_length_m(std::size_t muscle, const JawPose& pose, const Vec3& hyoid) const;
 
   private:

@@ -538,6 +538,18 @@ double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x,
     return count > 0 ? sum / count : 1.0;
 }
 
+std::vector<muscle::ChainSet::State> MuscleSolids::chain_states(
+    const std::string& muscle, Side side, const Points& x,
+    const Eigen::VectorXd& activation) const {
+    Points local;
+    for (const Part& part : parts_) {
+        if (part.place.muscle->id != muscle || part.place.side != side) continue;
+        take(part, x, local);
+        return part.chains->states(local, activation[part.place.column]);
+    }
+    return {};
+}
+
 std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
                                                 const Eigen::VectorXd& activation) const {
     std::vector<SolidFigures> out;

@@ -92,6 +92,10 @@ class MuscleSolids {
     void scale_strength(const std::string& muscle, double factor);
     double mean_stretch(const std::string& muscle, const Points& x,
                         const Eigen::VectorXd& activation) const;
+    /// Returns the chains of one side of a muscle; none for a muscle that is no volume muscle.
+    std::vector<muscle::ChainSet::State> chain_states(const std::string& muscle, Side side,
+                                                      const Points& x,
+                                                      const Eigen::VectorXd& activation) const;
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< ratio
     /// Smooth surfaces of all muscles for drawing; then, wherever they are, their rows of `vertices`.

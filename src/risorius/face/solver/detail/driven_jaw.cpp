@@ -111,6 +111,22 @@ StepStats DrivenJaw::solve_equilibrium(FaceTissue& tissue, const Eigen::VectorXd
     return figures;
 }
 
+std::optional<muscle::ChainSet::State> DrivenJaw::muscle_state(int column, const JawVector& q,
+                                                               double activation) const {
+    if (!dynamics_) return std::nullopt;
+    const JawMuscles& muscles = dynamics_->muscles();
+    const JawPose pose = joint_.pose(q);
+    const Vec3 hyoid = q.segment<3>(kHyoid);
+    for (std::size_t m = 0; m < muscles.list().size(); ++m) {
+        if (muscles.list()[m].column != column) continue;
+        const double length_m = muscles.fibre_length_m(m, pose, hyoid);
+        return muscle::ChainSet::State{.length_m = length_m,
+                                       .stretch = length_m / muscles.list()[m].optimal_m,
+                                       .force_n = muscles.isometric_n(m, pose, hyoid, activation)};
+    }
+    return std::nullopt;
+}
+
 void DrivenJaw::report(const JawVector& q, FacePose& pose) const {
     if (!dynamics_) return;
     pose.tooth_force_n = dynamics_->joint().tooth_force_n(q);

@@ -55,6 +55,10 @@ class DrivenJaw {
                                 const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
                                 JawDynamics::State& state) const;
 
+    /// Length and isometric force of the jaw muscle of a column, at q; nothing while channels place the jaw, and for other columns.
+    std::optional<muscle::ChainSet::State> muscle_state(int column, const JawVector& q,
+                                                        double activation) const;
+
     /// What only a jaw that muscles move can tell.
     void report(const JawVector& q, FacePose& pose) const;
 
