@@ -181,9 +181,9 @@ TEST(FaceTerms, WrongNamesAndDrivesAreRefused) {
         message_of([&] { face.diagnostics().muscle_state("zygomaticus_mayor", Side::kLeft); }),
         "muscle: expected one of the rig's muscles (did you mean \"zygomaticus_major\"?), "
         "found \"zygomaticus_mayor\"");
-    EXPECT_EQ(message_of([&] { face.diagnostics().landmark("ch_left"); }),
+    EXPECT_EQ(message_of([&] { face.diagnostics().landmark("ch_ll"); }),
               "landmark: expected one of the head's landmarks (did you mean \"ch_l\"?), found "
-              "\"ch_left\"");
+              "\"ch_ll\"");
     track::Drive wrong;
     wrong.excitation = Eigen::VectorXd::Zero(3);
     EXPECT_EQ(message_of([&] { face.start([&](double) { return wrong; }); }),

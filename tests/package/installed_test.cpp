@@ -93,6 +93,34 @@ TEST_F(Installed, FaceToPictureMovesTheCornerOfTheMouthAndDrawsIt) {
     EXPECT_GT(fs::file_size(scratch("smile.png")), 20'000u);
 }
 
+TEST_F(Installed, FaceNumbersFollowTheSmile) {
+    ASSERT_EQ(samples().code, 0);
+    const ShellResult said =
+        run(quoted(scratch("samples/face_numbers")) + " " + quoted(scratch("numbers.obj")));
+    EXPECT_EQ(said.code, 0) << said.output;
+    std::istringstream lines(said.output);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "t_s\tcorner_y_mm\tlength_mm\tforce_n\tstress_kpa\tenergy_mj");
+    int rows = 0;
+    double y[2]{}, length[2]{}, force = 0, stress = 0;
+    for (; std::getline(lines, line); ++rows) {
+        double time = 0, corner = 0, now = 0, energy = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf %lf %lf %lf %lf %lf", &time, &corner, &now, &force,
+                              &stress, &energy),
+                  6)
+            << line;
+        y[rows > 0] = corner;
+        length[rows > 0] = now;
+    }
+    EXPECT_EQ(rows, 60);
+    EXPECT_GT(y[1], y[0] + 5);            // the corner of the mouth rises
+    EXPECT_LT(length[1], length[0] - 3);  // the muscle shortens
+    EXPECT_GT(force, 0.5);
+    EXPECT_GT(stress, 20);
+    EXPECT_GT(fs::file_size(scratch("numbers.obj")), 100'000u);
+}
+
 TEST_F(Installed, SoftBodyKeepsItsVolume) {
     ASSERT_EQ(samples().code, 0);
     const ShellResult said = run(quoted(scratch("samples/soft_body")));
