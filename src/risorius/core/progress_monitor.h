@@ -29,7 +29,7 @@ struct ProgressMonitor {
         throw_if_stopped();
         if (progress) progress(fraction, what);
     }
-    /// A monitor for a part of the run: its 0 to 1 is `from` to `to` of the whole.
+    /// A monitor for a part of the run. Its 0 to 1 is `from` to `to` of the whole.
     ProgressMonitor subrange(double from, double to) const {
         ProgressMonitor out = *this;
         if (progress)
