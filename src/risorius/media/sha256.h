@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// SHA-256 of bytes and files, as lower-case hexadecimal. For run records: which script, which mesh, which frames.
+/// SHA-256 of bytes and files, as lower-case hexadecimal digits. Run records use it to identify scripts, meshes and frames.
 #pragma once
 
 #include <cstdint>
