@@ -16,7 +16,7 @@
 namespace risorius::media {
 
 enum class Corner { kUpperLeft, kUpperRight, kLowerLeft, kLowerRight };
-/// "upper_left", ...
+/// "upper_left", "upper_right", "lower_left", "lower_right".
 const std::vector<std::string>& corner_names();
 Corner corner_named(const std::string& name, const std::string& place);
 
@@ -25,7 +25,7 @@ inline constexpr int kCounterCells = 24;
 /// A white or black square with this side, clipped to the picture.
 void draw_photodiode(Corner corner, int side_px, bool lit, Image& image);
 
-/// `cell_px`: side of a cell.
+/// Draws the counter. `cell_px`: side of a cell.
 void draw_frame_counter(Corner corner, int cell_px, int frame, Image& image);
 /// The number in the picture; empty when there is none or its parity is wrong.
 std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& image);

@@ -148,7 +148,7 @@ class FibreSet {
         std::vector<double> start_m;          ///< l_n
         std::vector<double> inverse_way;      ///< 1 / (h vmax l0)
         std::vector<double> force;            ///< F0 fl(lam_n)
-        std::vector<double> work;             ///< that times h vmax l0
+        std::vector<double> work;             ///< force times h vmax l0
         std::vector<double> stiffness;        ///< F0 l0
         static constexpr std::vector<double> StepSegments::*kColumns[] = {
             &StepSegments::inverse_optimal, &StepSegments::start_m, &StepSegments::inverse_way,

@@ -40,7 +40,7 @@ enum class MassShares {
 
 struct CellBody {
     CellMesh mesh;
-    Points rest;                             ///< of nodes, m
+    Points rest;                             ///< of nodes, n x 3, m
     std::vector<CellParameters> parameters;  ///< one per cell, or empty: then moduli
     std::vector<CellModuli> moduli;          ///< one per cell, or empty: then parameters
     Eigen::VectorXd mass_kg;                 ///< of nodes

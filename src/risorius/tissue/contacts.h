@@ -71,9 +71,8 @@ class Contacts {
     /// To be called after such a solve: updates the memory so that the next list from set() presses as hard.
     void remember_firm(const Points& x);
 
+    static double gap(const Contact& contact, const Points& x);  ///< m
     /// dE/dgap, N. Negative values push the sides apart, positive values pull them together.
-    static double gap(const Contact& contact, const Points& x);
-    /// dE/dgap, N: < 0 pushes apart, > 0 sticks.
     static double pull_n(const Contact& contact, const Points& x);
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.

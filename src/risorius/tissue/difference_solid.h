@@ -97,8 +97,8 @@ class DifferenceSolid : public solve::EnergyTerm {
     bool damped_ = false, incompressible_ = false;
     std::vector<Group> groups_;
     int ahead_[3];                       ///< rows from a node to its forward neighbours
-    int stride_;                         ///< between the coordinates in x_ and v_
-    int q_stride_;                       ///< between the components of q_
+    int stride_;                         ///< distance between the coordinates in x_ and v_
+    int q_stride_;                       ///< distance between the components of q_
     mutable std::vector<double> x_, v_;  ///< x, y, z as contiguous arrays, followed by zeros
     /// P_i / h_i, component by component, with zeros before and behind
     mutable std::vector<double> q_;

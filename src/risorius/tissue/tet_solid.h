@@ -64,7 +64,7 @@ class TetSolid {
 
     const Tets& tets() const { return tets_; }
     const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< per tet
-    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< likewise
+    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< per tet
     int size() const { return static_cast<int>(tets_.rows()); }
     int inverted_count(const Points& x) const;          ///< tets with J <= 0
     double volume(const Points& x) const;               ///< signed, m^3

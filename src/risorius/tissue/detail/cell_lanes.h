@@ -36,9 +36,9 @@ constexpr double multiplicity(int strain) { return kComponent[strain] <= k33 ? 1
 /// Four cells, one per lane.
 struct alignas(64) CellGroup {
     Lanes elastic[6];           ///< lambda in the scale of the modes
-    Lanes damping[6];           ///< omega likewise
+    Lanes damping[6];           ///< omega in the scale of the modes
     Lanes rest[6];              ///< t_i . t_j of the rest shape, for cells that are parallelepipeds
-    Lanes bulk;                 ///< psi_c likewise
+    Lanes bulk;                 ///< psi_c in the scale of the modes
     Lanes rest_volume;          ///< 64 V_c0
     std::int32_t vertex[8][4];  ///< [corner][lane]
 };
