@@ -21,6 +21,7 @@
 
 namespace risorius::contact {
 
+/// The parameters of a contact. Field names are keys of "contact".
 struct ContactMaterial {
     double stiffness_pa_per_m = 1e6;   ///< k     (0, inf)
     double thickness_m = 1e-3;         ///< t: gap at which contact begins     (0, inf)
@@ -42,6 +43,7 @@ struct Penalty {
     double energy, pressure, slope;
 };
 
+/// The penalty at a gap, for unit stiffness.
 inline Penalty penalty(double gap_m, double thickness_m) {
     const double depth = thickness_m - gap_m, t = thickness_m;
     if (depth <= 0) return {0, 0, 0};
@@ -54,6 +56,7 @@ struct SlipShape {
     double potential, force_over_slip, slope;
 };
 
+/// The friction potential at the slip u >= 0, m.
 inline SlipShape slip_shape(double u, double e) {
     if (u < e) return {u * u / e * (1 - u / (3 * e)), 2 / e - u / (e * e), 2 / e * (1 - u / e)};
     return {u - e / 3, 1 / u, 0};

@@ -16,12 +16,14 @@
 
 namespace risorius::contact {
 
+/// Resolution and extent of the grid.
 struct DistanceFieldOptions {
     int cells = 40;  ///< along the longest side of the mesh     [4, 400]
     /// The grid extends at least this far beyond the mesh's box, and at least 3 cells   [0, inf)
     double margin_m = 0;
 };
 
+/// The sampled distance of one mesh.
 class DistanceField : public Shape {
   public:
     /// Throws Error for surfaces that are not closed (see ClosedSurface) and for options outside their ranges.
@@ -47,6 +49,7 @@ class DistanceField : public Shape {
     std::vector<double> coefficients_;
 };
 
+/// A DistanceField as a shape for an Obstacle. Throws Error as its constructor does.
 std::shared_ptr<const Shape> make_mesh(const Points& positions, const Triangles& triangles,
                                        const DistanceFieldOptions& options = {},
                                        const std::string& place = "mesh");

@@ -14,6 +14,7 @@
 
 namespace risorius::contact {
 
+/// The gap at a point, and its gradient.
 struct Distance {
     double gap_m;
     /// Of the gap, pointing out of the shape; its length is 1, or nearly 1 where the gap is interpolated.
@@ -45,6 +46,7 @@ struct RigidState {
 };
 using RigidMotion = std::function<RigidState(double t_s)>;
 
+/// Stays at `place`.
 RigidMotion standing(const Rigid& place);
 /// At `start` at time 0, moving at constant velocity and rotating about its own origin at a constant rate.
 RigidMotion steady(const Rigid& start, const Vec3& velocity_m_per_s,
@@ -72,6 +74,7 @@ class PlacedShape {
     Rigid to_shape_;
 };
 
+/// A shape with its motion.
 class Obstacle {
   public:
     explicit Obstacle(std::shared_ptr<const Shape> shape, RigidMotion motion);

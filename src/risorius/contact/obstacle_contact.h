@@ -22,6 +22,7 @@
 
 namespace risorius::contact {
 
+/// The contact forces between one body and one obstacle.
 class ObstacleContact : public solve::EnergyTerm {
   public:
     ObstacleContact(std::vector<ContactSample> samples, std::shared_ptr<const Obstacle> obstacle,

@@ -21,6 +21,7 @@
 
 namespace risorius::contact {
 
+/// Density of the samples, and the range of the search.
 struct SurfaceContactOptions {
     int per_side = 2;  ///< number of parts of each side of a triangle, for samples     [1, inf)
     /// Search distance for pairs in addition to the thickness, inside and outside, and to the motion of the step; 0: 4
@@ -30,6 +31,7 @@ struct SurfaceContactOptions {
 
 class CarriedFrame;
 
+/// The contact forces between two surfaces.
 class SurfaceContact : public solve::EnergyTerm {
   public:
     /// Contact between two closed surfaces over the nodes of one system. Throws Error unless both are closed in the rest shape.

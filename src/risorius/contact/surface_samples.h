@@ -11,6 +11,7 @@
 
 namespace risorius::contact {
 
+/// A point of a surface, with its area.
 struct ContactSample {
     solve::NodeBlend point;
     /// Its part of the rest area; 1: the stiffness of a contact is given per sample, N/m.

@@ -16,7 +16,9 @@ struct SymmetricEigen {
     Eigen::VectorXd values;   ///< ascending
     Eigen::MatrixXd vectors;  ///< unit length, one per column
 };
+/// Eigenvalues and eigenvectors of a symmetric matrix.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+/// Eigenvalues of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// The nearest symmetric matrix without negative eigenvalues. Only the lower triangle is read.
@@ -27,6 +29,7 @@ std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// X of matrix X = right, one solution per column. Uses complete pivoting, for nearly singular matrices.
 Eigen::MatrixXd solved_for(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+/// The inverse of a regular matrix.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
 /// x of matrix x = right. The matrix is symmetric and may be singular.

@@ -12,6 +12,7 @@
 
 namespace risorius {
 
+/// Thrown for wrong input; exit code 2.
 class Error : public std::runtime_error {
   public:
     Error(const std::string& place, const std::string& expected, const std::string& found)

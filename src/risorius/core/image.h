@@ -8,6 +8,7 @@
 
 namespace risorius {
 
+/// A picture, RGBA. All pixels are transparent black at first.
 struct Image {
     int width_px = 0;
     int height_px = 0;

@@ -30,6 +30,7 @@ struct Range {
     double max;
 };
 
+/// A value of a JSON document that knows its place. Copies share the document.
 class JsonCursor {
   public:
     /// Reads and parses a file. Throws Error when the file is missing, when the JSON is malformed (with line and column), or

@@ -9,6 +9,7 @@
 
 namespace risorius {
 
+/// The number of threads that loops may still take from a pool. Several threads may use it.
 class SpareThreads {
   public:
     explicit SpareThreads(int count) : count_(count) {}

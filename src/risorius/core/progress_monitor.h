@@ -15,6 +15,7 @@ class Interrupted : public std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// The two functions of the caller. Both may be empty.
 struct ProgressMonitor {
     /// Receives the fraction of the run that is done, 0 to 1, and the name of what is being done.
     std::function<void(double fraction, const std::string& what)> progress;

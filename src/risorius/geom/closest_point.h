@@ -16,6 +16,7 @@
 
 namespace risorius::geom {
 
+/// The closest point of one triangle.
 struct TrianglePoint {
     Vec3 point = Vec3::Zero();
     Vec3 barycentric = Vec3::Zero();  ///< weights of the three corners, each >= 0, sum 1
@@ -24,10 +25,12 @@ struct TrianglePoint {
 /// Also correct for triangles that are degenerate to a segment or a point.
 TrianglePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// The closest point of a surface, and its triangle.
 struct SurfacePoint : TrianglePoint {
     int triangle = -1;
 };
 
+/// Where a ray hits a surface.
 struct RayHit {
     int triangle = -1;
     double distance = 0.0;  ///< along the ray, in units of the length of `direction`
@@ -81,6 +84,7 @@ struct SurfaceBinding {
 /// Columns: along side 0, perpendicular to it in the plane, normal. The identity for a triangle without area.
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// Binds p to the surface at a given foot point.
 SurfaceBinding bind_to_surface(const Vec3& p, const SurfacePoint& foot, const Points& positions,
                                const Triangles& triangles);
 /// Binds each point to the nearest triangle. `tree` must be of the same surface and must not be empty.

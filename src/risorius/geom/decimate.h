@@ -12,6 +12,7 @@
 
 namespace risorius::geom {
 
+/// Limits of collapsing and flipping.
 struct DecimateOptions {
     /// Maximum angle between the normal of a triangle and that of its original surface.
     double max_normal_turn_deg = 50;
@@ -20,6 +21,7 @@ struct DecimateOptions {
     double longest_edge = 1.6;  ///< maximum length of an edge / wanted length
 };
 
+/// The coarse surface, and where the vertices of the fine one went.
 struct Decimated {
     Triangles triangles;    ///< over the original vertex indices
     std::vector<int> kept;  ///< original indices of the remaining vertices, ascending

@@ -29,6 +29,7 @@ enum class MeshCheck {
     kCoincidentVertex,  ///< boundary vertices at one position: a seam to weld
 };
 
+/// How a finding is treated. check_mesh() throws the first kError.
 enum class Severity { kIgnore, kNote, kWarning, kError };
 
 /// The defaults are for the skin of a head: open at neck, eyes and mouth, possibly split at texture seams.
@@ -52,6 +53,7 @@ struct MeshCheckOptions {
     Severity coincident_vertex = Severity::kNote;
 };
 
+/// One finding: where it is, what was expected and what was found.
 struct MeshFinding {
     MeshCheck check;
     Severity severity;
@@ -62,6 +64,7 @@ struct MeshFinding {
     std::string message() const { return place + ": expected " + expected + ", found " + found; }
 };
 
+/// All findings, and the extent of the mesh.
 struct MeshReport {
     std::vector<MeshFinding> findings;  ///< in the order of MeshCheck
     std::vector<int> piece_face_count;  ///< faces of each piece, sorted by its first face

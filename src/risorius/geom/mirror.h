@@ -13,6 +13,7 @@
 
 namespace risorius::geom {
 
+/// The mirror plane of a surface and the partner of each vertex.
 struct MirrorPairs {
     /// V; mirror partner of each vertex; itself on the seam, -1 elsewhere.
     std::vector<int> partner;
@@ -40,6 +41,7 @@ MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, 
 Triangles first_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
 /// The triangles in the first half whose mirror image exists too.
 Triangles paired_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
+/// The triangles of the half, followed by their mirror images.
 Triangles with_mirror_image(const Triangles& half, const MirrorPairs& mirror);
 
 /// Coarsens the first half, moving seam vertices only along the seam, and gives both halves the result.

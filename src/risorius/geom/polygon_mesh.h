@@ -21,6 +21,7 @@ struct Texture {
     std::vector<std::uint8_t> embedded;
 };
 
+/// V vertices, F faces and C corners. Positions are in metres once a mesh is read.
 struct PolygonMesh {
     Points positions;  ///< V x 3
     std::vector<int> face_begin{

@@ -34,6 +34,7 @@ struct GridField {
     double at(const Vec3& p) const;
 };
 
+/// The surface as triangles.
 struct NetSurface {
     Points vertices;      ///< V x 3, m
     Triangles triangles;  ///< F x 3, counter-clockwise as seen from where the field is positive

@@ -15,11 +15,13 @@
 
 namespace risorius::geom {
 
+/// Which vertices are joined.
 struct WeldOptions {
     double tolerance_m = 1e-6;  ///< vertices at most this far apart are joined, [0, inf)
     bool boundary_only = true;  ///< join only vertices at edges with one triangle
 };
 
+/// The welded surface, and its relation to the mesh.
 struct WeldedSurface {
     Points positions;     ///< W x 3, m; each is that of its first vertex
     Triangles triangles;  ///< the given triangles in order, without those that became degenerate

@@ -24,6 +24,7 @@
 
 namespace risorius::io {
 
+/// A blend shape: displacements of some vertices.
 struct MorphTarget {
     std::string name;
     std::vector<int> vertex;  ///< ascending
@@ -50,6 +51,7 @@ struct MorphAnimation {
     Eigen::MatrixXf weights;  ///< frames x targets
 };
 
+/// A mesh with parts, blend shapes and animations.
 struct MorphModel {
     std::string name;
     Points vertices;  ///< V x 3, m, head frame

@@ -9,6 +9,7 @@
 
 namespace risorius::media {
 
+/// A picture of floating-point samples.
 struct FloatImage {
     int width_px = 0, height_px = 0;
     int channels = 1;            ///< 1 or 3

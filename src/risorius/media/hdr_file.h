@@ -10,6 +10,7 @@
 
 namespace risorius::media {
 
+/// A picture of linear light.
 struct HdrPicture {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< 3 per pixel, rows from the top, linear

@@ -21,6 +21,7 @@ void write_grey_png(int width_px, int height_px, int bits,
                     const std::vector<std::uint16_t>& samples, const std::filesystem::path& file);
 /// True when any pixel is not opaque.
 bool has_transparency(const Image& image);
+/// Throws Error when the file is missing, incomplete, or not a PNG file with 8 bits per channel.
 Image read_png(const std::filesystem::path& file);
 
 /// Writes ASCII text for captions. Its baseline begins at x, y, and capitals are `height_px` high.

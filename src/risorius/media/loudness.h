@@ -11,6 +11,7 @@
 
 namespace risorius::media {
 
+/// The loudness of a whole recording.
 struct Loudness {
     double integrated_lufs = 0;  ///< minus infinity for silence and for less than 0.4 s
     double true_peak_dbtp = 0;   ///< minus infinity for silence

@@ -15,6 +15,7 @@
 
 namespace risorius::media {
 
+/// The statistics of one picture.
 struct PictureMeasures {
     double luminance_mean = 0;  ///< mean of Y
     double luminance_sd = 0;    ///< RMS contrast as defined by Peli 1990, J. Opt. Soc. Am. A 7(10)
@@ -22,6 +23,7 @@ struct PictureMeasures {
     double motion_energy = 0;   ///< mean of (Y - Y of the previous picture)^2; 0 for the first
 };
 
+/// Measures the pictures of one video.
 class LuminanceMeter {
   public:
     /// Pictures must be given in order and have the same size.

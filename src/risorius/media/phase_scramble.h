@@ -12,6 +12,7 @@
 
 namespace risorius::media {
 
+/// Scrambles pictures of one size. The same seed gives the same shifts.
 class PhaseScrambler {
   public:
     PhaseScrambler(int width_px, int height_px, unsigned seed);

@@ -10,6 +10,7 @@
 
 namespace risorius::media {
 
+/// Computes the checksum of bytes that are added in pieces.
 class Sha256 {
   public:
     Sha256();
@@ -22,6 +23,7 @@ class Sha256 {
     std::unique_ptr<Impl> impl_;
 };
 
+/// The checksum of a file. Throws Error when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -15,9 +15,11 @@
 
 namespace risorius::media {
 
+/// Corners of the picture.
 enum class Corner { kUpperLeft, kUpperRight, kLowerLeft, kLowerRight };
 /// "upper_left", "upper_right", "lower_left", "lower_right".
 const std::vector<std::string>& corner_names();
+/// Throws Error at `place` for an unknown name.
 Corner corner_named(const std::string& name, const std::string& place);
 
 inline constexpr int kCounterCells = 24;

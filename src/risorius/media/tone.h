@@ -16,12 +16,14 @@
 
 namespace risorius::media {
 
+/// A linear change of light.
 struct Tone {
     double gain = 1, offset = 0;  ///< of linear light, 1 is white
 
     bool changes() const { return gain != 1 || offset != 0; }
 };
 
+/// A tone as a table over the 256 values of a byte.
 class ToneCurve {
   public:
     explicit ToneCurve(const Tone& tone);

@@ -10,6 +10,7 @@
 
 namespace risorius::media {
 
+/// An open video file.
 class VideoReader {
   public:
     /// Reads the index of the whole file. Throws Error when the file is missing, not a video, or incomplete.

@@ -48,6 +48,7 @@ struct VideoOptions {
 /// Throws Error when the ending is none of these, or when size or options do not fit the format.
 void check_target(const std::filesystem::path& target, const VideoOptions& options);
 
+/// A video that is being written. All frames must have the size of the options.
 class VideoWriter {
   public:
     VideoWriter(const std::filesystem::path& target, const VideoOptions& options);

@@ -28,11 +28,13 @@
 
 namespace risorius::muscle {
 
+/// Time constants of activation and deactivation, s, > 0.
 struct ActivationTimes {
     double t_act_s = 0.010;
     double t_deact_s = 0.040;
 };
 
+/// Which law of activation is used.
 struct ActivationLaw {
     enum class Form { kThelen2003, kSmooth };
     Form form = Form::kThelen2003;

@@ -24,6 +24,7 @@ enum class Curvature;
 
 namespace risorius::muscle {
 
+/// Properties that all chains of a muscle have in common.
 struct ChainProperties {
     double f0_n = 0;           ///< F0 of one chain                                [0, inf)
     double rest_stretch = 1;   ///< r                                              (sin alpha, inf)
@@ -32,6 +33,7 @@ struct ChainProperties {
     bool rigid_tendon = true;
 };
 
+/// All chains of one muscle.
 class ChainSet {
   public:
     /// Each chain is a list of two or more rows of `rest`. Throws std::invalid_argument for a segment of zero length.

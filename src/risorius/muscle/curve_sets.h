@@ -24,6 +24,7 @@ namespace risorius::muscle {
 /// The set and its numbers.
 using CurveShape = std::variant<ZajacShape, ThelenShape, MillardShape>;
 
+/// "zajac", "thelen2003", "millard2013".
 const std::vector<std::string_view>& curve_set_names();
 
 /// The set as published. Throws Error that names `place` for an unknown name.

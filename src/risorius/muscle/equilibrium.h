@@ -14,6 +14,7 @@
 
 namespace risorius::muscle {
 
+/// The equilibrium of fibre and tendon.
 struct Equilibrium {
     double fibre_m = 0;   ///< l
     double tendon_m = 0;  ///< L - s

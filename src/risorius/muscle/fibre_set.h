@@ -31,6 +31,7 @@ class HessianBuilder;
 
 namespace risorius::muscle {
 
+/// A point of a fibre: embedded in the tissue, or riding on a body.
 struct FibrePoint {
     int nodes[4] = {0, 0, 0, 0};
     double weights[4] = {0, 0, 0, 0};  ///< sum 1
@@ -39,6 +40,7 @@ struct FibrePoint {
     Vec3 body_rest = Vec3::Zero();  ///< position of the point when the body is in its rest pose, m
 };
 
+/// A polyline through consecutive points.
 struct Fibre {
     int first_point = 0;
     int point_count = 0;       ///< consecutive points, 2 or more

@@ -19,10 +19,12 @@
 
 namespace risorius::muscle {
 
+/// The four force curves of a muscle and its tendon.
 struct MuscleCurves {
     Curve active, passive, velocity, tendon;
 };
 
+/// The numbers of Zajac's curves. Field names are keys of "curves".
 struct ZajacShape {
     /// Points (l, f) of the active curve. Slopes are Catmull-Rom's, but zero at both ends and at the peak, which the curve
     /// would overshoot otherwise.

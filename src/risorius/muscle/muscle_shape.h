@@ -28,6 +28,7 @@
 
 namespace risorius::muscle {
 
+/// The description of a shape. Which fields count depends on the form.
 struct MuscleShape {
     enum class Form { kBlock, kRound, kSheet, kPath, kRing, kSurface };
     enum class Section { kBlock, kRound };  ///< a rectangle, or a rectangle mapped to an ellipse
@@ -60,6 +61,7 @@ struct MuscleShape {
 /// pointer.
 MuscleShape read_muscle_shape(const JsonCursor& json);
 
+/// The grid that fills a shape.
 struct Belly {
     tissue::GridShape grid;          ///< closed for a ring
     Points rest;                     ///< M N O x 3, m

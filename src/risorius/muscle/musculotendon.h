@@ -47,8 +47,10 @@
 
 namespace risorius::muscle {
 
+/// Whether tendons stretch.
 enum class TendonModel { kElastic, kRigid };
 
+/// The parameters of a muscle. Field names are keys of a muscle in a file.
 struct MuscleParameters {
     double f0_n = 0;              ///< F0                                        (0, inf)
     double optimal_length_m = 0;  ///< l0                                        (0, inf)
@@ -68,6 +70,7 @@ MuscleParameters read_muscle_parameters(const JsonCursor& json);
 /// Activation at a time.
 using ActivationAt = std::function<double(double t_s)>;
 
+/// Energy and forces of the fibres and tendons of one muscle.
 class Musculotendon final : public solve::EnergyTerm {
   public:
     /// The nodes are those of the grid. Segments divide l0 in proportion to their lengths in `rest`. Throws Error, with a name

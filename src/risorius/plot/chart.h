@@ -10,8 +10,10 @@
 
 namespace risorius::plot {
 
+/// How a series is drawn.
 enum class Mark { kLine, kDashed, kPoints, kLinePoints };
 
+/// One curve. x and y have the same length.
 struct Series {
     std::string label;  ///< in the key; empty: not shown there
     std::vector<double> x = {}, y = {};
@@ -26,12 +28,14 @@ struct Band {
     double low = 0, high = 0;  ///< on the y axis
 };
 
+/// One axis of a chart.
 struct Axis {
     std::string label = {};  ///< quantity and unit: "time (s)"
     bool logarithmic = false;
     std::optional<std::pair<double, double>> range = {};  ///< none: the range of the data
 };
 
+/// The whole chart.
 struct Chart {
     std::string name;        ///< of its files; letters, digits, "_" and "-"
     std::string title = {};  ///< one line above the chart

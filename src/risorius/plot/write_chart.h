@@ -14,6 +14,7 @@
 
 namespace risorius::plot {
 
+/// The program that draws.
 struct ChartWriter {
     std::string gnuplot = "gnuplot";  ///< the program; it is searched in PATH when it has no slash
 };

@@ -10,6 +10,7 @@
 
 namespace risorius::signal {
 
+/// The text of a file, split into cells. Cells are converted to numbers on request.
 class Recording {
   public:
     /// Throws Error when the file is missing, when a column has no name or the name of another one, or when a line has too many

@@ -22,16 +22,19 @@
 
 namespace risorius::softbody {
 
+/// An entry of "springs".
 struct SpringDescription {
     Vec3 at;                     ///< material coordinates
     tissue::PointSpring spring;  ///< its own `at` is set when the body is built
 };
 
+/// An entry of "pulses".
 struct PulseDescription {
     Vec3 at;  ///< material coordinates
     tissue::ForceGenerator generator;
 };
 
+/// An entry of "obstacles".
 struct ObstacleDescription {
     std::shared_ptr<const contact::Obstacle> obstacle;
     contact::ContactMaterial contact;

@@ -35,6 +35,7 @@
 
 namespace risorius::softbody {
 
+/// How a body is discretised.
 enum class Discretisation {
     kDifferences,  ///< A, the thesis' finite differences
     kCells,        ///< B, trilinear cells with exact volume
@@ -56,6 +57,7 @@ struct IrregularDescription {
     unsigned seed = 1;    ///< of the random positions
 };
 
+/// The fields of a body in a file.
 struct BodyDescription {
     std::string place;  ///< the place in the file, for errors found when the body is built
     Kind kind = Kind::kSolid;

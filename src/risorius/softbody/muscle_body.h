@@ -39,6 +39,7 @@ struct MuscleEnd {
     Points points_m = {};  ///< points of the bone; see muscle::bone_anchor
 };
 
+/// The fields of a muscle in a file.
 struct MuscleDescription {
     enum class Section { kBlock, kRound };  ///< "block": a box; "round": a box mapped to a cylinder
 
@@ -71,6 +72,7 @@ struct MuscleTask {
     std::function<double(double t_s)> lengthening_m = {};
 };
 
+/// A muscle that is ready to move.
 struct MuscleBody {
     SoftBody body;
     std::shared_ptr<muscle::Musculotendon> musculotendon;

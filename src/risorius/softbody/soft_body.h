@@ -13,6 +13,7 @@
 
 namespace risorius::softbody {
 
+/// The body that build_body() makes.
 struct SoftBody {
     Kind kind = Kind::kSolid;
     tissue::GridShape grid;  ///< one layer for surfaces, one line of nodes for curves

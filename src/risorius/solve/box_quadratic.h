@@ -14,6 +14,7 @@
 
 namespace risorius::solve {
 
+/// The problem: A is n x n, the others have n entries; price >= 0, min <= max.
 struct BoxQuadratic {
     Eigen::MatrixXd A;
     Eigen::VectorXd b, price, min, max;

@@ -28,6 +28,7 @@
 
 namespace risorius::solve {
 
+/// The step that an implicit integrator solves. With an infinite step_s it is an equilibrium.
 struct ImplicitStep {
     double end_s;         ///< t_n + h
     double step_s;        ///< h, may be infinite
@@ -36,6 +37,7 @@ struct ImplicitStep {
     double rate_hz() const { return 1.0 / step_s; }  ///< 0 for an equilibrium
 };
 
+/// Which second derivative add_hessian() adds.
 enum class Curvature {
     kExact,  ///< the second derivative, which may be indefinite
     /// The second derivative without the negative part of each element: it always gives a descent direction.

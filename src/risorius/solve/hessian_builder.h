@@ -23,6 +23,7 @@ struct SymmetricBlocks {
     int nodes() const { return static_cast<int>(begin.size()) - 1; }
 };
 
+/// Assembles one second derivative after another.
 class HessianBuilder {
   public:
     /// `fixed` is empty or one flag per node.

@@ -19,6 +19,7 @@
 
 namespace risorius::solve {
 
+/// The methods of integration.
 enum class Method {
     kEuler,          ///< explicit, order 1
     kVerlet,         ///< Stoermer's two-step form; damping uses the velocity by backward difference
@@ -41,11 +42,13 @@ Method method_named(std::string_view name);  ///< throws std::invalid_argument
 std::string_view name_of(Method method);
 bool is_explicit(Method method);
 
+/// How the linear systems of implicit methods are solved.
 enum class LinearSolver {
     kDirect,    ///< sparse factorisation in every Newton iteration
     kConjugate  ///< conjugate gradients, for large systems
 };
 
+/// Options of all methods. Each method uses those that apply to it.
 struct IntegratorOptions {
     Method method = Method::kImplicitEuler;
     double step_s = 1.0 / 60;  ///< the first step when the method controls its step   (0, inf)
@@ -83,6 +86,7 @@ struct IntegratorReport {
     void add(const IntegratorReport& later);
 };
 
+/// Advances the state of a system in time by one method.
 class Integrator {
   public:
     virtual ~Integrator() = default;

@@ -9,6 +9,7 @@
 
 namespace risorius::solve {
 
+/// Assembles the matrix; n is the number of nodes.
 class MetricBuilder {
   public:
     explicit MetricBuilder(int nodes);

@@ -14,6 +14,7 @@
 
 namespace risorius::solve {
 
+/// The state of all nodes at one time.
 struct MotionState {
     double t_s = 0;
     Points x;  ///< n x 3, m
@@ -23,6 +24,7 @@ struct MotionState {
 /// Writes the positions and velocities of fixed nodes at time t. Must leave all other rows unchanged.
 using PrescribedMotion = std::function<void(double t_s, Points& x, Points& v)>;
 
+/// The masses, the fixed nodes and the energy terms of a system.
 class MotionSystem {
   public:
     /// Throws std::invalid_argument unless every free node has a positive, finite mass.

@@ -16,6 +16,7 @@
 
 namespace risorius::solve {
 
+/// Limits and choices of a solve.
 struct NewtonOptions {
     int iterations = 20;        ///< maximum
     double tolerance_m = 1e-8;  ///< stop when Newton's move is at most this long on every node
@@ -27,6 +28,7 @@ struct NewtonOptions {
     double farthest_m = 1e3;         ///< equilibria: a node that has moved farther has diverged
 };
 
+/// Cost and outcome of a solve.
 struct NewtonReport {
     int iterations = 0;
     long evaluations = 0;

@@ -14,6 +14,7 @@
 
 namespace risorius::solve {
 
+/// The nodes and weights of a point.
 class NodeBlend {
   public:
     /// Enough for a point of a cell and one of a triangle, with one to spare.

@@ -9,6 +9,7 @@
 
 namespace risorius::solve {
 
+/// Passes rows of the system to a term that knows only its own body.
 class PartTerm : public EnergyTerm {
   public:
     /// Rows [first, first + count) of the system belong to the term.

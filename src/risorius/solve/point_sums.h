@@ -66,6 +66,7 @@ double add_and_dot(Points& sum, double scale, const PointRows auto& a, const Poi
     return product;
 }
 
+/// Maximum length of a row.
 inline double longest_row(const Points& d) {
     double longest = 0;
     for (long i = 0; i < d.rows(); ++i) {

@@ -10,6 +10,7 @@
 
 namespace risorius::solve {
 
+/// The interface of all preconditioners.
 class Preconditioner {
   public:
     virtual ~Preconditioner() = default;

@@ -25,6 +25,7 @@ using EnergyAndGradient = std::function<double(const Points& x, Points& gradient
 /// x = B b, where B is symmetric, positive definite and approximates the inverse of the second derivative.
 using InverseMetric = std::function<void(const Points& b, Points& x)>;
 
+/// Limits and choices of a minimisation.
 struct QuasiNewtonOptions {
     int iterations = 6;                    ///< maximum
     int min_iterations = 0;                ///< before the tolerance may end the iteration
@@ -40,6 +41,7 @@ struct QuasiNewtonOptions {
     bool trust_last = false;
 };
 
+/// Cost and outcome of a minimisation.
 struct StepReport {
     int iterations = 0;
     int evaluations = 0;

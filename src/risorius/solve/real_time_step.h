@@ -19,6 +19,7 @@
 
 namespace risorius::solve {
 
+/// Limits of each step.
 struct RealTimeOptions {
     double step_s = 1.0 / 60;  ///< h    (0, inf)
     int iterations = 5;        ///< maximum per step
@@ -28,6 +29,7 @@ struct RealTimeOptions {
     double length_scale_m = 1;  ///< size of the body: no iteration moves a node farther   (0, inf)
 };
 
+/// Steps one system in time.
 class RealTimeStep {
   public:
     /// `system` must outlive the object. Throws std::invalid_argument for options outside their ranges.

@@ -14,6 +14,7 @@
 
 namespace risorius::solve {
 
+/// The factor of one matrix.
 class SparseCholesky {
   public:
     /// Only the lower triangle of A is read. Throws std::invalid_argument when A is not positive definite. The factor is

@@ -13,6 +13,7 @@
 
 namespace risorius::solve {
 
+/// The factor of one matrix after another.
 class SupernodalCholesky {
   public:
     SupernodalCholesky();

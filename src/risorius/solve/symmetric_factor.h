@@ -11,12 +11,14 @@
 
 namespace risorius::solve {
 
+/// What the signs of D say about A.
 enum class Definiteness {
     kPositive,
     kIndefinite,  ///< factored: solves work, but a solution need not be a descent direction
     kSingular     ///< or not finite: there is no factor
 };
 
+/// The factor of one matrix after another.
 class SymmetricFactor {
   public:
     SymmetricFactor();

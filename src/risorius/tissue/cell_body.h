@@ -38,6 +38,7 @@ enum class MassShares {
     kCells   ///< each cell spreads its mass over its eight corners, as refined meshes need
 };
 
+/// The described body on one mesh, ready for CellSolid.
 struct CellBody {
     CellMesh mesh;
     Points rest;                             ///< of nodes, n x 3, m

@@ -28,6 +28,7 @@ struct CellPreconditionerOptions {
     int coarsest_cells = 64;  ///< a level with at most so many cells is solved directly
 };
 
+/// The preconditioner for one system, one solid and one length of step.
 class CellPreconditioner : public solve::Preconditioner {
   public:
     /// `solid` is a term of `system`, and the nodes of the system are those of the solid. `step_s` is the length of a step.

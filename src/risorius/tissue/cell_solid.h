@@ -28,6 +28,7 @@ class CellKernel;
 struct CellMaterialLaw;
 }  // namespace detail
 
+/// Energy and forces of the solid. Weight and drag are terms of their own.
 class CellSolid : public solve::EnergyTerm {
   public:
     /// Throws std::invalid_argument when a cell has no positive rest volume or when the arrays of `body` have wrong sizes.

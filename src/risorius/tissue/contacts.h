@@ -34,6 +34,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
+/// The list of contacts, their energy, and the memory of shifts and adhesion.
 class Contacts {
   public:
     struct Contact {

@@ -11,6 +11,7 @@
 
 namespace risorius::tissue {
 
+/// The list of loads and their energy.
 class DeadLoads {
   public:
     struct Load {

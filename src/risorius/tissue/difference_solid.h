@@ -29,6 +29,7 @@
 
 namespace risorius::tissue {
 
+/// Energy and forces of the solid. Weight and drag are terms of their own.
 class DifferenceSolid : public solve::EnergyTerm {
   public:
     /// The nodes of the system must be those of the grid. Throws Error when check(solid, place) does. Mass and drag are

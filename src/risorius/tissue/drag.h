@@ -9,6 +9,7 @@
 
 namespace risorius::tissue {
 
+/// The drag force of all nodes.
 class Drag : public solve::EnergyTerm {
   public:
     /// c of each node, N s/m   [0, inf)

@@ -18,6 +18,7 @@
 
 namespace risorius::tissue {
 
+/// The course of a pulse in time.
 enum class PulseShape {
     kBox,       ///< the amplitude during the whole pulse
     kTriangle,  ///< rises to the amplitude at half time and falls again
@@ -38,10 +39,12 @@ struct Pulse {
     double phase_rad = 0;                                         ///< of the sine
 };
 
+/// The force of the pulse at a time, N; 0 outside the pulse.
 double force_n(const Pulse& pulse, double t_s);
 /// Exact integral of the force from `from_s` to `to_s`, N s.
 double impulse_ns(const Pulse& pulse, double from_s, double to_s);
 
+/// A pulse that acts at one point of a body.
 struct ForceGenerator {
     solve::NodeBlend at;
     Vec3 direction = Vec3::UnitZ();  ///< of any length except zero

@@ -9,6 +9,7 @@ namespace risorius::tissue {
 
 constexpr double kStandardGravity = 9.81;  ///< m/s^2, as the experiments of the thesis use it
 
+/// The weight of all nodes.
 class Gravity : public solve::EnergyTerm {
   public:
     /// One mass per node, kg, fixed nodes included.

@@ -21,6 +21,7 @@
 
 namespace risorius::tissue {
 
+/// The five numbers of a node.
 struct CurveMaterial {
     double elastic_n_per_m3 = 0;   ///< lambda                                         [0, inf)
     double damping_ns_per_m3 = 0;  ///< omega                                          [0, inf)
@@ -29,6 +30,7 @@ struct CurveMaterial {
     double drag_ns_per_m = 0;  ///< c, of each node                                [0, inf)
 };
 
+/// The description of a curve.
 struct GridCurve {
     Points rest;                          ///< M x 3, m; M >= 2
     std::vector<CurveMaterial> material;  ///< one, or one per node

@@ -20,6 +20,7 @@
 
 namespace risorius::tissue {
 
+/// Moduli of the energy above, Pa.
 struct IsotropicModuli {
     double shear_pa = 0;   ///< mu     (0, inf)
     double volume_pa = 0;  ///< K      [0, inf)

@@ -19,6 +19,7 @@
 
 namespace risorius::tissue {
 
+/// A spring with its damper.
 struct PointSpring {
     solve::NodeBlend at;           ///< p
     Vec3 tied_to = Vec3::Zero();   ///< o, m
@@ -30,6 +31,7 @@ struct PointSpring {
 /// Throws Error that names the field below `place`.
 void check(const PointSpring& spring, const std::string& place);
 
+/// The forces of a list of springs.
 class PointSprings : public solve::EnergyTerm {
   public:
     explicit PointSprings(std::vector<PointSpring> springs);

@@ -17,6 +17,7 @@
 
 namespace risorius::tissue {
 
+/// When cells are split and merged.
 struct RefineOptions {
     /// Target for the whole body: estimated error in the energy norm, as a fraction of the norm of the deformation. A cell is
     /// split when its squared error exceeds its budget.    (0, 1)
@@ -29,6 +30,7 @@ struct RefineOptions {
 /// Makes the body on a mesh of its root grid.
 using BodyOnMesh = std::function<CellBody(CellMesh mesh)>;
 
+/// A solid whose mesh adapts to its strain. It makes a new CellSolid for each mesh.
 class AdaptiveSolid {
   public:
     /// Begins with the root grid. Throws std::invalid_argument for options outside their ranges.
@@ -74,6 +76,7 @@ enum class SolveStage { kIntermediate, kFinal };
 using SolveSolid = std::function<bool(const std::shared_ptr<CellSolid>& solid, SolveStage stage,
                                       solve::MotionState& state)>;
 
+/// The outcome of solving and refining.
 struct RefineRounds {
     int meshes = 0;          ///< meshes on which an equilibrium was found
     bool converged = false;  ///< an equilibrium was found on every mesh, the last one included

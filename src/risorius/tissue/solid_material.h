@@ -31,6 +31,7 @@ struct GridShape {
     double spacing(int axis) const { return 1.0 / cells(axis); }        ///< h_i
 };
 
+/// The 21 numbers of a node.
 struct SolidMaterial {
     Mat3 elastic_n_per_m3 = Mat3::Zero();   ///< lambda_ij              [0, inf)
     Mat3 damping_ns_per_m3 = Mat3::Zero();  ///< omega_ij               [0, inf)
@@ -46,6 +47,7 @@ enum class Parameters {
     kPerNode                 ///< eta and phi of the original model: a finer grid is softer
 };
 
+/// The description of a solid.
 struct GridSolid {
     GridShape grid;
     Points rest;  ///< MNO x 3, m; right-handed, so that every volume is positive

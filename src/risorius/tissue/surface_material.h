@@ -38,6 +38,7 @@ struct SurfaceGrid {
     GridShape shape() const { return {m, n, 1}; }
 };
 
+/// The 14 numbers of a node.
 struct SurfaceMaterial {
     Mat2 elastic_n_per_m3 = Mat2::Zero();   ///< lambda_ij, symmetric      [0, inf)
     Mat2 damping_ns_per_m3 = Mat2::Zero();  ///< omega_ij, symmetric       [0, inf)
@@ -47,6 +48,7 @@ struct SurfaceMaterial {
     double drag_ns_per_m = 0;  ///< c of each node     [0, inf)
 };
 
+/// The description of a surface.
 struct GridSurface {
     SurfaceGrid grid;
     Points rest;                            ///< MN x 3, m
@@ -81,6 +83,7 @@ std::vector<std::array<int, 2>> grid_lines(const SurfaceGrid& grid);
 void check(const GridSurface& surface, const std::string& place);
 void check(const SurfaceMaterial& material, const std::string& place);
 
+/// The material of a node, when there is one for all nodes or one for each.
 const SurfaceMaterial& material_of(const GridSurface& surface, int node);
 Eigen::VectorXd node_mass(const GridSurface& surface);  ///< kg
 Eigen::VectorXd node_drag(const GridSurface& surface);  ///< N s/m

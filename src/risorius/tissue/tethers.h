@@ -18,6 +18,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
+/// The list of springs and their energy.
 class ZeroLengthSprings {
   public:
     struct Tether {

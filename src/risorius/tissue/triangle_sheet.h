@@ -25,6 +25,7 @@
 
 namespace risorius::tissue {
 
+/// Energy and forces of the surface. Weight is a term of its own.
 class TriangleSheetTerm : public solve::EnergyTerm {
   public:
     /// `surface` must have passed check(). Edges that do not have exactly two triangles do not bend.

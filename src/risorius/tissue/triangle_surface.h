@@ -15,6 +15,7 @@ namespace risorius::tissue {
 /// Material coordinates of the corners of triangles, F x 6: a1, a2 of each corner in turn.
 using CornerCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
+/// The description of a surface on triangles.
 struct TriangleSurface {
     Triangles triangles;
     Points rest;                    ///< V x 3, m
@@ -38,6 +39,7 @@ TriangleSurface irregularly_triangulated(const GridSurface& surface, double frac
 CornerCoordinates fibre_coordinates(const Triangles& triangles, const Points& rest,
                                     const Points& fibre);
 
+/// The material of a triangle, when there is one for all triangles or one for each.
 const SurfaceMaterial& material_of(const TriangleSurface& surface, Eigen::Index triangle);
 /// a of a triangle's corners, one per column.
 Eigen::Matrix<double, 2, 3> coordinates_of(const TriangleSurface& surface, Eigen::Index triangle);

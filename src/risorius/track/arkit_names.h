@@ -9,6 +9,7 @@
 
 namespace risorius::track {
 
+/// "eyeBlinkLeft" and so on, in the order above.
 const std::vector<std::string>& arkit_names();
 
 }  // namespace risorius::track

@@ -16,6 +16,7 @@
 
 namespace risorius::track {
 
+/// A muscle as a channel.
 struct MuscleChannel {
     std::string id;  ///< name in the rig's muscle table
     bool paired = true;
@@ -73,6 +74,7 @@ struct SidedName {
 };
 SidedName split_side(std::string_view name);
 
+/// The muscles of a rig as columns. The order is that of `muscles`, left before right.
 struct ChannelTable {
     std::vector<MuscleChannel> muscles;
 

@@ -18,6 +18,7 @@
 
 namespace risorius::track {
 
+/// The part of a muscle in a unit.
 struct MuscleShare {
     std::string muscle;
     std::optional<Side> side;  ///< none: both sides
@@ -31,6 +32,7 @@ struct JawShare {
     std::optional<double> lateral_mm;  ///< > 0 to the subject's left
 };
 
+/// A row of the table of units.
 struct ActionUnit {
     std::string id;      ///< "AU12", "AU30.l"
     std::string name;    ///< "Lip corner puller"
@@ -66,6 +68,7 @@ struct FacsRanges {
     double tongue_out_mm = 45;
 };
 
+/// Everything that facs.json defines.
 struct FacsTable {
     FacsRanges ranges;
     std::vector<ActionUnit> units;
@@ -78,12 +81,14 @@ struct FacsTable {
 /// Throws Error for muscles that the rig does not have, unknown units, and weights outside the muscle's range.
 FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels);
 
+/// A unit of an expression, with its delay.
 struct ExpressionUnit {
     UnitUse use;
     /// Start of the unit after that of the first one, as a fraction of the onset, [0, 0.9]
     double delay = 0;
 };
 
+/// A named set of units with usual times.
 struct Expression {
     std::string name;
     double onset_s = 0.5;  ///< usual durations, for scripts that give none
@@ -97,6 +102,7 @@ struct Expressions {
     const Expression* find(const std::string& name) const;  ///< null when unknown
 };
 
+/// Reads expressions.json. Throws Error for unknown units and values outside their ranges.
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
 
 /// Contribution of a source with value 1 to the drive.

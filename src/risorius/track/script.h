@@ -27,6 +27,7 @@ struct ScriptLight {
     double exposure_ev = 0;  ///< [-10, 10]
 };
 
+/// The "view" of a script.
 struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
@@ -62,6 +63,7 @@ struct ScriptHeader {
 /// Frame n shows time n / fps.
 int frame_count(double duration_s, int fps);
 
+/// The course of one channel over time.
 struct ChannelTrack {
     std::string name;  ///< "AU6.l"
     std::vector<Key> keys;
@@ -86,6 +88,7 @@ struct ExpressionEvent {
     std::vector<Part> parts;
 };
 
+/// A blink; see timeline.h for its course.
 struct BlinkEvent {
     double start_s = 0;
     double duration_s = 0.22;  ///< from the start of the drive until the lids are open again
@@ -101,6 +104,7 @@ struct EmgTrack {
     Expansion drives;  ///< contribution of a value of 1
 };
 
+/// A whole script, resolved against a rig.
 struct ScriptDescription {
     ScriptHeader header;
     std::vector<ChannelTrack> channels;

@@ -20,6 +20,7 @@
 
 namespace risorius::track {
 
+/// The envelopes of all columns, at any time.
 class SimulatedEmg {
   public:
     using DriveAt = std::function<Drive(double t_s)>;

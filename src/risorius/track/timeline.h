@@ -25,6 +25,7 @@ inline constexpr double kBlinkReopening_s = 0.140;
 /// A shorter blink would end before orbicularis fires.
 inline constexpr double kShortestBlink_s = 0.160;
 
+/// Evaluates a script.
 class Timeline {
   public:
     Timeline(const ScriptDescription& script, const ChannelTable& channels);

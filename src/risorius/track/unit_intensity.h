@@ -13,6 +13,7 @@
 
 namespace risorius::track {
 
+/// Evaluates the units of a script.
 class UnitIntensity {
   public:
     UnitIntensity(const ScriptDescription& script, const FacsTable& facs);
