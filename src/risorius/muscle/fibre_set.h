@@ -8,8 +8,8 @@
 ///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths per second
 ///
 /// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv is Hill's curve as in muscle/muscle_curves.h,
-/// and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l, and a motion that comes to rest in steps (l = l_n, fv
-/// = 1) has reached a static equilibrium. fl is evaluated for each segment, not for the whole fibre. On the falling limb,
+/// and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l, and a motion that comes to rest in steps (l = l_n,
+/// fv = 1) has reached a static equilibrium. fl is evaluated for each segment, not for the whole fibre. On the falling limb,
 /// segments in series would diverge in length, but the tissue around them prevents it.
 #pragma once
 

@@ -21,8 +21,8 @@
 /// that end alone.
 ///
 /// At a plane, lT is the distance of the tendon's node from the plane, and the tendon pulls only along the normal. So a belly
-/// may narrow and swell up to its ends. This leaves drift and rotation along the plane free, so a weak spring of stiffness F0 /
-/// l0 holds them (detail/plane_guide.h). At points of a plate, tendons become oblique when the belly swells, and squeeze its
+/// may narrow and swell up to its ends. This leaves drift and rotation along the plane free, so a weak spring of stiffness
+/// F0 / l0 holds them (detail/plane_guide.h). At points of a plate, tendons become oblique when the belly swells, and squeeze its
 /// ends together.
 ///
 /// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then points of

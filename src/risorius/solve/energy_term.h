@@ -13,9 +13,9 @@
 ///
 /// **How to add a force.** Derive a class from EnergyTerm in a file of its own. Three operations are required: add_potential
 /// (energy and gradient), add_hessian and add_metric. Override begin_step() when the term depends on where a step starts, and
-/// add_force() and energy() when it damps or depends on time. Then
-/// - of a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
-/// - of the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
+/// add_force() and energy() when it damps or depends on time. Then add it:
+/// - to a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
+/// - to the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
 ///
 /// Check the derivatives of the new class with tests/force_term_checks.h.
 #pragma once
@@ -80,8 +80,8 @@ class EnergyTerm {
     /// Quasi-Newton methods factor the sum of these matrices once and use it as their preconditioner.
     virtual void add_metric(double step_s, MetricBuilder& metric) const = 0;
 
-    /// For Terzopoulos' semi-implicit step (Terzopoulos, Platt, Barr & Fleischer 1987). Adds the scalar matrix of the term at x
-    /// to `K`, so that its elastic force is - K(x) x, and the scalar matrix of drag on single nodes to `damping`. With
+    /// For Terzopoulos' semi-implicit step (Terzopoulos, Platt, Barr & Fleischer 1987). Adds the scalar matrix of the term
+    /// at x to `K`, so that its elastic force is - K(x) x, and the scalar matrix of drag on single nodes to `damping`. With
     /// `lag_rate`, K contains the strain rate of (x, v). A term without such matrices adds its force at x, v to `force`.
     virtual void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                             MetricBuilder& K, MetricBuilder& damping, Points& force) const {

@@ -151,7 +151,7 @@ double cell_volume(const CellMesh::Cell& cell, const Points& vertices) {
     for (std::size_t m = 0; m < 8; ++m) {
         mode[m].setZero();
         for (std::size_t c = 0; c < 8; ++c) {
-            // number of signs that are -1
+            // Number of signs that are -1.
             const int low = __builtin_popcount(static_cast<unsigned>(m & ~c));
             mode[m] += (low % 2 ? -0.125 : 0.125) * vertices.row(cell.vertex[c]).transpose();
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A solid of trilinear cells, described: a mesh over material coordinates, its rest shape, and the material of each cell. The
+/// The description of a solid of trilinear cells: a mesh over material coordinates, its rest shape, and the material of each cell. The
 /// material is either the thesis' parameters per material coordinate or moduli in Pa.
 ///
 ///   W = 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c (dV - dV0)^2, dV = V_c / (h1 h2 h3)   parameters, per material volume

@@ -23,7 +23,7 @@
 namespace risorius::tissue {
 
 struct CellPreconditionerOptions {
-    /// of the smoothing polynomials, before and after the coarse correction   [1, ...)
+    /// Degree of the smoothing polynomials, before and after the coarse correction   [1, ...)
     int degree = 12;
     int coarsest_cells = 64;  ///< a level with at most so many cells is solved directly
 };

@@ -20,7 +20,7 @@ constexpr double kQuickShift_m = 2e-3;  // at this shift, growth is half as fast
 // millimetre, at a time that depends on how far the solve has come.
 constexpr double kLearning = 0.5;
 constexpr double kFlow = 0.05;  // fraction of its opening by which adhesion yields per solve
-// fraction of the open gap by which the shift shrinks per solve
+// Fraction of the open gap by which the shift shrinks per solve.
 constexpr double kForgetting = 0.25;
 
 // The fraction u of dc by which a contact with adhesion has opened; 0 when it does not pull.

@@ -10,7 +10,7 @@
 ///   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
 ///   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
 ///
-/// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. Bending so compares the second difference with
+/// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference with
 /// that of the rest shape, carried along by the surface. Every rest shape is free of force, and rigid motion costs nothing.
 /// Where the rest shape is flat and evenly spaced, c = 0 and the plain 1/2 zeta |D_ij r|^2 is left.
 ///

@@ -10,7 +10,7 @@
 /// - k: membrane stiffness, N/m
 /// - kB: bending stiffness, N m
 /// - c: cotangent stencil of the four nodes of an edge (Bergou et al. 2006, "A quadratic bending model for inextensible
-/// surfaces")
+///   surfaces")
 ///
 /// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2) with l = sum c_i x_i, so that its gradient exists
 /// everywhere. For a flat rest shape S = 0, and the term is the plain quadratic w/2 |l|^2.

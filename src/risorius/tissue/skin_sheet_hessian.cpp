@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The second derivative of SkinSheet.
 //
-// Triangles are treated in the frame of their principal stretches, like a solid whose third direction carries no load: psi_i =
-// k s_i (s_i^2 - 1), and psi_i / s_i across the triangle. A hinge contributes, by its vector l,
+// Triangles are treated in the frame of their principal stretches, like a solid whose third direction carries no load:
+// psi_i = k s_i (s_i^2 - 1), and psi_i / s_i across the triangle. A hinge contributes, by its vector l,
 //   w (1 - S/s) I + w S / s^3 l l^T
 #include <algorithm>
 #include <cmath>

@@ -36,7 +36,7 @@ struct SolidMaterial {
     Mat3 elastic_n_per_m3 = Mat3::Zero();   ///< lambda_ij              [0, inf)
     Mat3 damping_ns_per_m3 = Mat3::Zero();  ///< omega_ij               [0, inf)
     double incompressibility_n_per_m5 = 0;  ///< psi                    [0, inf)
-    /// of a whole body of this material; a node has 1/(MNO) of it     (0, inf)
+    /// Mass of a whole body of this material; a node has 1/(MNO) of it     (0, inf)
     double mass_kg = 1;
     double drag_ns_per_m = 0;  ///< c of each node; the term Drag makes a force of it     [0, inf)
 };

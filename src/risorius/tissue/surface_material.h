@@ -43,7 +43,7 @@ struct SurfaceMaterial {
     Mat2 elastic_n_per_m3 = Mat2::Zero();   ///< lambda_ij, symmetric      [0, inf)
     Mat2 damping_ns_per_m3 = Mat2::Zero();  ///< omega_ij, symmetric       [0, inf)
     Mat2 bending_n_per_m = Mat2::Zero();    ///< zeta_ij, symmetric        [0, inf)
-    /// of a whole surface of this material; a node has 1/(MN) of it     (0, inf)
+    /// Mass of a whole surface of this material; a node has 1/(MN) of it     (0, inf)
     double mass_kg = 1;
     double drag_ns_per_m = 0;  ///< c of each node     [0, inf)
 };
@@ -53,7 +53,7 @@ struct GridSurface {
     SurfaceGrid grid;
     Points rest;                            ///< MN x 3, m
     std::vector<SurfaceMaterial> material;  ///< one, or one per node
-    /// the meaning of lambda and omega
+    /// The meaning of lambda and omega.
     Parameters parameters = Parameters::kResolutionIndependent;
     /// The meaning of zeta. The thesis' values are per node. Otherwise its "stiff metal sheet" (13 x 13, zeta = 0.5 N/m, 4 kg)
     /// would hang like cloth, since a strip sags by m g / (8 zeta) = 10 m.
@@ -88,8 +88,8 @@ const SurfaceMaterial& material_of(const GridSurface& surface, int node);
 Eigen::VectorXd node_mass(const GridSurface& surface);  ///< kg
 Eigen::VectorXd node_drag(const GridSurface& surface);  ///< N s/m
 
-/// Factors of one node's lambda (or omega), eq. (10) in two dimensions: w_ij = (w_i + w_j) / 2 with w_1 = 1/((M-1) N) and w_2 =
-/// 1/(M (N-1)), the inverse number of links along the axis. All are 1 for kPerNode.
+/// Factors of one node's lambda (or omega), eq. (10) in two dimensions: w_ij = (w_i + w_j) / 2 with w_1 = 1/((M-1) N) and
+/// w_2 = 1/(M (N-1)), the inverse number of links along the axis. All are 1 for kPerNode.
 Mat2 metric_weights(const SurfaceGrid& grid, Parameters parameters);
 
 /// Factors of one node's zeta: w_11 and w_22 as above; w_12 is the inverse number of cells.

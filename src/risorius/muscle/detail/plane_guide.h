@@ -21,7 +21,7 @@ class PlaneGuide {
     /// Points of the plate in its rest pose, one per node, N x 3, m.
     PlaneGuide(const Points& plate, const Vec3& normal, double stiffness_n_per_m);
 
-    /// J. The nodes are N rows of x, beginning at `first`. `plate` is the motion of the plate from its rest pose.
+    /// Energy, J. The nodes are N rows of x, beginning at `first`. `plate` is the motion of the plate from its rest pose.
     double energy(const Rigid& plate, const Points& x, int first) const;
     /// Forces on each node, N x 3, N. The plate gets the opposite forces, at the nodes.
     Points forces(const Rigid& plate, const Points& x, int first) const;

@@ -8,8 +8,8 @@
 
 namespace risorius::solve::detail {
 
-/// C = A B^T, m x n from m x k and n x k. Only the entries on and below the diagonal of the first n rows of C are computed
-/// reliably; others may be written. C has m rows.
+/// C = A B^T, m x n from m x k and n x k. Entries above the diagonal of the first n rows of C are
+/// not needed and need not be correct. C has m rows.
 void product(const double* a, int a_stride, const double* b, int b_stride, int m, int n, int k,
              double* c);
 

@@ -2,8 +2,8 @@
 /// \file
 /// The inner loop of a solid of trilinear cells: four cells at a time, without a loop over Gauss points.
 ///
-/// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3, s =
-/// +-1, are
+/// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3,
+/// s = +-1, are
 ///   t1 = a + s2 d + s3 e + s2 s3 k     t2 = b + s1 d + s3 f + s1 s3 k     t3 = c + s1 e + s2 f + s1 s2 k
 /// Here a, b, c are the linear modes, d, e, f are the bilinear modes times 1/sqrt 3, and k is the trilinear mode times 1/3; all
 /// are scaled by 8. For fixed s3, t1 = p + s2 q and t2 = u + s1 q, hence

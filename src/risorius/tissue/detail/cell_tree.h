@@ -23,8 +23,8 @@ class CellTree {
     /// Splits a cell into eight. Larger neighbours are split first, and so is whatever contains the cell if it does not exist
     /// yet. Throws std::invalid_argument for a place outside the root grid.
     void split(const CellPlace& cell);
-    /// Merges the eight children of a cell. Returns false and changes nothing when they are not all leaves, or when a neighbour
-    /// is too fine.
+    /// Merges the eight children of a cell. Returns false and changes nothing when the cell is not split, when its children are
+    /// not all leaves, or when a neighbour is too fine.
     bool merge(const CellPlace& cell);
 
     CellMesh mesh() const;

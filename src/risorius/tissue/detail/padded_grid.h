@@ -25,7 +25,7 @@ inline void store8(float* to, const Lanes8& lanes) { std::memcpy(to, &lanes, siz
 struct PaddedGrid {
     GridShape nodes;
 
-    /// loops run to here, in steps of eight
+    /// Loops run to here, in steps of eight.
     int size() const { return (nodes.size() + 7) / 8 * 8; }
     int distance(int i, int j, int k) const { return (i * nodes.n + j) * nodes.o + k; }
     int halo() const { return distance(1, 1, 1) + 8; }

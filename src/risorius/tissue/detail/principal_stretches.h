@@ -4,8 +4,8 @@
 ///
 ///   F = U diag(sigma) V^T,  U and V rotations; one sigma is negative where F is inverted
 ///
-/// In that frame the second derivative of psi(sigma) splits into a 3 x 3 block A_ij for the stretches and, for each pair (i,
-/// j), two numbers for its symmetric and antisymmetric off-diagonal change:
+/// In that frame the second derivative of psi(sigma) splits into a 3 x 3 block A_ij for the stretches and, for each pair
+/// (i, j), two numbers for its symmetric and antisymmetric off-diagonal change:
 ///   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
 /// Clamping these at zero removes exactly the negative part. Source: Smith, De Goes & Kim 2019, "Analytic eigensystems for
 /// isotropic distortion energies", ACM TOG 38(1).

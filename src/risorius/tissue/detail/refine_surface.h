@@ -27,7 +27,7 @@ namespace risorius::tissue {
 
 struct Bisected {
     TriangleSurface surface;  ///< the old nodes come first
-    /// for each new node: the two nodes it lies between
+    /// For each new node: the two nodes it lies between.
     std::vector<std::array<int, 2>> middle_of;
     std::vector<int> parent;  ///< for each triangle: the old triangle that contains it
 };
@@ -66,7 +66,7 @@ class AdaptiveSurface {
     /// systems and terms of the old surface must be made anew. Triangles are never merged.
     bool refine(solve::MotionState& state);
 
-    /// at the last refine(); see AdaptiveSolid::estimated_error
+    /// At the last refine(); see AdaptiveSolid::estimated_error.
     double estimated_error() const { return error_; }
 
   private:
