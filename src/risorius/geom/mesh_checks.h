@@ -37,8 +37,8 @@ struct MeshCheckOptions {
     std::vector<int> groups{};  ///< groups whose faces are checked; empty: all
     /// The factor with which the mesh was read, for advice in messages.
     double metres_per_unit = 1.0;
-    double smallest_size_m = 0.12;  ///< longest side of the bounding box; a face alone
-    double max_size_m = 1.0;        ///< a head with shoulders
+    double smallest_size_m = 0.12;  ///< lower limit of the longest side of the bounding box
+    double max_size_m = 1.0;        ///< upper limit of it: a head with shoulders
     double smallest_face_area_m2 = 1e-13;
     double seam_tolerance_m = 1e-7;
     int findings_per_check = 5;  ///< further findings are counted only

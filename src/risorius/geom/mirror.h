@@ -17,7 +17,7 @@ namespace risorius::geom {
 struct MirrorPairs {
     /// V; mirror partner of each vertex; itself on the seam, -1 elsewhere.
     std::vector<int> partner;
-    /// Of the mirror plane normal.p = offset; it points to the first half.
+    /// Unit normal of the mirror plane normal.p = offset. It points to the first half.
     Vec3 normal = Vec3::UnitX();
     double offset = 0.0;
 

@@ -32,7 +32,7 @@ struct VideoOptions {
     int fps = 60;
     /// Quality, lower is better: H.264 0..51, default 18; VP9 0..63, default 24.
     std::optional<int> crf = {};
-    /// For H.264, slower ones make smaller files; none: "faster" with subme=2.
+    /// Preset of H.264: slower ones make smaller files; none: "faster" with subme=2.
     std::optional<std::string> preset = {};
     std::optional<std::string> pixels = {};     ///< "yuv420p", or "yuv444p": colour at full size
     std::optional<int> keyframe_interval = {};  ///< in frames; default: a quarter of a second

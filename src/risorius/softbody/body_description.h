@@ -10,12 +10,12 @@
 ///    "fixed": [{"a3": "last"}], "gravity_m_per_s2": [0, 0, -9.81]}
 ///
 /// - Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers, and "bending_n_per_m" instead of the
-/// incompressibility. Their discretisations are "differences" and "triangles". "irregular": {"share": 0.35, "seed": 1} moves
-/// the nodes of triangles off the grid by up to that fraction of its spacing.
+///   incompressibility. Their discretisations are "differences" and "triangles". "irregular": {"share": 0.35, "seed": 1} moves
+///   the nodes of triangles off the grid by up to that fraction of its spacing.
 /// - Curves ("curve") have one number of nodes, numbers instead of tensors, and no discretisation.
 /// - Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or {"young_pa", "poisson_ratio", ..} as material.
 /// - "parameters": "per-node" uses lambda and omega as they are, without eq. (10). "bending_parameters" does so for the bending
-/// of surfaces.
+///   of surfaces.
 #pragma once
 
 #include <optional>

@@ -15,8 +15,9 @@
 ///    "shape": {"path": {"path_m": [[0, 0, 0], ..], "width_m": 0.01, "thickness_m": 0.004}},
 ///    "origin": {"points_m": [[-0.01, 0, 0]]}, "insertion": "free", "bed_n_per_m": 500
 ///
-/// On a "plate", tendons end at points, which keep their distances from the rest shape. On a "plane" at the same distance,
-/// tendons stay perpendicular to it, wherever the end of the belly moves as it swells. Field names are the keys.
+/// On a "plate", tendons end at points that keep the distances from each other that they have in the rest shape. On a "plane" at
+/// the same distance from the belly, tendons stay perpendicular to it, wherever the end of the belly moves as it swells. Field
+/// names are the keys.
 #pragma once
 
 #include <functional>

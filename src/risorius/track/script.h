@@ -36,7 +36,7 @@ struct ScriptView {
     bool orthographic = false;                         ///< "projection"
     std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
     double aperture_mm = 0;
-    /// Fraction of a frame that the shutter is open, 360 = all of it, centred at the frame's time, [0, 360]
+    /// Time that the shutter is open, centred at the frame's time; 360 is the whole frame, [0, 360].
     double shutter_deg = 0;
     int antialiasing = 2;  ///< 1..4 samples per pixel and side
     ScriptLight light;

@@ -9,8 +9,8 @@
 ///   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
 ///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; fits one grid only
 ///
-/// Each may have "turn": {"axis": [0, 1, 0], "angle_deg": 90}, a rotation about the shape's own origin, and then "at_m": [0, 0,
-/// 1], a translation.
+/// Each may have "turn": {"axis": [0, 1, 0], "angle_deg": 90}, a rotation about the shape's own origin, and then
+/// "at_m": [0, 0, 1], a translation.
 #pragma once
 
 #include <string>
