@@ -24,8 +24,8 @@ struct Texture {
 /// V vertices, F faces and C corners. Positions are in metres once a mesh is read.
 struct PolygonMesh {
     Points positions;  ///< V x 3
-    std::vector<int> face_begin{
-        0};  ///< F + 1; the corners of face f are [face_begin[f], face_begin[f+1])
+    /// F + 1; the corners of face f are [face_begin[f], face_begin[f+1])
+    std::vector<int> face_begin{0};
     std::vector<int> corner_vertex;  ///< C, vertex index of each corner
     TexCoords corner_texcoord;       ///< C x 2, or 0 rows when the file has none
     std::vector<int> face_group;     ///< F, index into group_names

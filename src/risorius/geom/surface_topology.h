@@ -16,8 +16,8 @@ namespace risorius::geom {
 /// Undirected edges, sorted by their vertices, and the triangles at each edge.
 struct SurfaceEdges {
     std::vector<std::array<int, 2>> vertices;  ///< E, smaller index first
-    std::vector<int> triangle_begin{
-        0};  ///< E + 1; the triangles at edge e are [triangle_begin[e], triangle_begin[e+1])
+    /// E + 1; the triangles at edge e are [triangle_begin[e], triangle_begin[e+1])
+    std::vector<int> triangle_begin{0};
     std::vector<int> triangle;  ///< ascending at each edge
     std::vector<int> side;      ///< which side of that triangle the edge is
 

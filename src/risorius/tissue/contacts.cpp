@@ -71,8 +71,7 @@ void Contacts::remember(const Points& x) {
                 contact.let_go_m = now;
             else if (contact.let_go_m && now > *contact.let_go_m + contact.stick_m)
                 contact.let_go_m.reset();
-            else if (
-                contact.let_go_m)  // saliva flows: a bridge that is held open does not pull forever
+            else if (contact.let_go_m)  // saliva flows, so a bridge does not pull forever
                 *contact.let_go_m += kFlow * std::max(0.0, now - *contact.let_go_m);
         }
         if (contact.shift_m > 0 || contact.let_go_m)

@@ -105,8 +105,8 @@ Mat2 bending_weights(const SurfaceGrid& grid, Parameters parameters);
 
 /// Physical constants of a plate or membrane, in the directions of a1 and a2.
 struct SheetConstants {
-    Mat2 membrane_n_per_m =
-        Mat2::Zero();                 ///< k_ij of W = 1/4 sum k_ij (C_ij - delta_ij)^2 per area
+    /// k_ij of W = 1/4 sum k_ij (C_ij - delta_ij)^2 per area.
+    Mat2 membrane_n_per_m = Mat2::Zero();
     Mat2 bending_n_m = Mat2::Zero();  ///< D_ij of W = 1/2 sum D_ij curvature_ij^2 per area
 };
 

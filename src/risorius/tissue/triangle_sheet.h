@@ -56,8 +56,8 @@ class TriangleSheetTerm : public solve::EnergyTerm {
     struct Hinge {
         int node[4] = {};  ///< nodes: ends of the edge, then opposite corners
         double rest = 0;   ///< theta0
-        double height[4] =
-            {};  ///< dtheta by the height of each corner above the flattened rest shape
+        /// dtheta by the height of each corner above the flattened rest shape.
+        double height[4] = {};
     };
     /// Bending of one triangle: 1/2 sum Q_ef (theta_e - theta0_e) (theta_f - theta0_f). Q contains the signs of the folds.
     struct Bend {

@@ -17,8 +17,8 @@ using Flat = Eigen::Matrix<double, 2, 3>;
 
 using detail::point;
 
-using Coordinates =
-    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< a of each node, MN x 2
+/// a of each node, MN x 2.
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 Coordinates grid_coordinates(const SurfaceGrid& grid) {
     Coordinates a(grid.size(), 2);

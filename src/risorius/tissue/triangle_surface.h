@@ -20,8 +20,8 @@ struct TriangleSurface {
     Triangles triangles;
     Points rest;                    ///< V x 3, m
     CornerCoordinates coordinates;  ///< F x 6
-    std::vector<SurfaceMaterial>
-        material;  ///< one, or one per triangle; mass is that of one unit of area in a
+    /// One, or one per triangle; mass is that of one unit of area in a.
+    std::vector<SurfaceMaterial> material;
 };
 
 /// The cells of a grid, each cut in two, with the mean material of their corners. Values meant per node become those that mean

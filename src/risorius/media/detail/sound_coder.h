@@ -22,8 +22,8 @@ class SoundCoder {
 
     /// Sends sound up to a sample to the encoder. Returns true while packets must be received first.
     bool send_until(std::int64_t sample);
-    void send_end(
-        std::int64_t sample);  ///< The same with the last block, which may have any length.
+    /// The same with the last block, which may have any length.
+    void send_end(std::int64_t sample);
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }
 

@@ -41,8 +41,8 @@ class CellKernel {
 
     std::vector<CellGroup> groups_;
     std::vector<CurvedGroup> curved_;  ///< empty, or one per group
-    std::vector<Lanes>
-        rest_targets_;  ///< kStrains per group; empty when all cells are parallelepipeds
+    /// kStrains per group; empty when all cells are parallelepipeds.
+    std::vector<Lanes> rest_targets_;
     bool damped_ = false;
 
     // The current implicit step: target strains, weighed by lambda + omega / h

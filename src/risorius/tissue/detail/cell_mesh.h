@@ -36,8 +36,8 @@ class CellMesh {
         CellPlace place;
         Vec3 low = Vec3::Zero();   ///< material coordinates of its lowest corner
         Vec3 size = Vec3::Zero();  ///< h1, h2, h3
-        std::array<int, 8>
-            vertex{};  ///< corner 4 b1 + 2 b2 + b3; b = 1 on the high side of the axis
+        /// Corner 4 b1 + 2 b2 + b3; b = 1 on the high side of the axis.
+        std::array<int, 8> vertex{};
     };
     struct Hanging {
         int count = 0;  ///< 2 or 4
