@@ -92,8 +92,8 @@ tissue::GridSurface grid_surface(const BodyDescription& description);
 tissue::TriangleSurface triangle_surface(const BodyDescription& description);
 tissue::GridCurve grid_curve(const BodyDescription& description);
 
-/// Logarithm of the mean stiffness of each node, for colour. It is the bending stiffness when regions change that. Empty when
-/// no region changes the material.
+/// Logarithm of the mean stiffness of each node, for colour. It is the bending stiffness when regions change that. Empty for
+/// curves, and when no region changes the material.
 std::vector<double> relative_stiffness(const BodyDescription& description);
 
 /// One flag per node; true when any entry of `fixed` selects it.
