@@ -24,7 +24,7 @@ TEST(ClosedSurface, KnowsTheDistanceToABoxFromEverySide) {
 }
 
 TEST(ClosedSurface, KeepsTheSignAtASharpSpikeWhereFaceNormalsDisagree) {
-    // A thin spike: seen from beyond its tip, single faces would say inside
+    // A thin spike. Seen from beyond its tip, single faces would say inside.
     Points positions(4, 3);
     positions << 0.1, 0, 0, -0.05, 0.08, 0, -0.05, -0.08, 0, 0.4, 0, 1;
     Triangles triangles(4, 3);

@@ -15,7 +15,7 @@ namespace risorius::contact {
 namespace {
 
 TEST(ContactLaw, PressureIsTheSlopeOfTheEnergyAndHasASlopeItself) {
-    const double t = 2e-3, h = 1e-7;  // central differences: error about 1e-10
+    const double t = 2e-3, h = 1e-7;  // central differences: the error is about 1e-10
     for (double gap = -6e-3; gap < 3e-3; gap += 1.7e-4) {
         const Penalty above = penalty(gap + h, t), below = penalty(gap - h, t);
         const Penalty at = penalty(gap, t);

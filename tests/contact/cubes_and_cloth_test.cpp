@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Soft cubes on each other, and cloth over what is rigid or soft.
+// Soft cubes on each other, and cloth over rigid and soft bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,14 +34,14 @@ std::shared_ptr<SurfaceContact> between(SoftScene& scene, const ContactMaterial&
                                                       scene.surface(1), material));
 }
 
-/// Lower on a floor, upper dropped on it, perhaps a little aside.
+/// A cube on a floor, and another one dropped on it, possibly displaced sideways.
 struct Stack {
     SoftScene scene;
     std::shared_ptr<ObstacleContact> floor;
     std::shared_ptr<SurfaceContact> contact;
 
     Stack(const Vec3& aside, const ContactMaterial& material) {
-        constexpr double kViscosity_pa_s = 300;  // rocking dies away within the run
+        constexpr double kViscosity_pa_s = 300;  // rocking ends within the run
         scene.add_block({0, 0, 0.5 * kThickness_m}, kViscosity_pa_s);
         scene.add_block(Vec3(0, 0, 0.1 + 3e-3) + aside, kViscosity_pa_s);
         scene.add_gravity({0, 0, -kGravity});
@@ -62,7 +62,7 @@ TEST(StackedCubes, RestOnEachOtherWithTheirWeights) {
     EXPECT_NEAR(stack.contact->force_on_first(x).z(), -kGravity, 0.01 * kGravity);
     EXPECT_NEAR(stack.floor->total_force(1.5, x, stack.scene.state.v).z(), 2 * kGravity,
                 0.01 * 2 * kGravity);
-    // The lower cube bears its neighbour on a part of its face, at up to thrice the mean pressure
+    // The lower cube carries its neighbour on a part of its face, with up to three times the mean pressure.
     EXPECT_GT(stack.contact->min_gap_m(x), 0) << "no part of one lies in the other";
     EXPECT_LT(stack.scene.state.v.cwiseAbs().maxCoeff(), 1e-3);
     EXPECT_GT(stack.scene.middle(1).z(), 0.145);
@@ -80,11 +80,11 @@ TEST(StackedCubes, EndInTheSameStateInExplicitAndImplicitSteps) {
         steps->advance(system, stack.scene.state, 0.6);
         end[is_implicit] = stack.scene.state.x;
     }
-    // The rims still creep along each other, below the slip speed
+    // The rims still creep along each other, slower than the slip speed.
     EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-/// Sum of m v, and of m x cross v about the origin.
+/// Sum of m v, and of x cross m v about the origin.
 std::pair<Vec3, Vec3> momentum(const SoftScene& scene) {
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
     for (int i = 0; i < scene.mass.size(); ++i) {
@@ -95,7 +95,7 @@ std::pair<Vec3, Vec3> momentum(const SoftScene& scene) {
     return {linear, angular};
 }
 
-/// Two cubes thrown at each other, not centrally, in free space.
+/// Two cubes in free space, thrown at each other off-centre.
 SoftScene collision() {
     SoftScene scene;
     scene.add_block({0, 0, 0});
@@ -118,7 +118,7 @@ TEST(CollidingCubes, KeepMomentumAndAngularMomentumInExplicitSteps) {
     steps->advance(system, scene.state, 0.15);
     EXPECT_GT(scene.velocity(1).z(), 0) << "they must have bounced off";
     EXPECT_LT((momentum(scene).first - linear).norm(), 1e-13);
-    // The terms turn nothing; Runge-Kutta's own error in the angular momentum is of the order of its accuracy
+    // The terms cause no rotation. The error of Runge-Kutta in the angular momentum is of the order of its accuracy.
     EXPECT_LT((momentum(scene).second - angular).norm(), 1e-8 * angular.norm());
 }
 
@@ -134,9 +134,9 @@ TEST(CollidingCubes, KeepMomentumInImplicitStepsAndDoNotPassThroughEachOther) {
         min = std::min(min, contact->min_gap_m(scene.state.x));
     }
     EXPECT_GT(scene.velocity(1).z(), scene.velocity(0).z()) << "they must have bounced off";
-    // Newton stops at 1e-6 of the cube's side: its force is as exact as that
+    // Newton's method stops at 1e-6 of the cube's side, so the error of its force is of that order.
     EXPECT_LT((momentum(scene).first - linear).norm(), 1e-6);
-    // Depth of a blow at 0.6 m/s between cubes of 1 kg
+    // Depth of an impact at 0.6 m/s between cubes of 1 kg.
     EXPECT_GT(min, -3e-3);
 }
 
@@ -151,7 +151,7 @@ TEST(CollidingCubes, EndInTheSameBitsInTwoRuns) {
     EXPECT_EQ(std::memcmp(end[0].data(), end[1].data(), sizeof(double) * end[0].size()), 0);
 }
 
-/// Cloth of 0.4 m and 80 g, 2 cm above the highest point of what it falls on.
+/// A cloth of 0.4 m and 80 g, 2 cm above the highest point of the body it falls on.
 struct Cloth {
     static constexpr int kNodes = 13;  // along a side
     tissue::GridSurface sheet;
@@ -163,7 +163,7 @@ struct Cloth {
         Rigid place = Rigid::Identity();
         place.translation() = Vec3(-0.2, -0.2, height_m);
         sheet.rest = tissue::sheet_rest(sheet.grid, {0.4, 0.4}, place);
-        // Membrane 40 N/m, bending 2e-5 N m
+        // Membrane 40 N/m, bending 2e-5 N m.
         tissue::SheetConstants constants;
         constants.membrane_n_per_m.setConstant(40);
         constants.bending_n_m.setConstant(2e-5);
@@ -190,7 +190,7 @@ TEST(Cloth, DrapesOverASphereAndOverAMeshWithoutPassingThrough) {
     constexpr double kDuration_s = 0.6;
     for (const auto& obstacle : {ball, block}) {
         Cloth cloth(0.02);
-        // A hundred times the cloth's own weight per area
+        // A hundred times the cloth's own weight per area.
         const ContactMaterial material{
             .stiffness_pa_per_m = stiffness_for(100 * 0.08 * kGravity / 0.16, 2e-3),
             .thickness_m = 2e-3,
@@ -205,7 +205,7 @@ TEST(Cloth, DrapesOverASphereAndOverAMeshWithoutPassingThrough) {
         const auto report =
             testing::implicit_steps(1.0 / 60)->advance(system, cloth.state, kDuration_s);
         EXPECT_FALSE(report.diverged);
-        // Seen by four times as many points as felt the contact
+        // Measured with four times as many samples as the contact has.
         const ObstacleContact fine(surface_samples(cloth.sheet.rest, cloth.triangles(), 6),
                                    obstacle, material);
         EXPECT_GT(contact->min_gap_m(kDuration_s, cloth.state.x), -1e-3);

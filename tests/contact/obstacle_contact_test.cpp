@@ -20,7 +20,7 @@ const ContactMaterial kRough{.stiffness_pa_per_m = 2e4,
                              .slip_speed_m_per_s = 0.05,
                              .damping_s = 0.02};
 
-/// A box whose samples lie in and around the skin of every obstacle.
+/// A box whose samples lie in and around the contact layer of every obstacle.
 struct Scene {
     testing::Surface body = testing::box({-0.3, -0.2, -0.02}, {0.6, 0.5, 0.3}, 1);
     std::vector<ContactSample> samples = surface_samples(body.positions, body.triangles, 3);
@@ -55,7 +55,7 @@ TEST(ObstacleContact, GradientAndHessianBelongToThePotentialOfAStepWithFrictionA
         contact.begin_step(0.1, 0.1, scene.start, scene.v);
         const solve::ImplicitStep step{0.2, 0.1, scene.start};
         expect_gradient_of_potential(contact, step, scene.x, 1e-6, 1e-7);
-        // Differences across the kink of the damper and the edge of the penalty's third derivative: 1e-6
+        // Differences across the kink of the damper and the jump of the penalty's third derivative: 1e-6.
         expect_hessian_of_potential(contact, step, scene.x, 1e-6, 2e-5);
         expect_projection(contact, step, scene.x);
     }
@@ -88,7 +88,7 @@ TEST(ObstacleContact, FrictionOpposesSlipAgainstTheObstaclesOwnMotion) {
     force.setZero();
     contact.add_force(0, x, v, force);
     EXPECT_NEAR(force(0, 0), 0, 1e-12) << "carried without slip";
-    // The same in an implicit step: standing still means slipping back by 1 m/s h
+    // The same in an implicit step: standing still means slipping back by 1 m/s times h.
     contact.begin_step(0, 0.1, x, v);
     EXPECT_NEAR(potential_gradient(contact, {0.1, 0.1, x}, x)(0, 0), -5, 1e-12);
     Points carried = x;

@@ -15,9 +15,9 @@
 namespace risorius::contact {
 namespace {
 
-/// Gradient and curvature of a gap against central differences.
+/// Compares gradient and curvature of a gap with central differences.
 void expect_derivatives(const Shape& shape, const Vec3& p, double tolerance) {
-    const double h = 1e-5;  // differences are right to about 1e-9 of the gap's derivatives
+    const double h = 1e-5;  // the differences have an error of about 1e-9 of the gap's derivatives
     const Distance at = shape.distance(p);
     const Mat3 curvature = shape.curvature(p);
     for (int k = 0; k < 3; ++k) {
@@ -67,7 +67,7 @@ TEST(Obstacle, AMovedShapeCarriesItsGapAlong) {
             const PlacedShape placed = obstacle.at(t);
             const Vec3 p = placed.place() * in_shape;
             EXPECT_NEAR(placed.distance(p).gap_m, capsule->distance(in_shape).gap_m, 1e-14);
-            // Its matter's velocity is the rate at which places move
+            // The velocity of its material is the rate at which its points move.
             const double h = 1e-6;
             const Vec3 rate =
                 (obstacle.at(t + h).place() * in_shape - obstacle.at(t - h).place() * in_shape) /
@@ -99,7 +99,7 @@ TEST(Obstacle, ASphereWithoutSizeIsRefused) {
 TEST(DistanceField, OfASphereMeshIsNearTheExactSphere) {
     const auto mesh = geom::testing::sphere(40, 80, 0.5);
     const DistanceField field(mesh.positions, mesh.triangles);
-    // The mesh itself lies up to r (1 - cos(pi / 80)^2) = 0.8 mm within the sphere; the field adds under 0.1 mm.
+    // The mesh itself is up to r (1 - cos(pi / 80)^2) = 0.8 mm inside the sphere; the field adds less than 0.1 mm.
     const double mesh_error = 0.5 * (1 - std::pow(std::cos(std::numbers::pi / 80), 2));
     const Points directions = testing_of::random_points(200, 1.0, 5);
     for (long i = 0; i < directions.rows(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A soft cube on obstacles, run in explicit and implicit steps.
+// A soft cube on obstacles, with explicit and implicit steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,10 +18,10 @@ using testing::SoftScene;
 
 constexpr double kGravity = 9.81;
 constexpr double kThickness_m = 1e-3;
-// Carries three times the pressure of the cube's weight on its face before surfaces meet
+// Carries three times the pressure of the cube's weight on its face before the surfaces meet.
 const double kStiffness = stiffness_for(3 * kGravity / 0.01, kThickness_m);
 constexpr double kSlipSpeed = 1e-3;
-// Friction that sticks is a damper of 2 mu N / v_s: 9.8e3 N s/m here, which explicit steps of 0.2 ms bear only at a tenth
+// Sticking friction is a damper of 2 mu N / v_s: 9.8e3 N s/m here. Explicit steps of 0.2 ms are stable only with a tenth of it.
 constexpr double kSlipSpeedExplicit = 1e-2;
 
 ContactMaterial material(double friction, double slip_speed = kSlipSpeed) {
@@ -36,7 +36,7 @@ struct OnSlope {
     SoftScene scene;
     std::shared_ptr<ObstacleContact> contact;
 
-    /// The slope is level and gravity tilted instead.
+    /// The slope is level and gravity is tilted instead.
     OnSlope(double degrees, double friction, double slip_speed = kSlipSpeed) {
         const double a = degrees * M_PI / 180;
         scene.add_block({0, 0, 0.5 * kThickness_m});
@@ -60,7 +60,7 @@ TEST_P(InBothSteppings, ACubeStaysOnASlopeBelowTheFrictionAngleButForACreepUnder
     OnSlope slope(20, 0.5, slip_speed());
     const auto system = slope.scene.system();
     const auto steps = integrator();
-    steps->advance(system, slope.scene.state, 0.5);  // settles
+    steps->advance(system, slope.scene.state, 0.5);  // comes to equilibrium
     const double from = slope.scene.middle().x();
     steps->advance(system, slope.scene.state, 1.0);
     const double creep = (slope.scene.middle().x() - from) / 0.5;
@@ -77,7 +77,7 @@ TEST_P(InBothSteppings, ACubeSlidesDownASteeperSlopeAsCoulombSays) {
     steps->advance(system, slope.scene.state, 0.8);
     const double acceleration = (slope.scene.velocity().x() - before) / 0.4;
     const double a = 35 * M_PI / 180;
-    // 3 %: the normal force still swings a little as the cube settles
+    // 3 %: the normal force still oscillates a little while the cube comes to equilibrium.
     EXPECT_NEAR(acceleration, kGravity * (std::sin(a) - 0.5 * std::cos(a)), 0.03 * 1.609);
 }
 
@@ -88,14 +88,14 @@ INSTANTIATE_TEST_SUITE_P(Contact, InBothSteppings, ::testing::Bool(), [](const a
 struct Rest {
     const char* name;
     std::shared_ptr<const Obstacle> obstacle;
-    double deepest_m;  // bound on the penetration
+    double deepest_m;  // upper bound of the penetration
 };
 
 std::vector<Rest> supports() {
     Rigid below = Rigid::Identity();
     below.translation() = Vec3(0.05, 0.05, -0.2);
     const auto hill = geom::testing::sphere(24, 48, 0.2);
-    // On a curved support the weight rests on a smaller patch, at a higher pressure: deeper.
+    // On a curved support the weight acts on a smaller area with a higher pressure, so the penetration is deeper.
     return {{"plane", std::make_shared<Obstacle>(make_plane()), 0},
             {"sphere", std::make_shared<Obstacle>(make_sphere(0.2), below), 1e-3},
             {"capsule",
@@ -140,7 +140,7 @@ TEST(RestingCube, EndsInTheSameStateInExplicitAndImplicitSteps) {
         steps->advance(system, scene.state, 1.5);
         end[is_implicit] = scene.state.x;
     }
-    // A micrometre: the explicit run still swings by less
+    // One micrometre: the remaining oscillation of the explicit run is smaller.
     EXPECT_LT((end[0] - end[1]).cwiseAbs().maxCoeff(), 1e-6);
 }
 
@@ -157,7 +157,7 @@ TEST(RestingCube, IsDraggedAlongByAMovingFloor) {
     const auto system = scene.system();
     const double from = scene.middle().x();
     testing::implicit_steps(1.0 / 60)->advance(system, scene.state, 1.6);
-    // It creeps behind by less than the slip speed times the time of the glide
+    // It lags behind by less than the slip speed times the duration of the motion.
     EXPECT_NEAR(scene.middle().x() - from, 0.1, kSlipSpeed * 1.0);
 }
 

@@ -17,7 +17,7 @@ struct Surface {
     Triangles triangles;
 };
 
-/// Surface of a box with its lowest corner at `low`, each face of cells x cells squares of two triangles.
+/// Surface of a box with its lowest corner at `low`. Each face has cells x cells squares of two triangles.
 inline Surface box(const Vec3& low, const Vec3& size, int cells) {
     Surface s;
     std::map<std::array<int, 3>, int> numbered;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Soft blocks put into one system with what they touch, and run: for tests of contact in motion.
+/// Soft blocks in one system with the obstacles they touch, for tests of contact in motion.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace risorius::contact::testing {
 
-/// One or more cubes of soft tissue, side 0.1 m, 1 kg each; nodes of the second follow those of the first.
+/// One or more cubes of soft tissue, with a side of 0.1 m and 1 kg each. Nodes of the second follow those of the first.
 struct SoftScene {
     static constexpr double kSide_m = 0.1, kMass_kg = 1.0;
 
@@ -26,7 +26,7 @@ struct SoftScene {
     std::vector<std::shared_ptr<solve::EnergyTerm>> terms;
     int blocks = 0;
 
-    /// With its lowest corner at `low`.
+    /// Adds a cube with its lowest corner at `low`.
     void add_block(const Vec3& low, double viscosity_pa_s = 50) {
         const double shear_pa = 2e4;
         const auto shape = [=](const Vec3& a) { return Vec3(low + kSide_m * a); };

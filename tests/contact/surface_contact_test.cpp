@@ -21,7 +21,7 @@ const ContactMaterial kRough{.stiffness_pa_per_m = 2e4,
                              .slip_speed_m_per_s = 0.05,
                              .damping_s = 0.02};
 
-/// A box sunk a little into another, both bent out of shape, nodes of the upper one last.
+/// Two boxes with a small overlap, both deformed. The nodes of the upper one come last.
 struct TwoBoxes {
     testing::Surface lower = testing::box({-0.5, -0.5, -1}, {1, 1, 1}, 2);
     testing::Surface upper = testing::box({-0.2, -0.3, -0.01}, {0.6, 0.7, 0.5}, 1);
@@ -40,7 +40,7 @@ struct TwoBoxes {
     }
 };
 
-/// Net force and torque about the origin, as shares of the largest force.
+/// Checks net force and torque about the origin, as fractions of the maximum force.
 void expect_balanced(const Points& force, const Points& x) {
     Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
     for (long i = 0; i < x.rows(); ++i) {
@@ -134,7 +134,7 @@ TEST(SurfaceContact, BothBodiesFeelTheSameForce) {
 }
 
 TEST(SurfaceContact, ASunkenCornerIsPushedOutTheWayItCame) {
-    // Two equal cubes stacked exactly, 1 mm into each other: the nearest way out at the edges is sideways
+    // Two equal cubes, stacked exactly and 1 mm inside each other. At the edges, the nearest way out is sideways.
     const auto lower = testing::box({0, 0, 0}, {1, 1, 1}, 2);
     const auto upper = testing::box({0, 0, 0.999}, {1, 1, 1}, 2);
     const int first = static_cast<int>(lower.positions.rows());
@@ -149,7 +149,7 @@ TEST(SurfaceContact, ASunkenCornerIsPushedOutTheWayItCame) {
         EXPECT_NEAR(force(i, 0), 0, 0.01) << i;
         EXPECT_NEAR(force(i, 1), 0, 0.01) << i;
     }
-    // 60 N on the square metre; the sides' share of the samples on the rim adds a quarter
+    // 60 N on the square metre. The samples on the rim also represent parts of the sides, which adds a quarter.
     EXPECT_NEAR(contact.force_on_first(x).z(), -1.25 * 1e4 * (0.005 + 0.001), 0.5);
 }
 

@@ -6,7 +6,7 @@
 namespace risorius {
 namespace {
 
-/// Turned by 3-4-5 in each plane: entries are exact, eigenvalues known.
+/// A symmetric matrix with the given eigenvalues, rotated by 3-4-5 angles, so that its entries are exact.
 Eigen::MatrixXd turned(const Vec3& values) {
     Eigen::MatrixXd a(3, 3), b(3, 3);
     a << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person reads when a JSON file is wrong: place, expected, found. Messages are compared whole.
+// What a person reads when a JSON file is wrong: place, expected, found. Whole messages are compared.
 #include "risorius/core/json_cursor.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 JsonCursor rig(const char* json) { return JsonCursor::from_json(Json::parse(json), "rig.json"); }
 
-/// A file of its own in the temporary folder, removed again.
+/// A file in a temporary folder of its own, which is removed again.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::string& content, const std::string& name = "script.json") {
@@ -33,7 +33,7 @@ class TemporaryFile {
     const std::filesystem::path& file() const { return file_; }
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// The message of reading it, without the folder.
+    /// The message of reading the file, without the folder.
     std::string message() const {
         const std::string text = message_of([&] { JsonCursor::read_file(file_); });
         const std::string before = folder_.string() + "/";
@@ -253,7 +253,7 @@ TEST(FormatNumber, IsTheShortestThatReadsBackTheSame) {
     EXPECT_EQ(format_number(0.1), "0.1");
     EXPECT_EQ(format_number(-2), "-2");
     EXPECT_EQ(format_number(1e-9), "1e-09");
-    // std::stod would refuse the smallest denormal, strtod does not.
+    // std::stod would reject the smallest denormal; strtod does not.
     for (double value : {1.0 / 3, 0.1 + 0.2, 1e300, 5e-324, -0.0})
         EXPECT_EQ(std::strtod(format_number(value).c_str(), nullptr), value);
 }

@@ -7,7 +7,7 @@ namespace risorius {
 namespace {
 
 TEST(CounterRng, IsThePublishedGenerator) {
-    // First outputs of splitmix64 by Vigna's reference code (prng.di.unimi.it) for these seeds
+    // First outputs of splitmix64 for these seeds, by Vigna's reference code (prng.di.unimi.it).
     EXPECT_EQ(CounterRng(1234567).at(0).bits(), 6457827717110365317u);
     EXPECT_EQ(CounterRng(0).at(0).bits(), 0xe220a8397b1dcdafu);
 }

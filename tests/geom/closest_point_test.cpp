@@ -11,7 +11,7 @@
 namespace risorius::geom {
 namespace {
 
-/// Exact bits from an exact generator: the distributions of <random> differ between libraries.
+/// Random numbers with the same bits everywhere. The distributions of <random> differ between libraries.
 class Dice {
   public:
     double operator()() { return static_cast<double>(engine_()) / 4294967296.0; }
@@ -42,7 +42,7 @@ TEST(ClosestPointOnTriangle, BeatsEveryPointOfADenseSampling) {
         const double distance = std::sqrt(found.squared_distance);
         EXPECT_LE(distance, sampled + 1e-12);
         EXPECT_GE(distance,
-                  sampled - 3.5 / n);  // one sampling step: sides are no longer than 2 sqrt 3
+                  sampled - 3.5 / n);  // one sampling step: sides are at most 2 sqrt 3 long
     }
 }
 
@@ -82,7 +82,7 @@ TEST(SurfaceTree, FindsTheSameTriangleAsLookingAtAllOfThem) {
 TEST(SurfaceTree, GivesTheLowestTriangleOfEquallyNearOnes) {
     const auto sheet = testing::square_grid(8);
     const SurfaceTree tree(sheet.positions, sheet.triangles);
-    // Straight above vertex 40, where six triangles meet.
+    // Directly above vertex 40, where six triangles meet.
     const Vec3 corner = sheet.positions.row(40).transpose();
     int lowest = -1;
     for (int t = 0; t < sheet.triangles.rows() && lowest < 0; ++t)
@@ -111,7 +111,7 @@ TEST(SurfaceTree, MeetsRaysWhereLookingAtAllTrianglesDoes) {
     int hits = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         const Vec3 origin = dice.in_box(0.3), direction = dice.in_box(1.0);
-        // Each triangle asked alone, through a tree of one.
+        // Each triangle is tested separately, through a tree of one.
         double nearest = 1e300;
         for (int t = 0; t < ball.triangles.rows(); ++t) {
             const Triangles one = ball.triangles.row(t);
@@ -135,7 +135,7 @@ TEST(SurfaceTree, MeetsRaysWhereLookingAtAllTrianglesDoes) {
 TEST(SurfaceTree, EveryRayFromInsideAClosedBallLeavesThroughIt) {
     const auto ball = testing::sphere(12, 18, 1.0);
     const SurfaceTree tree(ball.positions, ball.triangles);
-    // Straight at every vertex and every edge's middle, where cracks would show.
+    // Rays go straight at every vertex and every midpoint of an edge, where gaps would show.
     for (int v = 0; v < ball.positions.rows(); ++v)
         EXPECT_TRUE(tree.cast(Vec3::Zero(), ball.positions.row(v).transpose())) << "vertex " << v;
     for (int t = 0; t < ball.triangles.rows(); ++t)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coarsening keeps the surface a surface: same outline, same sides, sizes as asked.
+// Coarsening preserves the surface: its outline, its sides and the requested sizes.
 #include "risorius/geom/decimate.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(Decimate, TheOutlineStays) {
                  std::vector<double>(static_cast<std::size_t>(sheet.points.rows()), 0.13), {});
     const auto loops = boundary_loops(coarse.triangles, surface_edges(coarse.triangles));
     ASSERT_EQ(loops.size(), 1u);
-    // A boundary vertex may leave within a quarter of the wanted length of the new edge.
+    // A removed boundary vertex may be up to a quarter of the wanted length away from the new edge.
     double area = 0;
     for (long f = 0; f < coarse.triangles.rows(); ++f)
         area += 0.5 * normal(sheet.points, coarse.triangles, f).z();
@@ -126,7 +126,7 @@ TEST(Decimate, ItStaysOneManifoldPiece) {
     const SurfaceEdges edges = surface_edges(coarse.triangles);
     for (int e = 0; e < edges.count(); ++e) EXPECT_LE(edges.triangle_count(e), 2);
     EXPECT_EQ(surface_pieces(coarse.triangles, static_cast<int>(sheet.points.rows())).count(), 1);
-    // Euler: a disc.
+    // Euler characteristic of a disc.
     EXPECT_EQ(static_cast<int>(coarse.kept.size()) - edges.count() +
                   static_cast<int>(coarse.triangles.rows()),
               1);

@@ -9,7 +9,7 @@ namespace risorius::geom {
 namespace {
 
 TEST(FittedSphere, FindsTheSphereOfACapOfIt) {
-    // As much of an eye as a scan shows, far from the origin
+    // As much of an eye as a scan shows, far from the origin.
     const Vec3 centre(0.031, 1.62, 0.074);
     constexpr double kRadius = 0.012;
     std::vector<Vec3> cap;

@@ -26,7 +26,7 @@ PolygonMesh polygon_mesh(const testing::Surface& surface) {
 
 PolygonMesh ball() { return polygon_mesh(testing::sphere(10, 14, 0.1)); }
 
-/// A second surface beside the first, in a group of its own.
+/// Adds a second surface beside the first, in its own group.
 void append(PolygonMesh& mesh, const PolygonMesh& other, const std::string& group) {
     const int shift = mesh.vertex_count();
     Points positions(mesh.positions.rows() + other.positions.rows(), 3);
@@ -58,13 +58,13 @@ TEST(MeshChecks, ASoundBallHasNoFindings) {
 
 TEST(MeshChecks, AnOpenHeadIsFine) {
     PolygonMesh mesh = ball();
-    mesh.face_begin.resize(mesh.face_begin.size() -
-                           14);  // without the cap at the bottom, as at a neck
+    // Without the cap at the bottom, as at a neck.
+    mesh.face_begin.resize(mesh.face_begin.size() - 14);
     mesh.corner_vertex.resize(static_cast<std::size_t>(mesh.face_begin.back()));
     mesh.face_group.resize(static_cast<std::size_t>(mesh.face_count()));
     const MeshReport report = check_mesh(mesh, "head");
     EXPECT_EQ(report.boundary_loop_count, 1);
-    // The pole that lost its faces is the only thing to say.
+    // The only finding is the pole that has lost its faces.
     ASSERT_EQ(report.findings.size(), 1u);
     EXPECT_EQ(report.findings[0].message(),
               "head:vertex 127: expected a face that uses it, found none (at (0, 0, -0.1) m)");
@@ -125,7 +125,7 @@ TEST(MeshChecks, AnEyeballInsideOutIsFoundWithinASoundHead) {
     EXPECT_EQ(
         messages(report, MeshCheck::kPieces),
         (std::vector<std::string>{"head: expected one piece, found 2 pieces of 252, 80 faces"}));
-    // Only the skin is asked for: the eye is not looked at.
+    // Only the skin is checked, so the eye is ignored.
     EXPECT_TRUE(inspect_mesh(mesh, "head", {.groups = {0}}).findings.empty());
 }
 
@@ -136,7 +136,7 @@ TEST(MeshChecks, TheScaleMessageAdvisesAUnit) {
               "head: expected a longest side of 0.12 to 1 m, found 20 m; metres_per_unit 0.01 "
               "instead of 1 would make "
               "it 0.2 m");
-    // Read as millimetres though in centimetres.
+    // Read as millimetres although it is in centimetres.
     mesh.positions *= 0.001;
     EXPECT_EQ(
         messages(inspect_mesh(mesh, "head", {.metres_per_unit = 0.001}), MeshCheck::kScale)[0],
@@ -160,7 +160,7 @@ TEST(MeshChecks, ASliverIsNamedWithItsArea) {
     mesh.positions.row(v) = 0.5 * (mesh.positions.row(w) + mesh.positions.row(u));
     const auto found = messages(inspect_mesh(mesh, "ball"), MeshCheck::kDegenerateFace);
     ASSERT_EQ(found.size(), 1u);
-    // What rounding leaves of an area of zero is some 1e-19 m2.
+    // Rounding of a zero area leaves about 1e-19 m2.
     EXPECT_EQ(found[0].substr(0, 52), "ball:face 0: expected an area above 1e-13 m2, found ");
     EXPECT_NE(found[0].find("m2 (group skin, at ("), std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A surface that is its own mirror image is found to be, and coarsened in pairs; any other is left alone.
+// A surface that is its own mirror image is recognised and coarsened in pairs. Other surfaces are not changed.
 #include "risorius/geom/mirror.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ struct Vault {
     Triangles triangles;
 };
 
-/// n x n cells about the plane x = middle, a vault; every cell cut along the same diagonal, so that triangles are not mirrored.
+/// A vault of n x n cells about the plane x = middle. All cells are cut along the same diagonal, so the triangles are not
+/// mirrored.
 Vault vault(int n, double middle, double tilt = 0.0) {
     Vault out;
     out.points.resize((n + 1) * (n + 1), 3);
@@ -80,7 +81,7 @@ TEST(DecimateMirrored, GivesASurfaceThatIsItsOwnMirrorImage) {
     EXPECT_GT(coarse.kept.size(), 100u);
     EXPECT_EQ(faces(coarse.triangles, nullptr), faces(coarse.triangles, &mirror.partner));
 
-    // One sheet without a cut or a doubled edge along the seam
+    // A single sheet, without a cut or a doubled edge along the seam.
     const SurfaceEdges edges = surface_edges(coarse.triangles);
     for (int e = 0; e < edges.count(); ++e) ASSERT_LE(edges.triangle_count(e), 2);
     EXPECT_EQ(boundary_loops(coarse.triangles, edges).size(), 1u);

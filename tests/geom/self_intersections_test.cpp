@@ -8,7 +8,7 @@ namespace {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-// A triangle in the plane y = 0 and one that stands on its point at the given height.
+// A triangle in the plane y = 0, and one that stands on a corner at the given height.
 Pairs cuts_at(double height) {
     Points points(6, 3);
     points << 0, 0, 0, 4, 0, 0, 0, 0, 4, 1, height, 1, 0, height + 2, 1, 2, height + 2, 1;
@@ -27,7 +27,7 @@ TEST(SelfIntersections, TouchingAndStandingApartAreNone) {
 }
 
 TEST(SelfIntersections, NeighboursMayFoldOntoEachOther) {
-    // Two triangles of one edge, folded until they nearly lie on each other: joined, so no pair.
+    // Two triangles with a common edge, folded until they nearly coincide. They are connected, so this is no pair.
     Points points(4, 3);
     points << 0, 0, 0, 1, 0, 0, 0.5, 0, 1, 0.5, 0.001, 0.9;
     Triangles triangles(2, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces of fields on a grid: where they lie, which way they face, that they are closed.
+// Surfaces of fields on a grid: where they lie, which way they face, and that they are closed.
 #include "risorius/geom/surface_net.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(SurfaceNet, AFieldIsReadBetweenItsSamples) {
     const GridField field = sphere();
     EXPECT_NEAR(field.at(kCentre + Vec3(0.0203, 0.0011, -0.0077)),
                 Vec3(0.0203, 0.0011, -0.0077).norm() - kRadius_m, 0.05 * kStep_m);
-    // Beyond the border that of the border
+    // Beyond the border, the value is that at the border.
     EXPECT_EQ(field.at(kCentre + Vec3(1, 0, 0)),
               field.at({field.place(field.size[0] - 1, 0, 0).x(), kCentre.y(), kCentre.z()}));
 }

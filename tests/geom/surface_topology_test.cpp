@@ -50,12 +50,12 @@ TEST(SurfaceTopology, AClosedSurfaceHasNoBoundaryAndASheetHasOneAroundIt) {
     const auto sheet = square_grid(3);
     const auto loops = boundary_loops(sheet.triangles, surface_edges(sheet.triangles));
     ASSERT_EQ(loops.size(), 1u);
-    // Counter-clockwise, as the triangles run.
+    // Counter-clockwise, as the triangles are.
     EXPECT_EQ(loops[0], (std::vector<int>{0, 1, 2, 3, 7, 11, 15, 14, 13, 12, 8, 4}));
 }
 
 TEST(SurfaceTopology, TwoHolesTouchingInAVertexAreTwoLoops) {
-    // A 4 x 4 sheet without two cells that meet at vertex 12, the middle.
+    // A 4 x 4 sheet without two cells that meet at vertex 12, in the middle.
     const auto sheet = square_grid(4);
     Triangles kept(sheet.triangles.rows() - 4, 3);
     long n = 0;
@@ -86,7 +86,7 @@ TEST(SurfaceTopology, EveryInnerEdgeIsOneHingeAndAFlippedTriangleHasNone) {
     const auto hinges = surface_hinges(ball.triangles, edges);
     EXPECT_EQ(static_cast<int>(hinges.size()), edges.count());
     for (const Hinge& h : hinges) {
-        // The first wing lies left of the edge, seen from outside; the second right of it.
+        // Seen from outside, the first wing is left of the edge and the second right of it.
         const Vec3 a = ball.positions.row(h.edge[0]), b = ball.positions.row(h.edge[1]);
         const Vec3 left = (a + b).cross(b - a);
         EXPECT_GT(left.dot(Vec3(ball.positions.row(h.wing[0])) - a), 0);
@@ -110,7 +110,7 @@ TEST(SurfaceTopology, NormalsOfASpherePointAwayFromItsCentre) {
     const Points normals = vertex_normals(ball.positions, ball.triangles);
     for (int v = 0; v < normals.rows(); ++v) {
         EXPECT_NEAR(normals.row(v).norm(), 1.0, 1e-14);
-        // Faces of 4.5 and 6 degrees: normals within a degree of the radius.
+        // Faces span 4.5 and 6 degrees, so normals are within a degree of the radius.
         EXPECT_GT(normals.row(v).dot(ball.positions.row(v)) / 0.1, std::cos(M_PI / 180));
     }
 }

@@ -34,7 +34,7 @@ inline Surface square_grid(int n) {
     return s;
 }
 
-/// Closed sphere of `rings` x `sectors`, facing outwards.
+/// A closed sphere of `rings` x `sectors`, facing outwards.
 inline Surface sphere(int rings, int sectors, double radius) {
     Surface s;
     s.positions.resize(2 + (rings - 1) * sectors, 3);

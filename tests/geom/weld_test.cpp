@@ -9,7 +9,7 @@
 namespace risorius::geom {
 namespace {
 
-/// Every triangle with three vertices of its own, as a file without shared vertices gives it.
+/// Gives every triangle three vertices of its own, as in a file without shared vertices.
 testing::Surface unrolled(const testing::Surface& surface) {
     testing::Surface out;
     out.positions.resize(surface.triangles.rows() * 3, 3);
@@ -61,7 +61,7 @@ TEST(Weld, EveryVertexStaysWithinTheToleranceOfItsPlace) {
 }
 
 TEST(Weld, LipsThatTouchStayApart) {
-    // Two sheets, the second turned over, that touch all over: only their rims are boundaries.
+    // Two sheets that touch everywhere, the second one flipped. Only their rims are boundaries.
     const auto sheet = testing::square_grid(4);
     Points p(50, 3);
     p << sheet.positions, sheet.positions;

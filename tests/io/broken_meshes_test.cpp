@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every file in tests/data/broken/meshes has to fail with the words in expected.json.
+// Every file in tests/data/broken/meshes must fail with the words in expected.json.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kFolder = fs::path(RISORIUS_SOURCE_DIR) / "tests" / "data" / "broken" / "meshes";
 
-/// Messages begin with the path as given, so files are named from inside their folder.
+/// Messages begin with the path as given, so files are named relative to their folder.
 class BrokenMeshes : public testing::Test {
   protected:
     void SetUp() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats that go through assimp, from small hand-written files and from what assimp itself exports.
+// Formats that are read with assimp, from small hand-written files and from files that assimp itself exports.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const fs::path kMeshes = fs::path(RISORIUS_SOURCE_DIR) / "tests" / "data" / "meshes";
 const fs::path kMakeHuman = fs::path(RISORIUS_SHARED_DIR) / "data" / "heads" / "makehuman";
 
-/// The OBJ of a head as another format, written by assimp.
+/// The OBJ of a head in another format, written by assimp.
 fs::path exported(const std::string& format, const std::string& name) {
     const fs::path folder = fs::path(testing::TempDir()) / "risorius_formats";
     fs::create_directories(folder);
@@ -33,7 +33,7 @@ fs::path exported(const std::string& format, const std::string& name) {
     return folder / name;
 }
 
-/// Positions in units of the fifth decimal, the last the file holds: assimp's parser errs in the sixth.
+/// Positions in units of the fifth decimal, the last one in the file. assimp's parser has errors in the sixth.
 std::set<std::array<long, 3>> rounded_positions(const geom::PolygonMesh& mesh) {
     std::set<std::array<long, 3>> out;
     for (int v = 0; v < mesh.vertex_count(); ++v)
@@ -43,7 +43,7 @@ std::set<std::array<long, 3>> rounded_positions(const geom::PolygonMesh& mesh) {
     return out;
 }
 
-/// Greatest distance between equal-numbered corners: faces keep their order, whatever vertices they share.
+/// Maximum distance between corners with equal numbers. Faces keep their order, whatever vertices they share.
 double corner_distance(const geom::PolygonMesh& a, const geom::PolygonMesh& b) {
     double max = 0;
     for (std::size_t c = 0; c < a.corner_vertex.size(); ++c)
@@ -73,16 +73,16 @@ TEST(MeshFormats, GltfAppliesNodesAndNamesGroupsAfterThem) {
     const geom::PolygonMesh mesh = read_mesh(kMeshes / "two_nodes.gltf");
     EXPECT_EQ(mesh.group_names, (std::vector<std::string>{"face.skin", "face.lips", "teeth"}));
     EXPECT_EQ(mesh.face_group, (std::vector<int>{0, 1, 2}));
-    // Two primitives over one vertex buffer share its four vertices; the second mesh has its own four.
+    // Two primitives share the four vertices of one buffer; the second mesh has four of its own.
     ASSERT_EQ(mesh.vertex_count(), 8);
     const auto near = [&](int v, const Vec3& p) {
         return (mesh.positions.row(v).transpose() - p).norm() < 1e-7;
     };
     EXPECT_TRUE(near(2, Vec3(-0.2, 1.2, 0.1)));
     EXPECT_TRUE(near(6, Vec3(0.2, 0.2, 0.05)));
-    // The first node mirrors, so its corners run backwards to face the same way.
+    // The first node mirrors, so its corners are listed backwards to face the same way.
     EXPECT_EQ(mesh.corner_vertex, (std::vector<int>{2, 1, 0, 3, 2, 0, 4, 5, 6}));
-    // v counts upwards, against the file.
+    // v points up, unlike in the file.
     EXPECT_EQ(mesh.corner_texcoord(0, 0), 1.0);
     EXPECT_EQ(mesh.corner_texcoord(0, 1), 0.0);
     EXPECT_EQ(mesh.corner_texcoord(2, 1), 1.0);
@@ -102,7 +102,7 @@ TEST(MeshFormats, TheGlbOfAHeadHasTheGroupsAndPositionsOfItsObj) {
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj");
     const geom::PolygonMesh glb = read_mesh(kMakeHuman / "mh_head.glb");
     EXPECT_EQ(glb.group_names, obj.group_names);
-    // 5,906 quads as triangles; 234 vertices more at texture seams.
+    // 5,906 quads as triangles, and 234 additional vertices at texture seams.
     EXPECT_EQ(glb.face_count(), 2 * obj.face_count());
     EXPECT_EQ(glb.vertex_count(), 6316);
     EXPECT_EQ(rounded_positions(glb), rounded_positions(obj));
@@ -121,13 +121,13 @@ TEST(MeshFormats, AHeadComesThroughColladaWithGroupsAndQuads) {
     EXPECT_EQ(dae.face_begin, obj.face_begin);
     EXPECT_EQ(dae.face_group, obj.face_group);
     EXPECT_EQ(dae.vertex_count(), obj.vertex_count());
-    EXPECT_LT(corner_distance(dae, obj), 1e-5);  // single precision of centimetres
+    EXPECT_LT(corner_distance(dae, obj), 1e-5);  // single precision, in centimetres
 }
 
 TEST(MeshFormats, AHeadComesThroughFbxInMetres) {
     if (!fs::exists(kMakeHuman))
         GTEST_SKIP() << "the measured heads are not in RISORIUS_SHARED_DIR";
-    // The exporter states UnitScaleFactor 1, that is centimetres, which is what this head is in.
+    // The exporter states UnitScaleFactor 1, which means centimetres, the unit of this head.
     const geom::PolygonMesh obj = read_mesh(kMakeHuman / "mh_head.obj", {.metres_per_unit = 0.01});
     const geom::PolygonMesh fbx = read_mesh(exported("fbxa", "head.fbx"));
     EXPECT_EQ(fbx.group_names, obj.group_names);

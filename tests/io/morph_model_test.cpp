@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blend shapes survive a glTF file: names, numbers, vertices in their order, weights over time.
+// Blend shapes survive a glTF file: names, numbers, the order of vertices, weights over time.
 #include "risorius/io/morph_model.h"
 
 #include <gtest/gtest.h>
@@ -18,13 +18,13 @@
 namespace risorius::io {
 namespace {
 
-/// Two quads side by side, of two materials that share an edge; the second is mapped with a seam.
+/// Two quads side by side with a common edge and two materials. The texture of the second has a seam.
 MorphModel two_quads() {
     MorphModel model;
     model.name = "quads";
     model.vertices.resize(7, 3);
     model.vertices << 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 9, 9,
-        9;  // the last is unused
+        9;  // the last one is unused
     MorphPart skin;
     skin.name = "skin";
     skin.triangles.resize(2, 3);
@@ -35,7 +35,7 @@ MorphModel two_quads() {
     eye.triangles.resize(2, 3);
     eye.triangles << 1, 2, 5, 1, 5, 4;
     eye.texcoords.resize(6, 2);
-    eye.texcoords << 0, 0, 1, 0, 1, 1, 0.25, 0, 1, 1, 0, 1;  // vertex 1 twice
+    eye.texcoords << 0, 0, 1, 0, 1, 1, 0.25, 0, 1, 1, 0, 1;  // vertex 1 occurs twice
     eye.tint = Points::Ones(7, 3);
     model.parts = {skin, eye};
     Points lift(2, 3);
@@ -53,7 +53,7 @@ MorphModel two_quads() {
     return model;
 }
 
-/// The two chunks of a .glb.
+/// The two chunks of a .glb file.
 std::pair<Json, std::string> chunks(const std::string& bytes) {
     const auto number = [&](std::size_t at) {
         std::uint32_t value = 0;
@@ -76,7 +76,7 @@ TEST(MorphModel, ReadsBackWhatWasWritten) {
     EXPECT_EQ(bytes, glb_bytes(model));
     std::ofstream(file, std::ios::binary) << bytes;
     const MorphModel back = read_glb(file);
-    ASSERT_EQ(back.vertices.rows(), 6);  // the unused one is not there
+    ASSERT_EQ(back.vertices.rows(), 6);  // without the unused one
     EXPECT_EQ(back.vertices, model.vertices.topRows(6));
     ASSERT_EQ(back.targets.size(), 3u);
     for (std::size_t t = 0; t < 3; ++t) {
@@ -100,7 +100,7 @@ TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
     const MorphModel model = two_quads();
     const std::string bytes = glb_bytes(model);
     std::ofstream(file, std::ios::binary) << bytes;
-    const double step = 0.5 / 32767;  // 0.5 is the largest delta
+    const double step = 0.5 / 32767;  // 0.5 is the maximum displacement
     const MorphModel back = read_glb(file);
     EXPECT_LT((back.vertices - model.vertices.topRows(6)).cwiseAbs().maxCoeff(), 1e-6);
     for (std::size_t t = 0; t < 3; ++t) {
@@ -140,7 +140,7 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
     const auto count = [&](const Json& index) {
         return json["accessors"][index.get<std::size_t>()]["count"].get<int>();
     };
-    const std::array<int, 2> vertices{4, 5};  // the seam's vertex is there twice
+    const std::array<int, 2> vertices{4, 5};  // the seam's vertex occurs twice
     for (std::size_t p = 0; p < 2; ++p) {
         const Json& primitive = mesh["primitives"][p];
         for (const auto& [name, index] : primitive["attributes"].items())
@@ -151,22 +151,23 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
                 EXPECT_EQ(count(index), vertices[p]) << name;
                 const Json& accessor = json["accessors"][index.get<std::size_t>()];
                 EXPECT_EQ(accessor["min"].size(), 3u);
-                EXPECT_FALSE(accessor.contains("bufferView"));  // zero but where it says
+                // Zero except for the listed entries.
+                EXPECT_FALSE(accessor.contains("bufferView"));
             }
     }
-    // Only "lift" moves the first quad's corner 4, and nothing else of it
+    // Only "lift" moves corner 4 of the first quad, and nothing else of it.
     const Json& moved =
         json["accessors"][mesh["primitives"][0]["targets"][0]["POSITION"].get<std::size_t>()];
     EXPECT_EQ(moved["sparse"]["count"], 1);
     EXPECT_EQ(moved["max"][2], 0.25);
-    // Linear light: less than half of an sRGB of 0.8
+    // Linear light: less than half of an sRGB of 0.8.
     EXPECT_NEAR(json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(),
                 0.6038, 1e-3);
 }
 
 constexpr const char* kThree = "/usr/share/javascript/three";  // of Debian's libjs-three
 
-/// What three.js says of a file, in headless Chromium where there is one, else in node; empty without either.
+/// What three.js says about a file, in headless Chromium if there is one, else in node; empty without either.
 std::string loaded_in_three(const std::filesystem::path& file, const std::string& bytes,
                             const std::filesystem::path& folder) {
     const std::string script = std::string(RISORIUS_SOURCE_DIR) + "/tests/io/load_in_three.js";

@@ -31,7 +31,7 @@ std::string complaint(const std::string& text) {
     return "nothing";
 }
 
-/// The "v" lines of an OBJ, read in the plainest way there is.
+/// Reads the "v" lines of an OBJ in the simplest way.
 std::vector<std::array<double, 3>> vertex_lines(const fs::path& file) {
     std::ifstream in(file);
     std::vector<std::array<double, 3>> out;
@@ -86,8 +86,7 @@ TEST(ReadMesh, KeepsTheSeventeenRegionsOfTheIctHead) {
         int v_first = 0, v_last = 0, f_first = 0, f_last = 0;
         words >> name >> v_first >> v_last >> f_first >> f_last;
         EXPECT_EQ(mesh.group_names[regions], name);
-        // A region may use seam vertices of another, but every vertex of its own range is used by
-        // it.
+        // A region may use seam vertices of another one, but it uses every vertex of its own range.
         std::vector<bool> used(mesh.vertex_count(), false);
         for (int f = 0; f < mesh.face_count(); ++f) {
             ASSERT_EQ(mesh.face_group[f] == regions, f >= f_first && f <= f_last) << "face " << f;
@@ -130,7 +129,7 @@ TEST(ReadMesh, TheSkinOfEachHeadPassesTheChecks) {
     const geom::MeshReport makehuman = check(kHeads / "makehuman" / "mh_head.obj", {"skin"});
     EXPECT_TRUE(makehuman.findings.empty());
     EXPECT_EQ(makehuman.boundary_loop_count, 1);
-    // The same skin cut along its texture seams: notes, no errors.
+    // The same skin, cut along its texture seams: notes but no errors.
     const geom::MeshReport glb = check(kHeads / "makehuman" / "mh_head.glb", {"skin"});
     EXPECT_EQ(glb.piece_face_count.size(), 5u);
     for (const geom::MeshFinding& finding : glb.findings)

@@ -28,8 +28,7 @@ void expect_same(const geom::PolygonMesh& a, const geom::PolygonMesh& b) {
     EXPECT_EQ(a.group_names, b.group_names);
 }
 
-/// A triangle, a quad and a pentagon in two groups that alternate, with coordinates no short
-/// decimal can hold.
+/// A triangle, a quad and a pentagon in two groups that alternate, with coordinates that no short decimal can represent.
 geom::PolygonMesh mixed_polygons() {
     geom::PolygonMesh mesh;
     mesh.positions.resize(8, 3);
@@ -55,7 +54,7 @@ TEST(WriteObj, WritesTheUnitAskedFor) {
     const geom::PolygonMesh mesh = mixed_polygons();
     write_obj(mesh, file, 0.01);
     EXPECT_NEAR(read_mesh(file).positions(0, 0), 100.0 / 3.0, 1e-13);
-    // Dividing and multiplying by 0.01 rounds once each: a few parts in 1e16.
+    // Dividing and multiplying by 0.01 round once each: a few parts in 1e16.
     const geom::PolygonMesh back = read_mesh(file, {.metres_per_unit = 0.01});
     for (int v = 0; v < 8; ++v)
         EXPECT_LT((back.positions.row(v) - mesh.positions.row(v)).norm(), 1e-15);

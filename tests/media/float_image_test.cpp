@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of numbers written and read back to the bit.
+// Pictures of numbers are written and read back bit for bit.
 #include "risorius/media/float_image.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(FloatImage, ReadsBackBitForBit) {
         EXPECT_EQ(back.samples, image.samples);
     }
     EXPECT_EQ(folder.listing(), std::set<std::string>{"a.exr"});
-    // The magic number of OpenEXR and the names of its channels, in the order of the alphabet
+    // The magic number of OpenEXR, and the names of its channels in alphabetical order.
     const std::string bytes = bytes_of(folder / "a.exr");
     EXPECT_EQ(bytes.substr(0, 4), "\x76\x2f\x31\x01");
     EXPECT_LT(bytes.find(std::string("B\0", 2)), bytes.find(std::string("R\0", 2)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light read from Radiance files, from files made here.
+// Light from Radiance files that are made here.
 #include "risorius/media/hdr_file.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(HdrFile, PlainPixelsComeBackWithinAPartIn256OverManyStops) {
 }
 
 TEST(HdrFile, PackedRowsAreTheSameAsPlainOnes) {
-    // Ten pixels, channel by channel: a run of six and four single bytes
+    // Ten pixels, channel by channel: a run of six and four single bytes.
     std::string packed = kHead + "-Y 1 +X 10\n" + std::string("\x02\x02\x00\x0a", 4);
     std::string plain = kHead + "-Y 1 +X 10\n";
     const auto byte = [](int channel, int x) {

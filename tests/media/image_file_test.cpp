@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG pictures written and read back.
+// PNG pictures are written and read back.
 #include "risorius/media/image_file.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,7 @@ TEST(PngFile, TransparentPictureReadsBackBitForBitEvenUnderAlphaZero) {
 }
 
 TEST(PngFile, FirstRowIsTheTopAndChannelsAreRedGreenBlue) {
-    // An independent picture: the smallest PNG of one red over one blue pixel, written by hand
-    // (stored deflate block).
+    // An independent picture: the smallest PNG of a red pixel above a blue one, written by hand (stored deflate block).
     const unsigned char png[] = {
         0x89, 'P', 'N',  'G',  13,   10,   26,   10,                                             //
         0,    0,   0,    13,   'I',  'H',  'D',  'R',  0,    0,    0,    1,   0, 0,    0,    2,  //

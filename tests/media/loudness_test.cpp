@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Against the signals of EBU Tech 3341 (2016), table 1, whose loudness is published.
+// Compared with the signals of EBU Tech 3341 (2016), table 1, whose loudness is published.
 #include "risorius/media/loudness.h"
 
 #include <gtest/gtest.h>
@@ -13,10 +13,11 @@
 namespace risorius::media {
 namespace {
 
-/// A quarter of the tables' lengths: the same blocks but for those at the borders, for a quarter of the time.
+/// Lengths are a quarter of those in the tables. Except at the borders the blocks are the same, and the test takes a quarter of
+/// the time.
 constexpr double kShorter = 4;
 
-/// Both channels alike: pieces of a sine of 1 kHz, level in dBFS and length in s before it is shortened.
+/// Both channels are equal: pieces of a sine of 1 kHz, given by level in dBFS and length in s before it is shortened.
 Sound tones(const std::vector<std::pair<double, double>>& pieces) {
     Sound out;
     out.channels = 2;
@@ -43,7 +44,7 @@ TEST(Loudness, IsThatOfThePublishedSignals) {
 }
 
 TEST(Loudness, FindsThePeakBetweenTheSamples) {
-    // 16: a quarter of the rate, 60 degrees off, half of full scale: every sample is below the peak of -6 dBTP
+    // 16: a quarter of the rate, 60 degrees off, half of full scale. Every sample is below the peak of -6 dBTP.
     Sound sound;
     for (int i = 0; i < 48000; ++i)
         sound.samples.push_back(

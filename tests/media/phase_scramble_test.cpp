@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWaveWidth = 24, kWaveHeight = 18;
 
-/// Soft waves of little contrast, so that nothing is cut off.
+/// Soft waves of little contrast, so that nothing is clipped.
 Image waves(double shift) {
     Image image(kWaveWidth, kWaveHeight);
     for (int y = 0; y < kWaveHeight; ++y)
@@ -27,7 +27,7 @@ Image waves(double shift) {
     return image;
 }
 
-/// Of one frequency of the red channel, by the definition.
+/// Amplitude of one frequency of the red channel, by its definition.
 double amplitude(const Image& image, int fx, int fy) {
     std::complex<double> sum = 0;
     for (int y = 0; y < kWaveHeight; ++y)

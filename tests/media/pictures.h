@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pictures to write and to read back.
+/// Pictures that the tests write and read back.
 #pragma once
 
 #include "risorius/core/image.h"
@@ -8,11 +8,10 @@
 
 namespace risorius::media {
 
-/// Of the videos of the tests.
+/// Size of the tests' videos.
 inline constexpr int kWidth = 64, kHeight = 48;
 
-/// Noise that no codec can predict: pixel values of a linear congruential generator, opaque unless
-/// asked otherwise.
+/// Noise that no codec can predict: pixel values of a linear congruential generator, opaque by default.
 inline Image noise(int width, int height, unsigned seed, bool opaque = true) {
     Image image(width, height);
     std::uint32_t state = seed * 2654435761u + 1;

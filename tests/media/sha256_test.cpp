@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SHA-256 against the vectors of FIPS 180-4 and NIST's example file.
+// SHA-256, compared with the vectors of FIPS 180-4 and NIST's example file.
 #include "risorius/media/sha256.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sound put beside a video and read back: every sample in its place, at every format's own precision.
+// Sound is stored with a video and read back: every sample is at its place, with the precision of each format.
 #include "risorius/media/detail/sound.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void put_number(std::string& bytes, std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 0xff));
 }
 
-/// A WAV file of 16-bit samples written by hand (RIFF WAVE, format 1), independent of what reads it.
+/// A WAV file of 16-bit samples, written by hand (RIFF WAVE, format 1), independent of the reader.
 std::string wav_bytes(const std::vector<std::int16_t>& samples, int rate_hz, int channels = 1) {
     const auto size = static_cast<std::uint32_t>(2 * samples.size());
     std::string out = "RIFF";
@@ -43,7 +43,7 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// A click that codecs keep the place of: 2 ms of a windowed 3 kHz tone, its middle at `at`.
+/// A click whose position survives codecs: 2 ms of a windowed 3 kHz tone, with its middle at `at`.
 std::vector<std::int16_t> click(int length, int at, int rate_hz) {
     std::vector<std::int16_t> out(static_cast<std::size_t>(length), 0);
     const int half = rate_hz / 1000;
@@ -55,7 +55,7 @@ std::vector<std::int16_t> click(int length, int at, int rate_hz) {
     return out;
 }
 
-/// When a click sounds, s, by time stamps and samples: the shift that fits best (cross-correlation with the click).
+/// Time at which a click sounds, s, by time stamps and samples: the shift that fits best (cross-correlation with the click).
 double click_time_s(const Sound& heard) {
     const int half = heard.rate_hz / 1000;
     const std::vector<std::int16_t> shape = click(2 * half + 1, half, heard.rate_hz);
@@ -77,10 +77,10 @@ double click_time_s(const Sound& heard) {
 
 Image grey_frame(int value) { return flat(kWidth, kHeight, value, value, value); }
 
-/// One second at 50 fps, white in frame 20 alone, the click of the recording at 0.4 s.
+/// One second at 50 fps that is white only in frame 20, with the recording's click at 0.4 s.
 void write_flash_and_click(const std::filesystem::path& target, int rate_hz) {
     const TemporaryFolder folder;
-    // 0.15 s into the recording, which begins 0.25 s after the video
+    // 0.15 s into the recording, which begins 0.25 s after the video.
     write_bytes(folder / "click.wav",
                 wav_bytes(click(rate_hz / 4, 15 * rate_hz / 100, rate_hz), rate_hz));
     VideoOptions options{.width_px = kWidth, .height_px = kHeight, .fps = 50};

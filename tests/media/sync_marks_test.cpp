@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What machines that watch the screen get: numbers of frames that survive encoders, squares, luminance.
+// Marks for machines that watch the screen: frame numbers that survive encoders, squares, luminance.
 #include "risorius/media/sync_marks.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(SyncMarks, FrameCounterIsReadBackFromEveryFrameOfEveryKindOfVideo) {
     for (const char* name : {"a.mp4", "a.mov", "a.mkv", "a.webm"}) {
         const TemporaryFolder folder;
         VideoOptions options{.width_px = kSide, .height_px = 64, .fps = 60};
-        if (std::string(name) != "a.mkv") options.crf = 35;  // a poor one
+        if (std::string(name) != "a.mkv") options.crf = 35;  // low quality
         VideoWriter writer(folder / name, options);
         for (int n = 0; n < 40; ++n) {
             Image image = noise(kSide, 64, 1);
@@ -49,8 +49,9 @@ TEST(SyncMarks, FrameCounterIsInItsCornerAndChecksItself) {
     }
     Image image = flat(150, 60, 0, 0, 0);
     draw_frame_counter(Corner::kUpperLeft, 4, 6, image);
+    // One wrong bit.
     for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) image.pixel(4 * 10 + x, y)[1] = 255;  // one bit wrong
+        for (int x = 0; x < 4; ++x) image.pixel(4 * 10 + x, y)[1] = 255;
     EXPECT_EQ(read_frame_counter(Corner::kUpperLeft, 4, image), std::nullopt);
 }
 
@@ -88,7 +89,7 @@ TEST(Luminance, OfHalfBlackHalfWhiteIsAHalfWithFullContrast) {
     EXPECT_NEAR(first.luminance_sd, 0.5, 1e-12);
     EXPECT_NEAR(first.contrast_rms, 1, 1e-12);
     EXPECT_EQ(first.motion_energy, 0);
-    // A quarter of the pixels turns from white to black
+    // A quarter of the pixels change from white to black.
     for (int y = 0; y < 10; ++y)
         for (int x = 0; x < 5; ++x)
             for (int k = 0; k < 3; ++k) image.pixel(x, y)[k] = 0;
@@ -97,7 +98,7 @@ TEST(Luminance, OfHalfBlackHalfWhiteIsAHalfWithFullContrast) {
 }
 
 TEST(Luminance, OfAPictureAfterOthersIsWhatItIsAlone) {
-    // Not a whole number of blocks; some pixels change, some become transparent, the rest stay
+    // The number of pixels is not a whole number of blocks. Some pixels change, some become transparent, and the others stay.
     Image image(37, 11);
     for (std::size_t i = 0; i < image.rgba.size(); ++i)
         image.rgba[i] = static_cast<std::uint8_t>(31 * i + i / 7);

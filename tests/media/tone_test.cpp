@@ -39,14 +39,15 @@ TEST(Tone, GivesPicturesTheMeanAndDeviationAskedFor) {
     curve.apply(image);
     LuminanceSums after;
     after.add(image);
-    // A byte is half a step of 1/255 wrong at most, which is 0.004 of Y where it is steepest, and at random
+    // A byte has an error of at most half a step of 1/255, which is 0.004 of Y where the curve is steepest. The errors are
+    // random.
     EXPECT_NEAR(after.mean(), 0.4, 5e-4);
     EXPECT_NEAR(after.sd(), 0.1, 5e-4);
 }
 
 TEST(Tone, TellsHowMuchItCutsOff) {
     const Image image = ramp();
-    // Light doubled: what was more than half of it is too much, that is bytes above 187
+    // With doubled light, everything above half is clipped: bytes above 187.
     const ToneCurve curve(Tone{.gain = 2, .offset = 0});
     EXPECT_EQ(curve.of(188), 255);
     EXPECT_LT(curve.of(187), 255);

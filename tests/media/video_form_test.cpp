@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every kind of video file keeps, and how combinations it does not have are refused.
+// What every kind of video file preserves, and how unsupported combinations are rejected.
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -72,7 +72,7 @@ TEST(VideoForm, LosslessIsBitForBitInEveryFile) {
     }
 }
 
-/// Transparent on the left, half so in the middle, opaque on the right.
+/// Transparent on the left, half transparent in the middle, opaque on the right.
 Image curtain() {
     Image image = flat(kWidth, kHeight, 180, 120, 100);
     for (int y = 0; y < kHeight; ++y)
@@ -154,7 +154,7 @@ TEST(VideoForm, QualityPresetAndKeyFramesReachTheEncoder) {
     EXPECT_NE(size_with("a.mp4", {}, "ultrafast", 12), size_with("a.mp4", {}, "slow", 12));
 }
 
-/// All samples of a PNG as libpng's own reader gives them.
+/// All samples of a PNG, as libpng's own reader gives them.
 std::vector<std::uint16_t> samples_of_png16(const std::filesystem::path& file, int& bits) {
     std::FILE* in = std::fopen(file.c_str(), "rb");
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Videos written and read back: every frame once, at its time, with its colour; and nothing left of
-// what failed.
+// Videos are written and read back: every frame once, at its time, with its colour. A failed write leaves nothing.
 #include "risorius/media/video_writer.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +20,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// A frame that tells its number by its brightness, 4 levels apart, with a gradient for the encoder
-/// to work on.
+/// A frame whose brightness tells its number, in steps of 4 levels, with a gradient as work for the encoder.
 Image numbered_frame(int n) {
     Image image = flat(kWidth, kHeight, 16 + 4 * n, 16 + 4 * n, 16 + 4 * n);
     for (int y = 0; y < kHeight / 4; ++y)
@@ -81,7 +79,7 @@ TEST(VideoWriter, Mp4HoldsEveryFrameOnceInOrderAtExactTimes) {
         EXPECT_EQ(video.height_px(), kHeight);
         EXPECT_EQ(video.fps(), fps);
         for (int n = 0; n < 40; ++n) {
-            // The file's clock is a whole multiple of fps, so only the division rounds.
+            // The clock of the file is a whole multiple of fps, so only the division rounds.
             EXPECT_NEAR(video.time_s(n), static_cast<double>(n) / fps, 1e-12);
             EXPECT_NEAR(mean_green(video.frame(n)), 16 + 4 * n, 1.0) << "frame " << n;
         }
@@ -138,10 +136,9 @@ TEST(VideoWriter, FramesCanBeReadInAnyOrder) {
 }
 
 TEST(VideoWriter, Mp4CarriesFlatColoursThroughTheBt709Matrix) {
-    // 8-bit limited-range Y'CbCr rounds by up to half a level of 219 or 224, which the matrix turns
-    // into at most 0.5 * 255/219 + 0.5 * 1.8556 * 255/224 < 2 levels of R'G'B'; crf 0 would add
-    // nothing, crf 18 about one more. The BT.601 matrix in either direction would move saturated
-    // colours by 20 levels and more.
+    // 8-bit limited-range Y'CbCr rounds by up to half a level of 219 or 224. The matrix turns this into at most 0.5 * 255/219 +
+    // 0.5 * 1.8556 * 255/224 < 2 levels of R'G'B'. crf 0 would add nothing, crf 18 about one more. The BT.601 matrix in either
+    // direction would change saturated colours by 20 levels or more.
     const int colours[][3] = {{255, 255, 255}, {0, 0, 0},      {128, 128, 128}, {255, 0, 0},
                               {0, 255, 0},     {0, 0, 255},    {255, 255, 0},   {0, 255, 255},
                               {255, 0, 255},   {200, 150, 120}};
@@ -161,8 +158,7 @@ TEST(VideoWriter, Mp4CarriesFlatColoursThroughTheBt709Matrix) {
 TEST(VideoWriter, Mp4NamesItsColourSpaceInTheContainer) {
     const TemporaryFolder folder;
     write_numbered(folder / "a.mp4", 2);
-    // ISO 14496-12 "colr" box, type "nclx": primaries, transfer and matrix 1 = BT.709, then the
-    // full-range bit, 0.
+    // ISO 14496-12 "colr" box, type "nclx": primaries, transfer and matrix 1 = BT.709, then the full-range bit, 0.
     const std::string wanted("colrnclx\0\1\0\1\0\1\0", 15);
     EXPECT_NE(bytes_of(folder / "a.mp4").find(wanted), std::string::npos);
 }
@@ -237,7 +233,7 @@ TEST(VideoWriter, FinishedVideoReplacesAnEarlierOne) {
                                        "frames/frame_000001.png", "frames/frame_000002.png"}));
 }
 
-/// Lets no file of this process grow past a size, as a full disk would.
+/// Limits the size of every file of this process, as a full disk would.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) {
@@ -257,7 +253,7 @@ class FileSizeLimit {
 };
 
 TEST(VideoWriter, FailedWriteIsARunErrorAndLeavesNothing) {
-    // Limits from below one frame of noise up to one that only the closing of the file passes.
+    // Limits from less than one frame of noise up to one that is only exceeded when the file is closed.
     for (const char* name : {"new/a.mp4", "new/a.mov", "new/a.mkv", "new/a.webm", "new/frames/"}) {
         const TemporaryFolder folder;
         for (rlim_t limit : {10u, 1000u, 6000u}) {

@@ -10,7 +10,7 @@ namespace risorius::muscle {
 namespace {
 
 constexpr ActivationTimes kThelen{0.010, 0.040};
-/// rigs/standard/muscles.json, eyelid muscles.
+/// Eyelid muscles of rigs/standard/muscles.json.
 constexpr ActivationTimes kEyelid{0.025, 0.045};
 
 constexpr ActivationLaw kSmooth{.form = ActivationLaw::Form::kSmooth};
@@ -26,7 +26,7 @@ double time_to(double level, double a, double u, const ActivationTimes& times) {
     return std::numeric_limits<double>::infinity();
 }
 
-// Thelen 2003 with t_act = 10 ms and t_deact = 40 ms, integrated with h = 0.1 ms; read to 0.1 ms.
+// Thelen 2003 with t_act = 10 ms and t_deact = 40 ms, integrated with h = 0.1 ms; times are read to 0.1 ms.
 TEST(Activation, RisesAndFallsAtThePublishedTimes) {
     EXPECT_NEAR(time_to(0.5, 0, 1, kThelen), 6.4e-3, 0.15e-3);
     EXPECT_NEAR(time_to(0.9, 0, 1, kThelen), 32.5e-3, 0.15e-3);
@@ -96,11 +96,11 @@ TEST(Activation, CrossingRestFirstReturnsThenGrows) {
         previous = a;
     }
     EXPECT_LT(a, -0.95);
-    // Returning to 0 cannot be quicker than plain relaxation towards the same excitation at the slowest slope.
+    // The return to 0 cannot be faster than plain relaxation towards the same excitation with the smallest slope.
     EXPECT_GT(time_to(0, 0.8, -1, kEyelid), 0.010);
 }
 
-// Lids: down phase of a voluntary blink 78 ms, up phase 120-200 ms (VanderWerf et al. 2003).
+// Lids: the down phase of a voluntary blink takes 78 ms, the up phase 120-200 ms (VanderWerf et al. 2003).
 TEST(Activation, EightyMillisecondPulseClosesTheLidsAndReleasesThem) {
     const double orbicularis_start_s = 0.010, pulse_end_s = 0.080, h = 1e-3;
     double levator = 0, orbicularis = 0, closed_from_s = 0, open_from_s = 0;
@@ -121,7 +121,7 @@ TEST(Activation, EightyMillisecondPulseClosesTheLidsAndReleasesThem) {
     EXPECT_LT(open_from_s, 0.250);
 }
 
-// Law of De Groote et al. 2016 with the corrected steepness, integrated with the midpoint rule and h = 1 us.
+// The law of De Groote et al. 2016 with the corrected steepness, integrated with the midpoint rule and h = 1 us.
 TEST(SmoothActivation, RisesLikeThelensAndFallsATenthEarlier) {
     const double h = 1e-5;
     const auto time = [&](double level, double a, double u) {
@@ -180,7 +180,7 @@ TEST(Activation, BothLawsAreMonotoneAndNeverPassTheExcitation) {
             }
 }
 
-/// When a crosses 0.5, followed by whole frames and then by what is left to t.
+/// Time at which a crosses 0.5, followed in whole frames and a last partial frame.
 double onset_at(int fps, const ActivationLaw& law, bool up) {
     const auto at = [&](double t) {
         double a = up ? 0 : 1;
@@ -243,7 +243,7 @@ TEST(ActivationDynamics, ShortPulseActsTheSameAtEveryFrameRate) {
             dynamics.advance(pulse, {}, frame / double(fps), (frame + 1) / double(fps));
         return dynamics.activation()[0];
     };
-    // An edge is met within 1 ms; activation falls by at most 20 per second.
+    // An edge is met within 1 ms, and activation falls by at most 20 per second.
     for (int fps : {12, 24, 60, 240}) EXPECT_NEAR(peak_after(fps), peak_after(120), 0.02) << fps;
 }
 

@@ -43,7 +43,7 @@ TEST(ChainSet, TheGradientIsTheSlopeOfTheEnergy) {
         for (const double a : {0.0, 0.3, 1.0}) {
             Points gradient = Points::Zero(10, 3), scratch = gradient;
             set.add_energy(x, a, gradient);
-            const double h = 1e-7;  // central difference: error about 1e-8 N
+            const double h = 1e-7;  // central difference: the error is about 1e-8 N
             for (int i = 0; i < 10; i += 3)
                 for (int k = 0; k < 3; ++k) {
                     Points there = x;
@@ -85,8 +85,8 @@ TEST(ChainSet, AtRestARelaxedChainDoesNotPull) {
 }
 
 TEST(ChainSet, AtFullActivationTheTendonYieldsAndTheFibresShorten) {
-    // Isometric at lam 0.9 with 18 mm of tendon to 22 mm of fibre: fl near 0.95 strains the tendon to about 3.2 %, so the
-    // fibres give 0.6 mm of their 22.
+    // Isometric at lam 0.9 with 18 mm of tendon and 22 mm of fibre: fl near 0.95 strains the tendon to about 3.2 %, so the
+    // fibres lose 0.6 mm of their 22.
     const TwoChains two;
     const ChainSet set = two.make(kMasseterLike);
     EXPECT_NEAR(set.mean_stretch(two.rest, 1.0), 1 - 0.032 * 18 / 22, 4e-3);
@@ -100,7 +100,7 @@ TEST(ChainSet, OneTensionRunsThroughSegmentsOfDifferentLength) {
     const TwoChains two;
     const ChainSet set = two.make({.f0_n = 10});
     Points x = two.rest;
-    x(2, 0) = 0.027;  // one segment long, the next short
+    x(2, 0) = 0.027;  // one segment is long, the next one short
     Points gradient = Points::Zero(10, 3);
     set.add_energy(x, 1.0, gradient);
     for (int i = 1; i < 4; ++i) EXPECT_NEAR(gradient.row(i).norm(), 0, 1e-12);

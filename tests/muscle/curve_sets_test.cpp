@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The published sets of force curves against their sources, and how a file chooses and tunes one.
+// The published sets of force curves, compared with their sources, and how a file chooses and changes one.
 
 #include "risorius/muscle/curve_sets.h"
 
@@ -18,7 +18,7 @@ void expect_values(const Curve& curve, const PublishedTable& table) {
     for (const auto& [x, f] : table) EXPECT_NEAR(curve.value(x), f, 1e-5) << "at " << x;
 }
 
-// Thelen's formulas as published, kinks and all.
+// Thelen's formulas as published, with their kinks.
 double thelen_passive(double l) {
     return l <= 1 ? 0 : std::expm1(5 * (l - 1) / 0.6) / std::expm1(5.0);
 }
@@ -50,7 +50,7 @@ TEST(ThelenCurves, AreThePublishedOnesAwayFromTheirKinks) {
     EXPECT_LT(farthest(curves.passive, thelen_passive, 1.12, 1.6), 1e-12);
     EXPECT_LT(farthest(curves.velocity, thelen_velocity, -0.9, 0), 1e-12);
     EXPECT_LT(farthest(curves.velocity, thelen_velocity, 0.04, 1), 1e-12);
-    // What is left is the paper's rounding of 0.60862 and 1.71189.
+    // The rest is the paper's rounding of 0.60862 and 1.71189.
     EXPECT_LT(farthest(curves.tendon, thelen_tendon, 0.0082, 0.05), 1e-3);
 }
 
@@ -62,7 +62,7 @@ TEST(ThelenCurves, DifferFromThePublishedOnesAtKinksByWhatTheHeaderSays) {
     EXPECT_LT(farthest(curves.tendon, thelen_tendon, 0, 0.0082), 0.0027);
 }
 
-// Control points of the paper's curves, inverted by halving in another program.
+// Control points of the paper's curves, inverted by bisection in another program.
 TEST(MillardCurves, HaveTheValuesOfTheirControlPoints) {
     const MuscleCurves curves = millard_curves();
     expect_values(curves.active, {{.4, 0},
@@ -120,8 +120,8 @@ TEST(MillardCurves, AreSmoothInTheSecondDerivativeToo) {
             const auto second = [&](double x) {
                 return (curve->at(x + h).slope - curve->at(x - h).slope) / (2 * h);
             };
-            EXPECT_NEAR(second(joint - 2 * h), 0, 0.5)
-                << "at " << joint;  // some 10 per 1e-3 off it
+            // About 10 per 1e-3 beside it.
+            EXPECT_NEAR(second(joint - 2 * h), 0, 0.5) << "at " << joint;
             EXPECT_NEAR(second(joint + 2 * h), 0, 0.5) << "at " << joint;
         }
 }
@@ -135,7 +135,7 @@ TEST(ZajacCurves, FollowThePublishedTables) {
         if (v <= 0) {
             EXPECT_NEAR(curves.velocity.value(v), f, v < -0.95 ? 5e-3 : 1e-6) << "at " << v;
         }
-    // The passive table has no smooth toe, and breaks off at 1.6.
+    // The passive table has no smooth toe and ends at 1.6.
     for (const auto& [l, f] : published_passive_force())
         EXPECT_NEAR(curves.passive.value(l), f, 0.2) << "at " << l;
 }

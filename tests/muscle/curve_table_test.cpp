@@ -22,7 +22,7 @@ TEST(CurveTable, AgreesWithTheCurveAtTheEndsOfItsCells) {
         EXPECT_NEAR(kTable.at(x).value, kVelocity.at(x).value, 1e-12);
         EXPECT_NEAR(kTable.at(x).integral, kVelocity.at(x).integral, 1e-12);
     }
-    EXPECT_EQ(kTable.at(0).value, 1.0);  // a fibre that comes to rest pulls as at rest
+    EXPECT_EQ(kTable.at(0).value, 1.0);  // a fibre that has stopped has its static force
 }
 
 TEST(CurveTable, IsWithinAHundredThousandthBetweenThem) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A musculotendon at rest in one dimension, and how its five parameters scale it.
+// A musculotendon in equilibrium in one dimension, and how its five parameters scale it.
 
 #include "risorius/muscle/equilibrium.h"
 
@@ -86,7 +86,7 @@ TEST(Scaling, ALongerTendonGivesMoreAtTheSameForce) {
     compliant.tendon_slack_m = 0.2;
     const Equilibrium near = equilibrium(kMuscle, curves, 1, 0.06);
     const Equilibrium far = equilibrium(compliant, curves, 1, 0.24);
-    EXPECT_LT(far.fibre_m, near.fibre_m - 0.004);  // ten times the stretch of some 0.6 mm
+    EXPECT_LT(far.fibre_m, near.fibre_m - 0.004);  // ten times the stretch of about 0.6 mm
 }
 
 TEST(Scaling, SpeedScalesWithGreatestSpeedAndOptimalLength) {
@@ -100,7 +100,7 @@ TEST(Scaling, SpeedScalesWithGreatestSpeedAndOptimalLength) {
         EXPECT_DOUBLE_EQ(fibre_force(fast, curves, 1, 0.04, 2 * speed), force);
         EXPECT_DOUBLE_EQ(fibre_force(longer, curves, 1, 0.08, 2 * speed), force);
     }
-    // At vmax nothing is left but damping and the rounded end of Hill's curve.
+    // At vmax only damping and the rounded end of Hill's curve are left.
     EXPECT_NEAR(fibre_force(kMuscle, curves, 1, 0.04, -0.4), 94.2 * (0.00496 - 0.05), 1e-3);
 }
 
@@ -111,7 +111,7 @@ TEST(Scaling, PennationGrowsAtConstantThickness) {
         const Equilibrium at = equilibrium(rigidly(pennated(25)), curves, 1, length);
         EXPECT_NEAR(at.fibre_m * std::sin(at.pennation_rad), thickness, 1e-15);
     }
-    // At optimal length cos(alpha) of F0 reaches the tendon.
+    // At the optimal length, the fraction cos(alpha) of F0 reaches the tendon.
     const double cosine = std::cos(25 * std::numbers::pi / 180);
     EXPECT_NEAR(equilibrium(rigidly(pennated(25)), curves, 1, 0.02 + 0.04 * cosine).force_n,
                 94.2 * cosine, 1e-9);

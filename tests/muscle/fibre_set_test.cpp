@@ -45,7 +45,7 @@ FibrePoint on_bone(int body, const Vec3& rest) {
     return point;
 }
 
-/// One fibre from bone through the tissue, one all within it; two points of the first share a node.
+/// One fibre from bone through the tissue, and one completely inside it. Two points of the first share a node.
 FibreSet two_fibres(bool with_bone = true) {
     std::vector<FibrePoint> points{
         with_bone ? on_bone(1, Vec3(0.03, 0.01, 0)) : in_tissue({9}, {1.0}),
@@ -91,7 +91,7 @@ TEST(FibreSet, RelaxedAtRestItDoesNothing) {
     const FibreSet set(points, {{.first_point = 0, .point_count = 3, .column = 0, .f0_n = 2}},
                        cloud());
     Points gradient = Points::Zero(10, 3);
-    // Rounding of the rest length may leave a strain of 1e-16
+    // Rounding of the rest length may leave a strain of 1e-16.
     EXPECT_NEAR(set.add_energy(cloud(), Eigen::VectorXd::Zero(1), gradient), 0.0, 1e-18);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-15);
 }
@@ -103,7 +103,7 @@ TEST(FibreSet, FullyActiveAtOptimalLengthItPullsWithF0) {
                        {{.first_point = 0, .point_count = 2, .column = 0, .f0_n = 2.5}}, x);
     Points gradient = Points::Zero(2, 3);
     set.add_energy(x, Eigen::VectorXd::Ones(1), gradient);
-    // The gradient at the far end points away: the force on it, -gradient, draws it in
+    // The gradient at the far end points away; the force on it, -gradient, pulls it in.
     EXPECT_DOUBLE_EQ(gradient(1, 0), 2.5);
     EXPECT_DOUBLE_EQ(gradient(0, 0), -2.5);
     EXPECT_EQ(gradient(1, 1), 0.0);
@@ -154,7 +154,7 @@ TEST(FibreSet, TheMetricIsHalfF0OverOptimalLengthAcrossEachSegment) {
     const Eigen::MatrixXd lower = builder.build({});
     const Eigen::MatrixXd metric = lower.selfadjointView<Eigen::Lower>();
     const Points rest = cloud(), points = set.positions(rest);
-    // v . A v against the segments written out
+    // v . A v, compared with the sum over the segments.
     const Eigen::VectorXd v = rest.col(1);
     const FibreSet& f = set;
     double expected = 0;
@@ -210,7 +210,7 @@ TEST(FibreSet, WhatRestsInAStepRestsAtRest) {
     EXPECT_EQ(again, at_rest);
 }
 
-// One active fibre of optimal length 10 mm between two nodes, drawn out or in along itself within a step.
+// One active fibre of optimal length 10 mm between two nodes, lengthened or shortened within a step.
 TEST(FibreSet, AMovingFibrePullsAsHillsLawSays) {
     Points x(2, 3);
     x << 0, 0, 0, 0.01, 0, 0;
@@ -222,13 +222,14 @@ TEST(FibreSet, AMovingFibrePullsAsHillsLawSays) {
     double before = 0;
     for (const double v : {-1.5, -0.5, -0.25, 0.0, 0.1}) {
         Points moved = x, gradient = Points::Zero(2, 3);
-        moved(1, 0) += v * 8 * 0.01 * h;  // speed / greatest speed of 8 optimal lengths a second
+        // Speed relative to the maximum of 8 optimal lengths per second.
+        moved(1, 0) += v * 8 * 0.01 * h;
         const double energy = set.add_energy(moved, a, gradient);
         const double passive = LengthCurves(HillShape{}).passive(moved(1, 0) / 0.01).force;
         const double hill = v <= -1.1 ? 0
                             : v <= 0  ? (1 + v) / (1 - 4 * v)
                                       : 1.4 - 0.4 / (1 + 12.5 * v);
-        // The table of the curve is good to 1e-5
+        // The error of the table is 1e-5.
         EXPECT_NEAR(gradient(1, 0), 2 * (0.5 * hill + passive), 1e-6) << "v = " << v;
         EXPECT_GE(gradient(1, 0), before) << "v = " << v;  // convex
         before = gradient(1, 0);

@@ -38,7 +38,7 @@ TEST(HillShape, PassiveForceIsLinearBeyondItsKnee) {
 }
 
 TEST(HillShape, SlopesAndIntegralsAgreeWithDifferences) {
-    const double h = 1e-6;  // central: error about 1e-9
+    const double h = 1e-6;  // central difference: the error is about 1e-9
     for (const Curve& curve : {active_curve(kShape), passive_curve(kShape)})
         for (double l = 0.2037; l < 3; l += 0.0137) {
             const Curve::Value up = curve.at(l + h), down = curve.at(l - h);
@@ -57,7 +57,7 @@ TEST(HillShape, TheCurvesOfTheInnerLoopAreTheSameCurves) {
         const LengthCurves curves(s);
         const Curve active = active_curve(s), passive = passive_curve(s);
         for (double l = 0.1; l < 3.5; l += 0.037) {
-            // Both are right to rounding; the passive curve grows to some 100
+            // Both are right up to rounding; the passive curve grows to about 100.
             EXPECT_NEAR(curves.active(l).force, active.value(l), 1e-15);
             EXPECT_NEAR(curves.active(l).integral, active.at(l).integral, 1e-15);
             EXPECT_NEAR(curves.passive(l).force, passive.value(l), 1e-12);

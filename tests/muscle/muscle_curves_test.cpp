@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The force curves of a musculotendon against tabulated values, their slopes and integrals against differences.
+// The force curves of a musculotendon, compared with tabulated values; their slopes and integrals, compared with differences.
 
 #include "risorius/muscle/muscle_curves.h"
 
@@ -25,7 +25,7 @@ void expect_values(const Curve& curve, const Table& table, double tolerance) {
     }
 }
 
-// Values worked out independently from the formulas, five decimals.
+// Values computed independently from the formulas, with five decimals.
 TEST(MuscleCurves, ActiveForceFollowsZajacsPoints) {
     const MuscleCurves curves = zajac_curves();
     expect_values(curves.active,
@@ -107,7 +107,7 @@ struct NamedCurve {
     double from, to;
 };
 
-/// Of every set.
+/// The curves of every set.
 std::vector<NamedCurve> all_curves() {
     std::vector<NamedCurve> all;
     for (const std::string_view set : curve_set_names()) {
@@ -124,7 +124,7 @@ std::vector<NamedCurve> all_curves() {
 TEST(MuscleCurves, SlopesAndIntegralsAgreeWithDifferences) {
     for (const NamedCurve& c : all_curves()) {
         const double h = (c.to - c.from) * 1e-6;
-        // The shift keeps the samples off the joints, where the second derivative jumps.
+        // The shift keeps the samples away from the joints, where the second derivative jumps.
         for (int i = 0; i <= 211; ++i) {
             const double x = c.from + (c.to - c.from) * (i + 0.137) / 212;
             const Curve::Value at = c.curve.at(x);
@@ -157,7 +157,7 @@ TEST(MuscleCurves, EverySetIsNormalised) {
         EXPECT_EQ(curves.passive.value(1), 0) << set;
         EXPECT_DOUBLE_EQ(curves.velocity.value(0), 1) << set;
         EXPECT_EQ(curves.tendon.value(0), 0) << set;
-        // A potential needs resistance that never falls: every curve but the active one.
+        // A convex potential needs a resistance that never falls. Every curve but the active one has it.
         for (double x = -1.3; x < 1.5; x += 0.01) {
             EXPECT_GE(curves.velocity.at(x).slope, 0) << set << " at " << x;
             EXPECT_GE(curves.passive.at(x + 1).slope, 0) << set << " at " << x + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids of every muscle shape: what volume, lengths and directions they have, and what is refused.
+// Grids of every muscle shape: their volume, lengths and directions, and what is rejected.
 
 #include "risorius/muscle/muscle_shape.h"
 
@@ -41,7 +41,7 @@ TEST(MuscleShape, ABlockHasItsEdgesAndARoundOneTheAreaOfItsPolygon) {
     MuscleShape cylinder = fusiform_shape();
     cylinder.end_ratio = 1;
     const double area = std::numbers::pi / 4 * 0.02 * 0.016;
-    // Three nodes make an octagon of the circle, an eighth of its angles each
+    // With three nodes, the circle becomes an octagon.
     const double octagon = 4 * std::sin(std::numbers::pi / 4) / std::numbers::pi;
     EXPECT_NEAR(muscle_belly(cylinder, {5, 3, 3}).volume_m3, 0.04 * area * octagon, 1e-12);
     EXPECT_NEAR(disc_over_polygon(3, 3), 1 / octagon, 1e-12);
@@ -75,7 +75,7 @@ TEST(MuscleShape, ABentMuscleFollowsItsPathWithTheGivenOutwardSide) {
         EXPECT_NEAR(middle.norm(), 0.04, 4e-5);  // five points make the circle
         EXPECT_NEAR(outer.norm(), 0.043, 4e-5);
     }
-    // Outer fibres are longer as their circle is, but for the chords of the slabs.
+    // Outer fibres are longer in proportion to their circle, except for the chords of the slabs.
     const double chord = 24 * std::sin(std::numbers::pi / 48);
     EXPECT_NEAR(belly.fibre_length_m[5], 0.043 * chord, 2e-4);
     EXPECT_NEAR(belly.fibre_length_m[3], 0.037 * chord, 2e-4);
@@ -84,7 +84,7 @@ TEST(MuscleShape, ABentMuscleFollowsItsPathWithTheGivenOutwardSide) {
 TEST(MuscleShape, ARingClosesOnItself) {
     const Belly belly = muscle_belly(ring_shape(), {16, 3, 3});
     EXPECT_TRUE(belly.grid.closed);
-    // Pappus: the area of the section times the way of its centre; slabs stand askew by half an angle of the 16-gon
+    // Pappus: area of the section times the path of its centre. Slabs are oblique by half an angle of the 16-gon.
     const double octagon = 4 * std::sin(std::numbers::pi / 4) / std::numbers::pi;
     const double area =
         octagon * std::numbers::pi / 4 * 0.008 * 0.005 * std::cos(std::numbers::pi / 16);
@@ -97,7 +97,7 @@ TEST(MuscleShape, ARingClosesOnItself) {
     double sum = 0;
     for (const tissue::CellMesh::Cell& cell : mesh.cells()) sum += tissue::cell_volume(cell, all);
     EXPECT_NEAR(sum / belly.volume_m3, 1, 1e-12);
-    // Width lies in the plane, its far side within the ring; thickness goes out of the plane.
+    // Width is in the plane, and its far side inside the ring. Thickness is perpendicular to the plane.
     for (int m = 0; m < 16; ++m) {
         const Vec3 inner = belly.rest.row(belly.grid.index(m, 2, 1)),
                    outer = belly.rest.row(belly.grid.index(m, 0, 1)),
@@ -105,12 +105,12 @@ TEST(MuscleShape, ARingClosesOnItself) {
         EXPECT_NEAR(outer.norm() - inner.norm(), 0.008, 5e-4);
         EXPECT_NEAR(front.z(), 0.0025, 1e-12);
     }
-    // Four faces, each a band
+    // Four faces, each a band.
     EXPECT_EQ(tissue::surface_triangles(belly.grid).rows(), 2 * 16 * 8);
 }
 
 TEST(MuscleShape, AFramedPathInSpaceTurnsNoMoreThanItHasTo) {
-    // Down a helix and without a given side, neighbouring sections are turned against each other by nothing.
+    // Along a helix without a given outward direction, neighbouring sections are not rotated relative to each other.
     MuscleShape helix = bent_shape();
     helix.outward.resize(0, 3);
     helix.widths_m = {0.006};
@@ -136,16 +136,16 @@ TEST(MuscleShape, AClosedSurfaceIsFilledAlongItsMiddleLineWithItsVolume) {
         const double volume = surface_volume(shape);
         const Belly belly = muscle_belly(shape, {9, 5, 5});
         EXPECT_NEAR(belly.volume_m3 / volume, 1, 1e-6) << bend;
-        // Of 60 mm 2 % are left out at either tip.
+        // Of 60 mm, 2 % are left out at either tip.
         EXPECT_NEAR(belly.fibre_length_m[12], 0.96 * 0.06, 0.001) << bend;
-        // Width goes where the body is widest.
+        // Width is in the direction in which the body is widest.
         const Vec3 width =
             belly.rest.row(belly.grid.index(4, 4, 2)) - belly.rest.row(belly.grid.index(4, 0, 2));
         EXPECT_GT(std::abs(width.normalized().y()), 0.99) << bend;
 
         shape.equal_volume = false;
         const Belly inside = muscle_belly(shape, {13, 9, 9});
-        // Blunt tips, angular sections and straight sides all leave something out.
+        // Blunt tips, polygonal sections and straight sides all reduce the volume.
         EXPECT_NEAR(inside.volume_m3 / volume, 1, 0.035) << bend;
         EXPECT_LT(inside.volume_m3, volume);
         const geom::SurfaceTree tree(shape.surface_m, shape.triangles);
@@ -236,14 +236,14 @@ TEST(MuscleShape, SurfacesThatCannotBeFilledAreRefused) {
     two.triangles.bottomRows(faces) =
         two.triangles.topRows(faces).array() + static_cast<int>(points);
     EXPECT_EQ(refusal(two), "surface/triangles: expected a surface of one piece, found 2");
-    // Turned by half a circle between its quarters a section runs through itself.
+    // Mirrored over a part of its circumference, a section intersects itself.
     MuscleShape twisted = spindle_shape(0);
     for (Eigen::Index i = 0; i < points - 2; ++i)
         if (i % 24 >= 4 && i % 24 <= 8) twisted.surface_m(i, 2) *= -1;
     EXPECT_EQ(refusal(twisted).rfind("surface: expected sections that do not cross themselves", 0),
               0U)
         << refusal(twisted);
-    // A ball is as long in every direction
+    // A ball has the same length in every direction.
     MuscleShape ball = spindle_shape(0);
     for (Eigen::Index i = 0; i < points; ++i) {
         Vec3 p = ball.surface_m.row(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The musculotendon's forces: laws, derivatives against differences, pennation, and what is refused.
+// The musculotendon's forces: laws, derivatives compared with differences, pennation, and what is rejected.
 
 #include "risorius/muscle/musculotendon.h"
 
@@ -47,7 +47,7 @@ Points shaken(const Points& x, double by, unsigned seed) {
     return y;
 }
 
-/// Stretched by 12 % so that fibres and tendons all pull, and disordered.
+/// Stretched by 12 %, so that fibres and tendons all pull, and disordered.
 Points stretched(double by = 1.12) {
     Points x = belly();
     x.col(0) *= by;
@@ -159,7 +159,7 @@ TEST(Musculotendon, AtOptimalLengthAMuscleCarriesF0TimesTheCosineOfItsPennation)
         EXPECT_NEAR(m.stretch(x).minCoeff(), 1, 1e-12);
         Points force = zeros();
         m.add_force(0, x, zeros(), force);
-        // Tendons are slack at rest, so the end nodes feel the fibres alone.
+        // Tendons are slack in the rest shape, so the end nodes get only the forces of fibres.
         EXPECT_NEAR(force.topRows(9).col(0).sum(), 94.2 * cosine, 1e-10);
         EXPECT_NEAR(force.bottomRows(9).col(0).sum(), -94.2 * cosine, 1e-10);
     }
@@ -187,7 +187,7 @@ TEST(Musculotendon, ARelaxedMuscleAtRestIsFreeOfForce) {
 }
 
 TEST(Musculotendon, ForceLengthIsThatOfTheWholeChain) {
-    // One segment longer, one shorter, same length of the chain: same tension in both.
+    // One segment is longer and one shorter. The chain has the same length, so both have the same tension.
     const Musculotendon m = muscle(kPrototype, 1);
     Points x = belly();
     x.middleRows(9, 9).col(0).array() += 0.002;
@@ -200,7 +200,7 @@ TEST(Musculotendon, ForceLengthIsThatOfTheWholeChain) {
     EXPECT_NEAR(force.bottomRows(9).col(0).sum(), -94.2, 1e-10);
 }
 
-/// A ring of six slabs with nothing but its fibres, disordered.
+/// A ring of six slabs with only its fibres, disordered.
 struct Ring {
     tissue::GridShape grid{6, 2, 2, true};
     Points rest = Points(grid.size(), 3), x;
@@ -235,8 +235,8 @@ TEST(Musculotendon, ARingPullsAllRoundAndItsPotentialHasItsGradientAndHessian) {
     Points force = Points::Zero(ring.grid.size(), 3);
     m.add_force(0, ring.x, shaken(force, 0.1, 8), force);
     EXPECT_LT(force.colwise().sum().norm(), 1e-13);
-    // Without the segment from the last nodes to the first those would be pulled to one side alone: in the round ring all
-    // nodes of a chain are pulled to the centre alike.
+    // Without the segment from the last nodes to the first, these would be pulled to one side only. In the round ring all nodes
+    // of a chain are pulled equally towards the centre.
     force.setZero();
     ring.muscle(1).add_force(0, ring.rest, Points::Zero(ring.grid.size(), 3), force);
     for (int i = 0; i < 6; ++i) {
@@ -269,14 +269,14 @@ TEST(Musculotendon, RigidTendonsTieTheEndsToTheirAnchors) {
     Points x = stretched(), v = zeros();
     m.place_tied(0.3, x, v);
     EXPECT_EQ(x.topRows(9), rest.topRows(9));
-    // As far from its point of the plate as at rest, and moving with it
+    // The distance from its point of the plate is that of the rest shape, and it moves with the plate.
     const Points plate = m.anchor_points(End::kInsertion, 0.3);
     for (int c = 0; c < 9; ++c) EXPECT_NEAR((plate.row(c) - x.row(27 + c)).norm(), 0.01, 1e-15);
     EXPECT_NEAR(v(27 + 4, 2), 1.2, 1e-7);
     const solve::ImplicitStep step{0.1, kInfinite, x};
     testing_of::expect_gradient_of_potential(m, step, x, 1e-8, 1e-5);
     testing_of::expect_hessian_of_potential(m, step, x, 1e-8, 1e-5);
-    // What the anchors feel is what the fibres do to the tied nodes.
+    // The force on the anchors is that of the fibres on the tied nodes.
     Points force = zeros();
     m.add_force(0, x, zeros(), force);
     EXPECT_LT((m.anchor_forces(End::kOrigin, 0, x) - force.topRows(9)).cwiseAbs().maxCoeff(),
@@ -310,7 +310,7 @@ TEST(Musculotendon, BonesHoldTendonsByOnePointALineOrOneEach) {
     const Anchor line = bone_anchor(End::kOrigin, kGrid, rest, bone);
     for (int n = 0; n < 3; ++n)
         for (int o = 0; o < 3; ++o) EXPECT_NEAR(line.rest(3 * n + o, 1), 0.01 * (n - 1), 1e-15);
-    // Slack at rest, whatever way each tendon goes
+    // Slack in the rest shape, in whatever direction each tendon goes.
     const Musculotendon m(
         kPrototype, zajac_curves(), kGrid, rest,
         {line, bone_anchor(End::kInsertion, kGrid, rest, rest.bottomRows(9).array() + 0.01)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tendons that stand square on a plane: their force, its derivatives, and what keeps the end before its plate.
+// Tendons perpendicular to a plane: their force, its derivatives, and what keeps the end in front of its plate.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Musculotendon muscle(Anchors anchors, double activation) {
                          [activation](double) { return activation; });
 }
 
-/// The insertion's plate goes aside and turns about every axis.
+/// The insertion's plate moves sideways and rotates about every axis.
 Anchors moving_planes() {
     Anchors anchors = planes();
     anchors.insertion.motion = [](double t_s) {
@@ -41,7 +41,7 @@ Anchors moving_planes() {
     return anchors;
 }
 
-/// Shorter, wider, and out of order: fibres and tendons pull.
+/// Shorter, wider and disordered: fibres and tendons pull.
 Points swollen() {
     Points x = belly();
     x.col(0) = 0.85 * x.col(0).array() + 0.003;
@@ -49,7 +49,7 @@ Points swollen() {
     return x + random_points(x.rows(), 2e-4, 1);
 }
 
-/// Sum of the forces' moments about the origin of space.
+/// Sum of the moments of forces about the origin.
 Vec3 torque(const Points& at, const Points& force) {
     Vec3 sum = Vec3::Zero();
     for (long i = 0; i < at.rows(); ++i) sum += Vec3(at.row(i)).cross(Vec3(force.row(i)));
@@ -94,13 +94,13 @@ TEST(PlaneAnchor, TendonsFeelTheirDistanceFromThePlaneAlone) {
         for (const int axis : {1, 2}) x(i, axis) += 0.4 * (x(i, axis) - middle[axis]);
     const Points after = m.anchor_forces(End::kInsertion, 0, x);
     EXPECT_LT((after - before).cwiseAbs().maxCoeff(), 1e-9) << "swelling is free";
-    // Their feet go with them
+    // Their feet move with them.
     const Points feet = m.tendon_feet(End::kInsertion, 0, x);
     for (int c = 0; c < kChains; ++c) {
         EXPECT_NEAR(feet(c, 0), 0.05, 1e-15);
         EXPECT_NEAR(feet(c, 1), x(x.rows() - kChains + c, 1), 1e-15);
     }
-    // Beyond the plane there is nothing to pull
+    // Beyond the plane the tendons do not pull.
     x.bottomRows(kChains).col(0).array() += 0.03;
     EXPECT_LT(m.anchor_forces(End::kInsertion, 0, x).cwiseAbs().maxCoeff(), 1e-9);
 }

@@ -82,7 +82,7 @@ std::pair<int, int> png_size(const std::string& bytes) {
     return {number(16), number(20)};
 }
 
-/// Every element opened is closed in order; the little of XML that a drawing program can get wrong.
+/// True when elements are closed in order: the part of XML that a drawing program may get wrong.
 bool is_well_formed(const std::string& xml) {
     std::vector<std::string> open;
     std::size_t at = 0;
@@ -92,7 +92,7 @@ bool is_well_formed(const std::string& xml) {
             if (at == std::string::npos) return false;
             continue;
         }
-        // "<" inside of an attribute ends it too early, ">" inside of one is allowed and not used here
+        // "<" inside an attribute would end it too early. ">" inside one is allowed, but not used here.
         const std::size_t end = xml.find('>', at);
         if (end == std::string::npos) return false;
         const std::string tag = xml.substr(at + 1, end - at - 1);

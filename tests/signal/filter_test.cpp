@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Filters against the frequency response that defines them, and against what must not happen: delay and drift.
+// Filters, compared with the frequency response that defines them, and checked for delay and drift, which must not occur.
 
 #include "risorius/signal/filter.h"
 
@@ -29,7 +29,7 @@ TEST(Filter, OnePassHasButterworthsResponse) {
             EXPECT_NEAR(gain(low, 0, kRate), 1, 1e-9);
             EXPECT_NEAR(gain(low, cutoff, kRate), std::sqrt(0.5), 1e-9);
             const Filter high = high_pass(order, cutoff, kRate, 1);
-            for (const double hz : {5.0, 90.0, 480.0})  // power complementary
+            for (const double hz : {5.0, 90.0, 480.0})  // the powers add up to 1
                 EXPECT_NEAR(std::pow(gain(high, hz, kRate), 2) + std::pow(gain(low, hz, kRate), 2),
                             1, 1e-8);
         }
@@ -52,7 +52,7 @@ TEST(Filter, NotchTakesOutItsFrequencyAlone) {
     EXPECT_GT(gain(filter, 100, kRate), 0.99);
 }
 
-/// Amplitude and delay of what both passes make of a sine, away from its ends.
+/// Amplitude and delay of a sine after both passes, away from its ends.
 TEST(Filter, ASineComesOutWeakerButNotLater) {
     const Filter filter = low_pass(2, 6, kRate);
     for (const double hz : {1.0, 6.0, 12.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings as files: what is read, and what is refused with file, line and column.
+// Recordings as files: what is read, and what is rejected with file, line and column.
 
 #include "risorius/signal/recording.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person reads when the description of a soft body is wrong, and what a right one says. Messages are compared whole.
+// What a person reads when the description of a soft body is wrong, and the meaning of a right one. Whole messages are
+// compared.
 #include "risorius/softbody/body_description.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ BodyDescription read(const Json& json) {
     return read_body(JsonCursor::from_json(Json{{"body", json}}, "cube.json").at("body"));
 }
 
-/// The message of reading a body with one value changed.
+/// The message of reading a body with one changed value.
 std::string message_with(const char* pointer, const char* value, Json json = cube()) {
     json[Json::json_pointer(pointer)] = Json::parse(value);
     return message_of([&] { read(json); });
@@ -93,9 +94,10 @@ TEST(BodyDescription, FoldedRestShapesAreRefused) {
     Json json = cube();
     json["grid"] = {2, 2, 2};
     Json points = Json::array();
+    // Mirrored: left-handed.
     for (int i : {0, 1})
         for (int j : {0, 1})
-            for (int k : {0, 1}) points.push_back({-i, j, k});  // mirrored: left-handed
+            for (int k : {0, 1}) points.push_back({-i, j, k});
     json["rest"] = {{"points_m", points}};
     EXPECT_EQ(message_of([&] { read(json); }),
               "cube.json:/body/rest: expected a shape that is nowhere folded, with a positive "
@@ -169,7 +171,7 @@ TEST(BodyDescription, CornersReachAlongTheEdges) {
         JsonCursor::from_json(Json::parse(R"({"corners": [[0, 0], [1, 0], [0, 1]], "reach": 1})"),
                               "cloth.json"),
         2);
-    // Figure 8a holds three corners by nine nodes.
+    // Figure 8a holds three corners, with three nodes each.
     const std::vector<int> nodes = select(selection, {.m = 13, .n = 13, .o = 1});
     EXPECT_EQ(nodes, (std::vector<int>{0, 1, 11, 12, 13, 25, 143, 156, 157}));
 }
@@ -251,7 +253,7 @@ TEST(BodyDescription, ACurveLiesEvenlyAlongItsPath) {
     EXPECT_EQ(body.fixed, std::vector<int>{0});
     EXPECT_EQ(body.wires.size(), 5u);
     EXPECT_EQ(body.edges, body.wires);
-    // The spring pulls on the two nodes beside the middle alike: 10 N/m, from where it is to (0, 0, 1).
+    // The spring pulls equally on the two nodes beside the middle: 10 N/m, from the middle to (0, 0, 1).
     Points with, without;
     body.system.force(0, body.rest, Points::Zero(6, 3), with);
     json.erase("springs");
@@ -363,7 +365,7 @@ TEST(BodyDescription, BadNumbersOfSurfacesAreNamedWithTheirPlace) {
               "cube.json:/body/grid/0: expected an integer in [2, 1000], found 1");
     EXPECT_EQ(message("/grid", "[3, 3, 3]"),
               "cube.json:/body/grid: expected two numbers of nodes, one per axis, found [3,3,3]");
-    // Its last row of cells lies on the one before
+    // Its last row of cells lies on the row before.
     EXPECT_EQ(
         message("/rest", R"({"points_m": [[0, 0, 0], [0, 1, 0], [0, 2, 0], [1, 0, 0], [1, 1, 0],
                                    [1, 2, 0], [0, 0, 1e-3], [0, 1, 1e-3], [0, 2, 1e-3]]})"),
@@ -458,7 +460,7 @@ TEST(SoftBody, MeasuresVolumeAndStartsAtRest) {
     json["rest"] = Json::parse(R"({"block_m": [3, 2, 1]})");
     const SoftBody body = build_body(read(json));
     EXPECT_NEAR(body.volume(body.rest), 6, 1e-12);
-    // Of 4^3 nodes 3^3 have all forward neighbours; each dV is per unit of material volume.
+    // Of 4^3 nodes, 3^3 have all forward neighbours. Each dV is per unit of material volume.
     EXPECT_NEAR(body.volume_element_sum(body.rest), 6 * 27, 1e-10);
     EXPECT_EQ(body.length_scale_m, 3);
     EXPECT_EQ(body.fixed.size(), 16u);

@@ -31,7 +31,7 @@ inline softbody::MuscleDescription prototype_muscle(
     return d;
 }
 
-/// A muscle brought from one equilibrium to the next, each a start for the one after.
+/// A muscle that goes from one equilibrium to the next. Each one is the start for the next.
 class MuscleBench {
   public:
     explicit MuscleBench(const softbody::MuscleDescription& description)
@@ -45,7 +45,7 @@ class MuscleBench {
     MuscleBench(const MuscleBench&) = delete;
     MuscleBench& operator=(const MuscleBench&) = delete;
 
-    /// In equilibrium at an activation, its anchors farther apart than at rest by so much.
+    /// The equilibrium at an activation, with the anchors farther apart than in the rest shape by `lengthening_m`.
     const Points& at(double activation, double lengthening_m) {
         activation_ = activation;
         lengthening_m_ = lengthening_m;
@@ -54,7 +54,7 @@ class MuscleBench {
             << "a = " << activation << ", lengthened by " << lengthening_m;
         return state_.x;
     }
-    double tension() const { return muscle_.tension(0, state_.x); }  ///< over F0
+    double tension() const { return muscle_.tension(0, state_.x); }  ///< divided by F0
     double volume_change() const {
         return muscle_.body.volume(state_.x) / muscle_.body.volume(muscle_.body.rest) - 1;
     }
@@ -69,7 +69,7 @@ class MuscleBench {
     solve::MotionState state_;
 };
 
-/// Tension over F0 of fibre and tendon in one dimension, at the normalised length (lMT - lTs) / l0.
+/// Tension of fibre and tendon in one dimension, divided by F0, at the normalised length (lMT - lTs) / l0.
 inline double line_tension(const muscle::MuscleParameters& p, double normalised,
                            double activation) {
     return muscle::equilibrium(p, muscle::make_curves(p.curves), activation,

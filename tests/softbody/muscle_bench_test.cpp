@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Zajac's and Gasser and Hill's experiments on a muscle of cells: tension over length, quick release, bulging, popping.
+// Experiments of Zajac and of Gasser and Hill on a muscle of cells: tension over length, quick release, bulging, stability.
 
 #include "softbody/muscle_bench.h"
 
@@ -13,12 +13,12 @@ namespace {
 using namespace testing_of;
 
 struct TensionLength {
-    double worst_active = 0;  ///< greatest difference from the line muscle
+    double worst_active = 0;  ///< maximum difference from the line muscle
     double peak = 0, peak_at = 0;
-    double published = 0;  ///< greatest difference from the table of physics
+    double published = 0;  ///< maximum difference from the published table
 };
 
-/// Active tension, total less passive, from the shortest to the longest.
+/// Active tension, total minus passive, from the shortest to the longest muscle.
 TensionLength tension_length(const MuscleDescription& d) {
     TensionLength found;
     const double l0 = d.musculotendon.optimal_length_m;
@@ -30,7 +30,7 @@ TensionLength tension_length(const MuscleDescription& d) {
     }
     const auto active_at = [&](MuscleBench& bench, double length) {
         bench.at(1, (length - 1) * l0);
-        // A relaxed muscle shorter than its slack length pulls with nothing.
+        // A relaxed muscle that is shorter than its slack length has no tension.
         const int k = static_cast<int>(std::lround(10 * (length - 1)));
         const double active =
             bench.tension() - (k > 0 ? passive[static_cast<std::size_t>(k) - 1] : 0);
@@ -53,8 +53,9 @@ TEST(MuscleBench, ActiveTensionOverLengthIsThatOfTheLineMuscle) {
     EXPECT_EQ(found.peak_at, 1);
 }
 
-// A quarter as thick as long the belly bows its fibres out, which press on it, and it on its ends: that takes 0.04 F0 off
-// at 0.7 l0. The effect goes with the square of the thickness; half as thick nothing is farther off than 0.02 F0.
+// When the belly is a quarter as thick as long, its fibres are curved outwards. They press on the belly and the belly on its
+// ends, which reduces tension by 0.04 F0 at 0.7 l0. The effect grows with the square of the thickness. With half that thickness
+// all differences are below 0.02 F0.
 TEST(MuscleBench, ActiveTensionOfASlenderMuscleIsWithinTwoPercentOfTheLineMuscle) {
     const TensionLength found = tension_length(prototype_muscle({5, 3, 3}, 0.005));
     EXPECT_LT(found.worst_active, 0.02);
@@ -62,11 +63,11 @@ TEST(MuscleBench, ActiveTensionOfASlenderMuscleIsWithinTwoPercentOfTheLineMuscle
 }
 
 struct Release {
-    double before = 0, slack = 0, after = 0;  ///< tension over F0
-    double t50_s = 0, t90_s = 0;  ///< from the release to that share of the last tension
+    double before = 0, slack = 0, after = 0;  ///< tension / F0
+    double t50_s = 0, t90_s = 0;  ///< from the release to that fraction of the last tension
 };
 
-/// Full activation, anchors brought together by 2.5 mm within 1 ms.
+/// Full activation; the anchors approach each other by 2.5 mm within 1 ms.
 Release released(double max_speed_hz) {
     MuscleDescription d = prototype_muscle({4, 3, 3});
     d.musculotendon.max_speed_hz = max_speed_hz;
@@ -86,7 +87,7 @@ Release released(double max_speed_hz) {
     solve::make_integrator(quiet)->advance(muscle.body.system, last, 1);
     found.after = muscle.tension(1, last.x);
 
-    // Steps of half a millisecond, later of a hundredth of what recovery takes
+    // Steps of half a millisecond, and later of a hundredth of the recovery time.
     solve::IntegratorOptions moving{.step_s = 5e-4, .length_scale_m = 0.04};
     auto integrator = solve::make_integrator(moving);
     integrator->advance(muscle.body.system, state, kRelease_s);
@@ -110,7 +111,7 @@ Release released(double max_speed_hz) {
     return found;
 }
 
-// Gasser and Hill's quick release: the tendons go slack, and the slower the fibres the longer they take to tighten them.
+// Gasser and Hill's quick release: the tendons become slack, and slower fibres take longer to tighten them.
 TEST(MuscleBench, AfterAQuickReleaseTensionComesBackAsFastAsTheFibresShorten) {
     const struct {
         double speed_hz, t90_s;
@@ -146,11 +147,11 @@ TEST(MuscleBench, AnActiveMuscleShortenedByAQuarterBulgesAndKeepsItsVolume) {
     EXPECT_GT(radius / count / 0.01, 1.15);
     EXPECT_LT(radius / count / 0.01, 1.23);
     EXPECT_LT(std::abs(bench.volume_change()), 0.003);
-    EXPECT_NEAR(bench.volume_change(), -0.0014, 0.0004);  // of 5 MPa; it goes with 1 / K
+    EXPECT_NEAR(bench.volume_change(), -0.0014, 0.0004);  // for 5 MPa; it is proportional to 1 / K
 }
 
-// Segments in series would run apart on the falling limb; force-length of the whole chain keeps them together for as long
-// as one looks.
+// Segments in series would diverge in length on the falling limb. The force-length curve of the whole chain keeps them together
+// permanently.
 TEST(MuscleBench, SegmentsOfAnActiveStretchedMuscleStayTogether) {
     const MuscleDescription d = prototype_muscle({6, 3, 3}, 0.005);
     const MuscleBody muscle = build_muscle(

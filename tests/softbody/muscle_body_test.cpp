@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An isolated muscle against the one-dimensional equilibrium of fibre and tendon, and what its belly does.
+// An isolated muscle, compared with the one-dimensional equilibrium of fibre and tendon, and the behaviour of its belly.
 
 #include "risorius/softbody/muscle_body.h"
 
@@ -36,7 +36,7 @@ MuscleDescription prototype(Discretisation discretisation, const tissue::GridSha
     return d;
 }
 
-/// Normalised length (lMT - lTs) / l0 that the plates are brought to within 0.1 s; they start at rest, where it is 1.
+/// The plates move within 0.1 s to the normalised length (lMT - lTs) / l0. They start in the rest shape, where it is 1.
 MuscleBody stretched_to(const MuscleDescription& d, double normalised, double activation) {
     return build_muscle(d, {.activation = [activation](double) { return activation; },
                             .lengthening_m =
@@ -58,7 +58,7 @@ solve::MotionState settle(const MuscleBody& muscle, double duration_s, double st
     return state;
 }
 
-/// fT(eps) = a fl(lm) + fp(lm) with lm = Dl - eps lTs / l0, by bisection.
+/// Solves fT(eps) = a fl(lm) + fp(lm) with lm = Dl - eps lTs / l0, by bisection.
 double tension_of_one_fibre(double normalised, double a) {
     const muscle::MuscleCurves curves = muscle::zajac_curves();
     double low = 0, high = 0.2;
@@ -81,7 +81,7 @@ double tension_at(const MuscleDescription& d, double normalised, double activati
 TEST(MuscleBody, ActiveTensionOfDifferencesIsThatOfTheOneDimensionalEquilibrium) {
     const MuscleDescription d = prototype(Discretisation::kDifferences, {4, 3, 3});
     for (const double length : {0.6, 0.8, 1.0, 1.2, 1.4, 1.5}) {
-        // A muscle that is slack without activation floats freely; it pulls with nothing.
+        // A muscle that is slack without activation floats freely; it has no tension.
         const double passive = length > 1.0 ? tension_at(d, length, 0) : 0.0;
         const double active = tension_at(d, length, 1) - passive;
         const double expected = tension_of_one_fibre(length, 1) - tension_of_one_fibre(length, 0);
@@ -90,7 +90,7 @@ TEST(MuscleBody, ActiveTensionOfDifferencesIsThatOfTheOneDimensionalEquilibrium)
 }
 
 TEST(MuscleBody, TensionOverLengthIsThatOfThePublishedTable) {
-    // The prototype muscle in differences, 6 x 6 x 6 nodes; peak at optimal length.
+    // The prototype muscle in differences, 6 x 6 x 6 nodes, with its peak at the optimal length.
     const MuscleDescription d = prototype(Discretisation::kDifferences, {4, 3, 3});
     const double table[][2] = {{0.6, 0.465}, {0.8, 0.896}, {0.9, 0.953}, {1.0, 0.998},
                                {1.1, 0.969}, {1.2, 0.879}, {1.4, 0.833}};
@@ -117,13 +117,13 @@ TEST(MuscleBody, SegmentsInSeriesDoNotRunApartOnTheFallingLimb) {
         const double early = muscle.musculotendon->segment_spread(settle(muscle, 0.5, 0.025).x);
         const double late = muscle.musculotendon->segment_spread(settle(muscle, 2.5, 0.025).x);
         EXPECT_NEAR(late, early, 0.01);
-        // Incompressible cells narrow more in the middle than beside the tendons, which spreads their segments more
-        // than in differences, whose volume is looser.
+        // Incompressible cells narrow more in the middle than beside the tendons. This spreads their segments more than in
+        // differences, whose volume is less strictly preserved.
         EXPECT_LT(late, discretisation == Discretisation::kDifferences ? 0.05 : 0.08);
     }
 }
 
-/// Whether Zajac's experiment (full activation, plates 2 mm apart from rest) is lost within 0.1 s.
+/// True when Zajac's experiment (full activation, plates 2 mm farther apart than in the rest shape) diverges within 0.1 s.
 bool diverges(solve::Method method, int nodes_per_edge, double step_s) {
     const int n = nodes_per_edge;
     const MuscleBody muscle = build_muscle(
@@ -137,8 +137,8 @@ bool diverges(solve::Method method, int nodes_per_edge, double step_s) {
     return integrator->advance(muscle.body.system, state, 0.1).diverged;
 }
 
-// Cells of the table in samples/figures/12b, twelve steps to a decade: a method gets through below its longest stable step
-// and is lost two steps of the table above it.
+// Cells of the table in samples/figures/12b, with twelve steps per decade. A method is stable below its maximum stable step,
+// and diverges two steps of the table above it.
 TEST(MuscleBody, ExplicitMethodsGetThroughWithTheStepsOfTheTableAndNotWithHalfAsMuchMore) {
     const double down = std::pow(10, -1.0 / 12), up = 1.01 / (down * down);
     const struct {
@@ -153,7 +153,7 @@ TEST(MuscleBody, ExplicitMethodsGetThroughWithTheStepsOfTheTableAndNotWithHalfAs
     }
 }
 
-// h ~ nodes^-0.75 puts the limit of 125 nodes between 0.25 and 0.4 times that of 27, for an exponent of -0.6 to -0.9.
+// With h ~ nodes^-0.75, the limit of 125 nodes is between 0.25 and 0.4 times that of 27, for exponents from -0.6 to -0.9.
 TEST(MuscleBody, TheLongestStableStepOfRungeKutta4FallsAsTheNodesGrow) {
     constexpr double kLongest27_s = 3.2e-5;
     EXPECT_FALSE(diverges(solve::Method::kRungeKutta4, 5, 0.25 * kLongest27_s));
@@ -180,7 +180,7 @@ TEST(MuscleBody, DescriptionsAreReadAndBuilt) {
     round["section"] = "round";
     round["grid"] = {4, 9, 9};
     const MuscleBody flat = build_muscle(read(round), {[](double) { return 0.0; }});
-    // Nine nodes make an angular ellipse of 32 edges.
+    // Nine nodes make a polygon of 32 edges from the ellipse.
     EXPECT_NEAR(flat.body.volume(flat.body.rest) / (std::numbers::pi / 4 * 0.05 * 0.02 * 0.01), 1,
                 0.01);
 }

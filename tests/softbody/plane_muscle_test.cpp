@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The prototype muscle between planes: its belly swells alike all along, so that it is fibre, tendon and matrix in a row.
+// The prototype muscle between planes. Its belly swells uniformly along its length, so it is fibre, tendon and matrix in
+// series.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,8 +20,8 @@ MuscleDescription between_planes(const tissue::GridShape& grid, double mu_pa = 2
     return d;
 }
 
-/// Tension over F0 of fibre and matrix side by side, the tendon in a row with both. The matrix stores mu/4 |C - 1|^2, C that of
-/// a stretch s that keeps the volume.
+/// Tension of fibre and matrix in parallel, in series with the tendon, divided by F0. The matrix stores mu/4 |C - 1|^2, where C
+/// is that of a volume-preserving stretch s.
 double tension_in_matrix(const MuscleDescription& d, double section_m2, double length,
                          double activation) {
     const muscle::MuscleCurves curves = muscle::zajac_curves();
@@ -29,7 +30,7 @@ double tension_in_matrix(const MuscleDescription& d, double section_m2, double l
         return activation * curves.active.value(s) + curves.passive.value(s) +
                matrix * (s * (s * s - 1) - (1 / s - 1) / (s * s));
     };
-    // Tendons are half as long as fibres. Where these would push, tendons are slack.
+    // Tendons are half as long as fibres. Where fibres would push, tendons are slack.
     if (!(pull(length) > 0)) return 0;
     double low = 0.3, high = length;
     for (int i = 0; i < 60; ++i) {
@@ -40,9 +41,10 @@ double tension_in_matrix(const MuscleDescription& d, double section_m2, double l
 }
 
 struct FromLine {
-    double line = 0, line_from_06 = 0;  ///< of active tension from fibre and tendon in a row
-    double matrix = 0;                  ///< of tension from those with the matrix
-    double aside = 0;                   ///< greatest pull along a plate over F0
+    /// Difference of active tension from fibre and tendon in series.
+    double line = 0, line_from_06 = 0;
+    double matrix = 0;  ///< difference of tension from that with the matrix
+    double aside = 0;   ///< maximum force along a plate / F0
 };
 
 /// T8a from 0.5 to 1.6.
@@ -86,7 +88,7 @@ TEST(PlaneMuscle, TensionOverLengthIsThatOfTheLineMuscleAndItsMatrix) {
     EXPECT_LT(found.aside, 1e-6);
 }
 
-// Compressed to half its length a matrix of 2 kPa takes off 0.029 F0, one of 1 kPa half of it.
+// Compressed to half its length, a matrix of 2 kPa reduces tension by 0.029 F0, and one of 1 kPa by half of that.
 TEST(PlaneMuscle, ASofterMatrixIsWithinTwoPercentAtEveryLength) {
     EXPECT_LT(tension_between_planes(between_planes({3, 4, 4}, 1e3)).line, 0.02);
 }

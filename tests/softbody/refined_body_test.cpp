@@ -21,7 +21,7 @@ BodyDescription block() {
                                            "block.json"));
 }
 
-/// Every root cell at a1 = 0 split, one of them twice.
+/// Every root cell at a1 = 0 is split, and one of them twice.
 std::shared_ptr<tissue::CellSolid> refined(const BodyDescription& description) {
     tissue::AdaptiveSolid solid(grid_solid(description), {.deepest_level = 2});
     solid.refine_where([](const tissue::CellMesh::Cell& cell) {
@@ -51,7 +51,7 @@ TEST(RefinedBody, BoundaryEnclosesTheVolumeAndEndsHaveTheirCentres) {
     const BodyDescription description = block();
     const auto solid = refined(description);
     Points x = solid->body().rest;
-    for (Eigen::Index i = 0; i < x.rows(); ++i)  // linear: what hangs lies on flat faces
+    for (Eigen::Index i = 0; i < x.rows(); ++i)  // linear: hanging vertices lie on flat faces
         x.row(i) << 1.1 * x(i, 0) + 0.2 * x(i, 2), x(i, 1), x(i, 2) - 0.1 * x(i, 0);
     const CellBoundary boundary = boundary_of(solid->mesh());
     const Points vertices = solid->vertices(x);
@@ -65,7 +65,7 @@ TEST(RefinedBody, BoundaryEnclosesTheVolumeAndEndsHaveTheirCentres) {
     EXPECT_NEAR(volume, solid->volume(x), 1e-12 * volume) << "outward";
     EXPECT_GT(volume, 0);
     EXPECT_FALSE(boundary.wires.empty());
-    // At rest the end a1 = 0, with cells of two sizes, has its centre in the middle of 3 x 2
+    // In the rest shape, the end a1 = 0 has cells of two sizes, and its centre is the middle of 3 x 2.
     EXPECT_LT((face_centre(*solid, solid->body().rest, 0, false) - Vec3(0, 1.5, 1)).norm(), 1e-12);
     EXPECT_LT((face_centre(*solid, solid->body().rest, 1, true) - Vec3(2, 3, 1)).norm(), 1e-12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Muscles of every shape contract: volume, balance of forces, what rings and fans do, rigid tendons, and what is refused.
+// Muscles of every shape contract: volume, balance of forces, behaviour of rings and fans, rigid tendons, and what is rejected.
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ using namespace testing_of;
 struct Sample {
     muscle::MuscleShape shape;
     tissue::GridShape grid;
-    double area_m2;  ///< of the thickest section
+    double area_m2;  ///< area of the thickest section
 };
 
 std::vector<Sample> samples() {
@@ -25,7 +25,7 @@ std::vector<Sample> samples() {
             {ring_shape(), {12, 3, 3}, 3.1e-5}, {spindle_shape(1.2), {7, 3, 3}, 2.2e-4}};
 }
 
-/// 0.30 MPa of specific tension; K is 15 times their stress where the thinnest section is.
+/// 0.30 MPa of specific tension. K is 15 times the stress at the thinnest section.
 MuscleDescription shaped(const Sample& sample,
                          muscle::TendonModel tendon = muscle::TendonModel::kElastic) {
     MuscleDescription d;
@@ -77,7 +77,7 @@ TEST(ShapedMuscle, ForcesAndTorquesOfEveryShapeAndItsAnchorsSumToZero) {
             Vec3 sum = force.colwise().sum(), torque = Vec3::Zero();
             for (long i = 0; i < rows; ++i) torque += Vec3(x.row(i)).cross(Vec3(force.row(i)));
             for (const muscle::End end : {muscle::End::kOrigin, muscle::End::kInsertion}) {
-                // Rigid tendons are part of the nodes
+                // Rigid tendons are part of the nodes.
                 if (tendon == muscle::TendonModel::kRigid) continue;
                 const Points points = muscle.musculotendon->anchor_points(end, 0),
                              pulls = muscle.musculotendon->anchor_forces(end, 0, x);
@@ -163,7 +163,7 @@ TEST(ShapedMuscle, AFreeInsertionIsDrawnTowardsTheBone) {
     EXPECT_EQ(start(bench.x()), start(bench.rest()));
     EXPECT_LT((end(bench.x()) - start(bench.x())).norm(),
               0.9 * (end(bench.rest()) - start(bench.rest())).norm());
-    // Nothing holds it but the bone, which feels nothing.
+    // Only the bone holds it, and the bone gets no force.
     EXPECT_NEAR(bench.tension(), 0, 1e-6);
 }
 

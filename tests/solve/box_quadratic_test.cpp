@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Least squares in a box with a price: against the conditions of its minimum and cases known by hand.
+// Least squares in a box with an L1 weight, against the conditions of its minimum and cases with a known solution.
 #include "risorius/solve/box_quadratic.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
         for (long i = 0; i < 20; ++i) {
             ASSERT_GE(x[i], problem.min[i]);
             ASSERT_LE(x[i], problem.max[i]);
-            // Slopes to either side, price included
+            // Slopes to either side, with the L1 weight.
             const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.price[i];
             const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.price[i];
             if (x[i] < problem.max[i]) {
@@ -57,7 +57,7 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
 }
 
 TEST(BoxQuadratic, UnknownsThatAreNearlyAlikeTakeFewSweeps) {
-    // Sweeps alone would take thousands: each closes a thousandth of what is left
+    // Sweeps alone would take thousands: each covers a thousandth of the remaining distance.
     std::srand(7);
     const Eigen::VectorXd shared = Eigen::VectorXd::Random(40);
     const Eigen::MatrixXd J =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Order, stability limits, step control and book-keeping of the explicit methods.
+// Order, stability limits, step control and counts of the explicit methods.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr Method kExplicit[] = {
     Method::kEuler,    Method::kVerlet,        Method::kRungeKutta2,    Method::kRungeKutta4,
     Method::kCashKarp, Method::kBulirschStoer, Method::kAdamsBashforth, Method::kAdamsMoulton};
 
-/// x'' = - w^2 x - d x' from (x0, v0), x and v at t
+/// x'' = - w^2 x - d x' from (x0, v0): x and v at t.
 struct Oscillator {
     double w, d, x0, v0;
     double x(double t) const {
@@ -50,7 +50,7 @@ TEST(ExplicitMethods, HalvingTheStepShowsTheOrderOfEachMethod) {
         double order, damping;
     } cases[] = {
         {Method::kEuler, 1, 0.5},        {Method::kVerlet, 2, 0},
-        {Method::kVerlet, 1, 0.5},  // the velocity fed to the damping is half a step old
+        {Method::kVerlet, 1, 0.5},  // the velocity used for the damping is half a step old
         {Method::kRungeKutta2, 2, 0.5},  {Method::kRungeKutta4, 4, 0.5},
         {Method::kCashKarp, 5, 0.5},     {Method::kAdamsBashforth, 4, 0.5},
         {Method::kAdamsMoulton, 4, 0.5},
@@ -63,7 +63,7 @@ TEST(ExplicitMethods, HalvingTheStepShowsTheOrderOfEachMethod) {
     }
 }
 
-/// Largest step with which x'' = -w^2 x - d x' stays bounded, by bisection
+/// Maximum step with which x'' = -w^2 x - d x' stays bounded, by bisection.
 double max_stable_step(Method method, double w, double d, double min, double max) {
     const MotionSystem system = toy::system_of(1, 1.0, std::make_shared<Anchor>(w * w, d));
     for (int halving = 0; halving < 12; ++halving) {
@@ -77,13 +77,13 @@ double max_stable_step(Method method, double w, double d, double min, double max
 }
 
 TEST(ExplicitMethods, StabilityLimitsAreThoseOfTheLinearTheory) {
-    // Undamped, w = 10: physics of the test equation, Hairer & Wanner II, IV.2
+    // Undamped, w = 10: theory of the test equation, Hairer & Wanner II, IV.2.
     EXPECT_NEAR(max_stable_step(Method::kRungeKutta4, 10, 0, 0.05, 1) * 10, 2.83, 0.03);
     EXPECT_NEAR(max_stable_step(Method::kVerlet, 10, 0, 0.05, 1) * 10, 2.0, 0.02);
-    // Damping dominates, w << d = 100
+    // Damping dominates, w << d = 100.
     EXPECT_NEAR(max_stable_step(Method::kEuler, 1, 100, 1e-3, 1) * 100, 2.0, 0.02);
     EXPECT_NEAR(max_stable_step(Method::kRungeKutta4, 1, 100, 1e-3, 1) * 100, 2.785, 0.03);
-    // Interval of absolute stability of Adams-Bashforth 4: (-0.3, 0)
+    // Interval of absolute stability of Adams-Bashforth 4: (-0.3, 0).
     EXPECT_NEAR(max_stable_step(Method::kAdamsBashforth, 1, 100, 1e-3, 1) * 100, 0.3, 0.01);
 }
 
@@ -107,7 +107,7 @@ TEST(ExplicitMethods, StepControlMeetsItsTolerance) {
         for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
             IntegratorReport report;
             const double error = error_at_end(method, 1e-4, 0.5, tolerance, &report);
-            // One period and a half: errors of the steps add up
+            // One and a half periods: the errors of the steps add up.
             EXPECT_LT(error, tolerance * static_cast<double>(report.steps))
                 << name_of(method) << " " << tolerance;
             EXPECT_LE(report.error_estimate, tolerance);
@@ -134,7 +134,7 @@ TEST(ExplicitMethods, ExtrapolationTakesFewerEvaluationsThanCashKarpForTightTole
 }
 
 TEST(ExplicitMethods, AStepThatMustShrinkForeverIsDivergence) {
-    // The load jumps to infinity at 0.5 s
+    // The load jumps to infinity at 0.5 s.
     auto anchor = std::make_shared<Anchor>(1.0, 0.0);
     anchor->load = [](double t) {
         return t > 0.5 ? Vec3::Constant(std::numeric_limits<double>::infinity()) : Vec3::Zero();
@@ -152,7 +152,7 @@ TEST(ExplicitMethods, AStepThatMustShrinkForeverIsDivergence) {
 }
 
 TEST(ExplicitMethods, DivergenceIsReportedWithItsTimeAndStopsThere) {
-    // Euler at h = 3/d multiplies v by -2 each step
+    // Euler at h = 3/d multiplies v by -2 in each step.
     const MotionSystem system = toy::system_of(2, 1.0, std::make_shared<Anchor>(0.0, 1.0));
     MotionState state = toy::at_rest(Points::Zero(2, 3));
     state.v(1, 2) = 1;
@@ -203,7 +203,7 @@ TEST(ExplicitMethods, FixedAndPrescribedNodesAreWhereTheyAreToldAtEveryStage) {
     for (const Method method : kExplicit) {
         MotionState state = toy::at_rest(Points::Ones(3, 3));
         state.x(1, 1) = 7;
-        state.v(1, 1) = 3;  // not what a fixed node does
+        state.v(1, 1) = 3;  // a fixed node does not have this velocity
         make_integrator({.method = method, .step_s = 0.03})->advance(system, state, 0.5);
         EXPECT_EQ(state.x(0, 0), std::sin(0.5)) << name_of(method);
         EXPECT_EQ(state.x(1, 1), 7.0) << name_of(method);
@@ -284,7 +284,7 @@ TEST(ExplicitMethods, ReportsCountWhatTheTermsSaw) {
         EXPECT_EQ(report.steps, anchor->begun) << name_of(method);
         if (per_step == 0) continue;
         EXPECT_EQ(report.steps, 100);
-        // Three steps of Runge-Kutta start the multi-step methods
+        // Three steps of Runge-Kutta start the multi-step methods.
         const long start = method == Method::kAdamsBashforth ? 9
                            : method == Method::kAdamsMoulton ? 6
                                                              : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assembly of second derivatives against a dense sum.
+// Assembly of second derivatives, compared with a dense sum.
 #include "risorius/solve/hessian_builder.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace risorius::solve {
 namespace {
 
-/// A number without pattern that depends on its place only
+/// A pseudo-random number that depends only on its index.
 double number(int i) { return std::sin(12.9898 * i + 1.0) * 3.0; }
 
 Mat3 block_of(int seed) {
@@ -18,7 +18,7 @@ Mat3 block_of(int seed) {
     return block;
 }
 
-/// Dense twin of the builder
+/// Dense counterpart of the builder.
 struct Dense {
     explicit Dense(int nodes) : sum(Eigen::MatrixXd::Zero(3 * nodes, 3 * nodes)) {}
     void add(int i, int j, const Mat3& block) {
@@ -85,7 +85,7 @@ TEST(HessianBuilder, ANewPatternAfterClearingIsThatOfANewBuilder) {
     HessianBuilder used(6, {0, 0, 1, 0, 0, 0});
     const auto assemble = [](HessianBuilder& builder, int variant) {
         for (int i = 0; i < 6; ++i) builder.add(i, i, symmetric(block_of(i + variant)));
-        // Other pairs, another order and another number of calls in each variant
+        // Each variant has other pairs, another order and another number of calls.
         for (int k = 0; k < 3 + variant; ++k)
             builder.add((k + variant) % 6,
                         (2 * k + 1 + variant * variant) % 6 == (k + variant) % 6

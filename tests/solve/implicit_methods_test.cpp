@@ -22,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Method kImplicit[] = {Method::kTerzopoulos, Method::kBaraffWitkin,
                                 Method::kImplicitEuler};
 
-/// A horizontal chain of 8 nodes fixed at one end, which falls and swings
+/// A horizontal chain of 8 nodes, fixed at one end, which falls and swings.
 MotionSystem swing(double stiffness = 200) {
     return toy::system_of(8, 0.05, std::make_shared<Chain>(stiffness, 0.1, 0.05 * 9.81),
                           toy::first_fixed(8));
@@ -40,7 +40,7 @@ double incremental_potential(const MotionSystem& system, const ImplicitStep& ste
 }
 
 TEST(ImplicitEuler, IsOfOrderOneAndExactForTheDifferenceEquation) {
-    // (x+ - x)/h = v+, (v+ - v)/h = -w^2 x+ - d v+
+    // (x+ - x)/h = v+, (v+ - v)/h = -w^2 x+ - d v+.
     const double w = 3, d = 0.5, m = 2, h = 0.05;
     const MotionSystem system = toy::system_of(1, m, std::make_shared<Anchor>(m * w * w, m * d));
     for (const Method method : {Method::kImplicitEuler, Method::kBaraffWitkin}) {
@@ -113,7 +113,7 @@ TEST(ImplicitEuler, NeverRaisesItsPotential) {
 }
 
 TEST(Newton, ConvergesQuadraticallyOnAStiffeningSpring) {
-    // Minimum where m (x - y)/h^2 + F sinh(x/l) = 0
+    // The minimum is where m (x - y)/h^2 + F sinh(x/l) = 0.
     const double m = 1, h = 0.1, y = 0.5, F = 3, l = 0.2;
     double root = 0.2;
     for (int k = 0; k < 60; ++k)
@@ -130,7 +130,7 @@ TEST(Newton, ConvergesQuadraticallyOnAStiffeningSpring) {
         newton.minimise(system, {h, h, start}, start, {.iterations = 1}, x);
         const double error = std::abs(x(0, 0) - root);
         if (before < 0.05) {
-            // e+ / e^2 tends to |Phi'''| / (2 Phi'')
+            // e+ / e^2 converges to |Phi'''| / (2 Phi'').
             constant = error / (before * before);
             const double limit =
                 F / l / l * std::sinh(root / l) / (2 * (m / h / h + F / l * std::cosh(root / l)));
@@ -165,7 +165,7 @@ TEST(Newton, ConjugateGradientsFindTheSameStepAsTheFactor) {
 }
 
 TEST(BaraffWitkin, IsOneUndampedNewtonStepWithTheExactCurvature) {
-    // The chain is pushed together, so that its exact curvature is indefinite
+    // The chain is compressed, so that its exact curvature is indefinite.
     const double m = 0.05, h = 0.2;
     const Chain chain(200, 0.1, m * 9.81);
     const MotionSystem system =
@@ -200,7 +200,7 @@ TEST(BaraffWitkin, IsOneUndampedNewtonStepWithTheExactCurvature) {
 }
 
 TEST(BaraffWitkin, WhereTheExactCurvatureIsSingularThePositiveOneIsTaken) {
-    // Shortened until the transverse stiffness cancels the inertia: k (s^2 - 1) = -m/h^2 per link of one free node
+    // Shortened until the transverse stiffness cancels the inertia: k (s^2 - 1) = -m/h^2 per link of one free node.
     const double m = 1, h = 0.5, k = 8, s = std::sqrt(1 - m / h / h / k);
     const MotionSystem system =
         toy::system_of(2, m, std::make_shared<Chain>(k, 1.0, 0.0), toy::first_fixed(2));
@@ -213,7 +213,7 @@ TEST(BaraffWitkin, WhereTheExactCurvatureIsSingularThePositiveOneIsTaken) {
     EXPECT_EQ(state.x(1, 1), 0);
 }
 
-/// Largest step with which a short chain, stretched by `strain` of rest, keeps shaking along itself within bounds
+/// Maximum step with which a short chain, stretched by the fraction `strain`, keeps oscillating along itself within bounds.
 double terzopoulos_limit(double strain) {
     const MotionSystem system =
         toy::system_of(2, 1.0, std::make_shared<Chain>(50.0, 1.0, 0.0), toy::first_fixed(2));
@@ -236,7 +236,7 @@ double terzopoulos_limit(double strain) {
 TEST(Terzopoulos, NearRestItIsVerletAndNoMoreStable) {
     EXPECT_NEAR(terzopoulos_limit(1e-6) * 10, 2.0, 0.05);
 
-    // Step for step like Verlet with the force at the start, to first order in the strain
+    // Step for step like Verlet with the force at the start of the step, to first order in the strain.
     const MotionSystem system =
         toy::system_of(2, 1.0, std::make_shared<Chain>(50.0, 1.0, 0.0), toy::first_fixed(2));
     MotionState a = toy::at_rest(toy::straight(2, 1.0)), b = a;
@@ -247,7 +247,7 @@ TEST(Terzopoulos, NearRestItIsVerletAndNoMoreStable) {
 }
 
 TEST(Terzopoulos, SolvesItsEquationOfALinearSpring) {
-    // For K and C constant: m (x+ - 2x + x-)/h^2 + c (x+ - x-)/2h + k x+ = f
+    // For constant K and C: m (x+ - 2x + x-)/h^2 + c (x+ - x-)/2h + k x+ = f.
     const double m = 2, c = 0.6, k = 30, h = 0.03, f = 4;
     auto anchor = std::make_shared<Anchor>(k, c);
     anchor->load = [f](double) { return Vec3(f, 0, 0); };
@@ -267,7 +267,8 @@ TEST(Terzopoulos, SolvesItsEquationOfALinearSpring) {
 }
 
 TEST(QuasiStatic, FindsTheHangingChainOfKnownStretch) {
-    // Link i bears the weight below it: k (s^2 - 1) s = T / l, from a horizontal chain without stiffness across
+    // Link i carries the weight below it: k (s^2 - 1) s = T / l. The solve starts from a horizontal chain, which has no
+    // transverse stiffness.
     const double k = 200, l = 0.1, weight = 0.05 * 9.81;
     for (const LinearSolver linear : {LinearSolver::kDirect, LinearSolver::kConjugate}) {
         const MotionSystem system = swing(k);
@@ -333,7 +334,7 @@ TEST(ImplicitMethods, FixedAndPrescribedNodesAreWhereTheyAreTold) {
 }
 
 TEST(ImplicitMethods, APulledNodeDragsItsNeighbourAlong) {
-    // Without weight, the pull along the chain at constant speed ends as translation at that speed
+    // Without weight, a pull along the chain at constant speed ends as translation at that speed.
     for (const Method method : {Method::kBaraffWitkin, Method::kImplicitEuler}) {
         MotionSystem system =
             toy::system_of(3, 1.0, std::make_shared<Chain>(100.0, 1.0, 0.0), toy::first_fixed(3));

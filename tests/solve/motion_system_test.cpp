@@ -79,7 +79,7 @@ TEST(MotionSystem, ThePotentialsDerivativesAgreeWithDifferences) {
     HessianBuilder builder(n, system.fixed());
     system.add_hessian(step, x, Curvature::kExact, builder);
     const Eigen::MatrixXd H = Eigen::MatrixXd(builder.build()).selfadjointView<Eigen::Lower>();
-    const double e = 1e-5;  // central differences: error about 1e-9
+    const double e = 1e-5;  // central differences: the error is about 1e-9
     for (int i = 1; i < n; ++i)
         for (int k = 0; k < 3; ++k) {
             Points y = x;

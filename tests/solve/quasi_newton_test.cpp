@@ -11,7 +11,7 @@
 namespace risorius::solve {
 namespace {
 
-/// A chain of n nodes from the origin along x, node 0 fixed.
+/// Flags of a chain of n nodes from the origin along x, with node 0 fixed.
 std::vector<char> first_fixed(int n) {
     std::vector<char> fixed(static_cast<std::size_t>(n), 0);
     fixed[0] = 1;
@@ -29,7 +29,7 @@ SparseCholesky chain_metric(int n, double stiffness) {
 }
 
 TEST(QuasiNewton, AQuadraticWithItsOwnHessianIsDoneInOneStep) {
-    // Linear springs of zero rest length between neighbours, and a weight on every node
+    // Linear springs of zero rest length between neighbours, and a weight on every node.
     const int n = 12;
     const double k = 40;
     const SparseCholesky metric = chain_metric(n, k);
@@ -51,7 +51,7 @@ TEST(QuasiNewton, AQuadraticWithItsOwnHessianIsDoneInOneStep) {
     const StepReport report = minimise(energy, metric, x, {.iterations = 1, .step_cap_m = 1.0});
     EXPECT_EQ(report.iterations, 1);
     EXPECT_EQ(report.backtracks, 0);
-    // Node i hangs by sum over the springs above it of the weight they carry
+    // The depth of node i is the sum, over the springs above it, of the weight they carry divided by k.
     double expected = 0;
     for (int i = 1; i < n; ++i) {
         expected += 0.01 * (n - i) / k;
@@ -60,8 +60,8 @@ TEST(QuasiNewton, AQuadraticWithItsOwnHessianIsDoneInOneStep) {
     }
 }
 
-/// A hanging bar of links with energy lambda L/4 (s^2 - 1)^2 each, s = length / L: the metric-tensor law in one dimension.
-/// The link that carries T stretches to s^3 - s = T / lambda.
+/// A hanging bar of links with the energy lambda L/4 (s^2 - 1)^2 each, s = length / L: the metric law in one dimension. A link
+/// that carries T stretches to s^3 - s = T / lambda.
 struct HangingBar {
     static constexpr int n = 9;
     static constexpr double length = 1e-2, lambda = 2.0, weight = 0.15;
@@ -172,7 +172,7 @@ TEST(QuasiNewton, ATrustedLastStepIsTheSameToTheBitAndCostsNoEvaluation) {
 }
 
 TEST(QuasiNewton, ALastStepIsCheckedWhereOneBeforeItWentTooFar) {
-    // A metric much too soft: full steps go beyond the minimum and are halved
+    // The metric is much too soft: full steps go beyond the minimum and are halved.
     const SparseCholesky metric =
         chain_metric(HangingBar::n, 0.05 * HangingBar::lambda / HangingBar::length);
     Points x = HangingBar::rest(), gradient(HangingBar::n, 3);
@@ -220,7 +220,7 @@ TEST(QuasiNewton, FixedNodesStayWhereTheyAre) {
     EXPECT_EQ(x.row(0).norm(), 0.0);
 }
 
-/// The pulled bar in balance.
+/// The loaded bar in equilibrium.
 Points balanced_bar(const SparseCholesky& metric) {
     Points x = HangingBar::rest();
     minimise(HangingBar::energy, metric, x, {.iterations = 100, .tolerance_rms_m = 1e-12});
@@ -242,7 +242,7 @@ TEST(QuasiNewton, ALikelyMoveThatLeadsDownhillIsTakenWithoutASolve) {
     EXPECT_EQ(report.energy_j, HangingBar::energy(x, gradient));
 }
 
-// On a quadratic, any move along the way to the minimum tells how far it is, even a metric ten times too stiff.
+// On a quadratic, any move in the direction of the minimum shows how far it is, even with a metric that is ten times too stiff.
 TEST(QuasiNewton, ALikelyMoveThatLeadsUphillIsLeftButItsCurvatureCounts) {
     const int n = 12;
     const double k = 40;
@@ -260,7 +260,7 @@ TEST(QuasiNewton, ALikelyMoveThatLeadsUphillIsLeftButItsCurvatureCounts) {
     };
     const SparseCholesky metric = chain_metric(n, 10 * k);
     const InverseMetric inverse = [&](const Points& b, Points& y) { metric.solve(b, y); };
-    Points start = Points::Zero(n, 3);  // the minimum is where all are at the origin
+    Points start = Points::Zero(n, 3);  // at the minimum, all nodes are at the origin
     for (int i = 1; i < n; ++i) start.row(i) << 1e-3 * i, 1e-3 * std::sin(i), 0;
     QuasiNewton solver;
     const auto left_after = [&](int iterations, std::span<const Points> likely) {

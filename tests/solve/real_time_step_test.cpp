@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 60;
 
-/// A chain of six nodes, the first held, let fall from the horizontal.
+/// A chain of six nodes, the first held, that falls from the horizontal.
 struct FallingChain {
     MotionSystem system{Eigen::VectorXd::Constant(6, 0.1), {1, 0, 0, 0, 0, 0}};
     MotionState state{0, Points::Zero(6, 3), Points::Zero(6, 3)};
@@ -61,7 +61,7 @@ TEST(RealTimeStep, AStepCutShortEndsNoHigherThanStandingStill) {
     FallingChain chain;
     RealTimeStep stepper = chain.stepper(1);
     for (int step = 0; step < 200; ++step) {
-        // A kick from outside now and then makes the beginning of the search bad
+        // An occasional kick from outside makes the start of the search bad.
         if (step % 37 == 36) chain.state.v.row(5) << 0, 8, -8;
         MotionState before = chain.state;
         const double at_rest =
@@ -71,7 +71,7 @@ TEST(RealTimeStep, AStepCutShortEndsNoHigherThanStandingStill) {
 }
 
 TEST(RealTimeStep, BeginsWhereTheLastAccelerationLeads) {
-    // A free fall is found without an iteration but the first step's
+    // A free fall needs no iteration except in the first step.
     MotionSystem system(Eigen::VectorXd::Constant(1, 2.0), {});
     auto fall = std::make_shared<toy::Anchor>(0.0, 0.0);
     fall->load = [](double) { return Vec3(0, 0, -19.62); };

@@ -12,7 +12,7 @@
 namespace risorius::solve {
 namespace {
 
-/// A grid of springs with some long ones across it, every node held a little; lower triangle.
+/// A grid of springs with some long ones across it, in which every node is held weakly; lower triangle.
 Eigen::SparseMatrix<double> spring_grid(int n, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> weight(0.1, 10.0);
@@ -51,7 +51,7 @@ TEST(SparseCholesky, AgreesWithADenseFactor) {
         Eigen::MatrixXd dense = a;
         dense = Eigen::MatrixXd(dense.selfadjointView<Eigen::Lower>());
         const Eigen::MatrixXd expected = solved_for(dense, b);
-        // condition about 1e4, rounding 1e-16
+        // The condition number is about 1e4 and rounding 1e-16.
         EXPECT_LT((x - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff())
             << "n = " << n;
         EXPECT_EQ(factor.size(), n * n);

@@ -11,7 +11,8 @@
 namespace risorius::solve {
 namespace {
 
-/// A box of nodes, each joined to those around it by 3 x 3 blocks; symmetric and, with `weight` > 0, positive definite.
+/// A box of nodes, each joined to its neighbours by 3 x 3 blocks. The matrix is symmetric and, with `weight` > 0, positive
+/// definite.
 Eigen::SparseMatrix<double> box(int nx, int ny, int nz, double weight) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -47,7 +48,7 @@ Eigen::VectorXd some_right(int n) { return Eigen::VectorXd::LinSpaced(n, -1, 2);
 
 TEST(SupernodalCholesky, SolvesWhatItFactored) {
     SupernodalCholesky factor;
-    // The last has panels wider than a block of the dense kernel, and edges that fill no tile
+    // The last one has panels wider than a block of the dense kernel, and edges that do not fill a tile.
     for (const auto& [nx, ny, nz] :
          {std::array{1, 1, 1}, std::array{5, 3, 2}, std::array{9, 8, 7}}) {
         const Eigen::SparseMatrix<double> A = box(nx, ny, nz, 0.1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Forces with known motions for the tests of integrators: springs to the origin, chains, a stiffening spring.
+/// Forces with known motions for the tests of integrators: springs to the origin, chains, and a stiffening spring.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace risorius::solve::toy {
 
-/// Every node hangs on the origin by a linear spring k and a linear damper d, and bears the load f(t).
+/// Every node is attached to the origin by a linear spring k and a linear damper d, and has the load f(t).
 class Anchor : public EnergyTerm {
   public:
     Anchor(double stiffness, double damping) : k_(stiffness), d_(damping) {}
@@ -58,8 +58,8 @@ class Anchor : public EnergyTerm {
     double k_, d_;
 };
 
-/// Links between successive nodes, energy k/4 (|d|^2 - l^2)^2 / l^2: near rest a spring of stiffness 2 k, without
-/// stiffness across, and indefinite when shortened. Weight g along -y on every node.
+/// Links between successive nodes with the energy k/4 (|d|^2 - l^2)^2 / l^2. Near the rest shape a link is a spring of
+/// stiffness 2 k without transverse stiffness; shortened, it is indefinite. Every node has the weight g along -y.
 class Chain : public EnergyTerm {
   public:
     Chain(double stiffness, double rest_m, double weight_n)
@@ -122,7 +122,7 @@ class Chain : public EnergyTerm {
     double k_, l_, weight_;
 };
 
-/// Force - k sinh(|x| / l) towards the origin, whose Hessian has no lower bound of use and no negative part.
+/// Force - k sinh(|x| / l) towards the origin. Its Hessian has no useful upper bound and no negative part.
 class Stiffening : public EnergyTerm {
   public:
     Stiffening(double force_n, double length_m) : f_(force_n), l_(length_m) {}
@@ -167,7 +167,7 @@ inline MotionState at_rest(Points x) {
     return state;
 }
 
-/// A straight chain along x, rest links of `l`
+/// A straight chain along x, with rest links of length `l`.
 inline Points straight(int nodes, double l) {
     Points x = Points::Zero(nodes, 3);
     for (int i = 0; i < nodes; ++i) x(i, 0) = i * l;

@@ -49,7 +49,7 @@ Points random_loads(const Hanging& body, unsigned seed) {
     return b;
 }
 
-/// The least and the greatest eigenvalue of B H: B by applying it to every unit load, H as Newton's method has it.
+/// Minimum and maximum eigenvalue of B H. B is applied to every unit load; H is that of Newton's method.
 std::pair<double, double> eigenvalues(const Hanging& body, const Points& x,
                                       const CellPreconditionerOptions& options = {}) {
     CellPreconditioner preconditioner = body.preconditioner(options);
@@ -157,7 +157,7 @@ TEST(CellPreconditioner, WithoutStiffnessOfVolumeEveryNodeIsOnItsOwn) {
                     1e-5 * x.row(i).norm());
 }
 
-// The number of iterations is what the benchmark needs on 13^3 nodes.
+// The benchmark uses this number of iterations on 13^3 nodes.
 TEST(CellPreconditioner, ThreeIterationsAreWithinOnePercentOfNewtonsMethod) {
     const Hanging body = thesis(6, 100);
     solve::RealTimeStep fast(body.system,

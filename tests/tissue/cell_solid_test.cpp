@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The solid of trilinear cells: forces, energies, stiffness, volume, moduli, on uniform and on refined meshes.
+// The solid of trilinear cells: forces, energies, stiffness, volume and moduli, on uniform and on refined meshes.
 #include "risorius/tissue/cell_solid.h"
 
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@ using solve::ImplicitStep;
 
 constexpr double kEver = std::numeric_limits<double>::infinity();
 
-/// A solid and a state in which nothing is at rest.
+/// A solid and a state in which every part is deformed.
 struct Case {
     const char* name;
     CellSolid solid;
-    double amplitude;  ///< of the shaking, m
+    double amplitude;  ///< of the random displacement, m
 
     Points state(unsigned seed) const { return jolted(solid.body().rest, amplitude, seed); }
 };
@@ -46,7 +46,7 @@ std::vector<std::unique_ptr<Case>> cases() {
     return list;
 }
 
-// ---- what the inner loop is checked against: the sums of the header, as they stand
+// ---- The sums of the header, written out, as a reference for the inner loop.
 
 double plain_energy(const CellSolid& solid, const Points& x) {
     const CellBody& body = solid.body();
@@ -111,7 +111,7 @@ TEST(CellSolid, ForceIsMinusTheDerivativeOfEnergy) {  // T1
         at->solid.add_force(0, x, still, force);
         for (unsigned seed = 3; seed < 8; ++seed) {
             const Points along = jolted(still, 1.0, seed);
-            // Fourth-order difference: the energy is of degree six in x
+            // Fourth-order difference, because the energy is of degree six in x.
             const auto e = [&](double t) { return at->solid.energy(0, x + t * along); };
             const double h = 1e-3 * at->amplitude;
             const double slope = (8 * (e(h) - e(-h)) - (e(2 * h) - e(-2 * h))) / (12 * h);
@@ -140,7 +140,7 @@ TEST(CellSolid, InternalForcesHaveNoNetForceAndTorqueAndDampingBrakes) {  // T3
         }
         EXPECT_LT(viscous.cwiseProduct(v).sum(), 0) << at->name;
 
-        // A body turning as a whole is not strained
+        // Rotation of the whole body causes no strain.
         const Vec3 spin(0.3, -0.5, 0.8);
         Points turning(x.rows(), 3);
         for (Eigen::Index i = 0; i < x.rows(); ++i)
@@ -255,12 +255,12 @@ TEST(CellSolid, MetricBoundsTheStiffnessAtRest) {
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j)
                 for (int k = 0; k < 3; ++k) metric(3 * i + k, 3 * j + k) = scalar(i, j);
-        // A little mass keeps rigid motions, which both leave free, out of the quotient
+        // A small mass removes rigid motions, which neither matrix resists, from the quotient.
         metric.diagonal().array() += 1e-6 * scalar.norm();
         Eigen::MatrixXd H = full_hessian(at->solid, {h, h, rest}, rest, Curvature::kExact);
         H.diagonal().array() += 1e-6 * scalar.norm();
         const double max = testing_of::fractions(H, metric).maxCoeff();
-        EXPECT_LT(max, 3.0) << at->name;  // div u counts three times at most
+        EXPECT_LT(max, 3.0) << at->name;  // div u counts at most three times
         EXPECT_GT(max, 0.5) << at->name;
     }
 }
@@ -273,7 +273,7 @@ TEST(CellSolid, CellVolumesSumToTheVolumeWithinTheSurface) {
     EXPECT_NEAR(solid.volume(x), hull, 1e-13 * hull);
     EXPECT_EQ(solid.inverted_count(x), 0);
 
-    // No gap and no overlap where cells of different sizes meet: moving inner nodes leaves the total alone
+    // There are no gaps and overlaps where cells of different sizes meet: moving inner nodes does not change the total.
     const CellSolid refined(cell_body(thesis_cube(4, 10.0), refined_mesh(), MassShares::kCells));
     Points moved = refined.body().rest;
     const Points& a = refined.mesh().material_coordinates();
@@ -328,17 +328,17 @@ TEST(CellSolid, LinearDeformationHasOneEnergyDensityAndNoForceInside) {  // patc
         }
     EXPECT_GT(inside, 20);
 
-    // Hanging vertices take part in the deformation exactly
+    // Hanging vertices follow the deformation exactly.
     const Points all = refined.vertices(x), rest = refined.vertices(refined.body().rest);
     EXPECT_LT((all - rest * F.transpose()).norm(), 1e-14);
 }
 
 TEST(CellSolid, UniaxialStretchShowsYoungsModulusTwiceTheShearModulus) {
-    // K = 0: nothing opposes the sides but nothing pulls on them either, nu = 0
+    // K = 0: nothing resists lateral strain and nothing causes it, nu = 0.
     const double mu = 5e3, L = 0.1;
     const auto cube = [&](const Vec3& a) -> Vec3 { return L * a; };
     const CellSolid solid(cell_body(uniform_cells({4, 4, 4}), cube, {mu, 0, 0}, 1060));
-    // The same in the thesis' parameters: lambda = mu / L
+    // The same material in the thesis' parameters: lambda = mu / L.
     GridSolid thesis;
     thesis.grid = {4, 4, 4};
     thesis.rest = block_rest(thesis.grid, Vec3::Constant(L));
@@ -359,7 +359,7 @@ TEST(CellSolid, UniaxialStretchShowsYoungsModulusTwiceTheShearModulus) {
 }
 
 TEST(CellSolid, ModuliMeanTheSameOnACurvedRestShapeAsOnABlock) {
-    // A uniform swelling of any body: W = V (3 mu/4 (s^2 - 1)^2 + K/2 (s^3 - 1)^2)
+    // A uniform swelling of any body: W = V (3 mu/4 (s^2 - 1)^2 + K/2 (s^3 - 1)^2).
     const CellModuli tissue{5e3, 1e5, 0};
     const CellSolid solid(cell_body(refined_mesh(), bent, tissue, 1060));
     const double s = 1.07, V = solid.rest_volume();

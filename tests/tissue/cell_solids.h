@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Solids of cells the tests share: the thesis' cube, shaken, bent and refined.
+/// Solids of cells for several tests: the thesis' cube, random, bent and refined.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double kSide = 3.0;    // m, the thesis' cube
 constexpr double kMass = 4.0;    // kg
 constexpr double kLambda = 1.5;  // N/m^3
 
-/// The thesis' cube, its volume parameter that of the continuum.
+/// The thesis' cube, with the volume parameter of the continuum.
 inline GridSolid thesis_cube(int nodes, double psi, double damping = 0.0) {
     GridSolid solid;
     solid.grid = {nodes, nodes, nodes};
@@ -25,7 +25,7 @@ inline GridSolid thesis_cube(int nodes, double psi, double damping = 0.0) {
     return solid;
 }
 
-/// Inhomogeneous, anisotropic, damped, with a rest shape that is not a block.
+/// An inhomogeneous, anisotropic, damped solid whose rest shape is not a block.
 inline GridSolid varied_solid(const GridShape& grid) {
     GridSolid solid;
     solid.grid = grid;
@@ -57,7 +57,7 @@ inline Points jolted(Points x, double amplitude, unsigned seed) {
     return x;
 }
 
-/// Root cells, the one at a = 0 and its neighbour along a3 split once, and one of the pieces again.
+/// Root cells. The one at a = 0 and its neighbour along a3 are split once, and one of the children is split again.
 inline CellMesh refined_mesh() {
     const GridShape root{4, 4, 4};
     std::vector<CellPlace> cells;
@@ -87,7 +87,7 @@ inline CellMesh refined_mesh() {
     return {root, cells};
 }
 
-/// A bent tube section: nowhere a parallelepiped.
+/// A section of a bent tube: no cell is a parallelepiped.
 inline Vec3 bent(const Vec3& a) {
     const double angle = 0.8 * a[0], radius = 0.08 - 0.03 * a[1];
     return {radius * std::sin(angle), 0.08 - radius * std::cos(angle), 0.04 * a[2] + 0.004 * a[1]};

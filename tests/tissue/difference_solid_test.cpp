@@ -22,7 +22,7 @@ using solve::ImplicitStep;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// Relative to the largest force.
+/// `tolerance` is relative to the maximum force.
 void expect_free_of_net_force_and_torque(const Points& x, const Points& force, double tolerance) {
     const double largest = force.cwiseAbs().maxCoeff();
     ASSERT_GT(largest, 0.0);
@@ -36,8 +36,8 @@ void expect_free_of_net_force_and_torque(const Points& x, const Points& force, d
     EXPECT_LT(torque.norm(), tolerance * largest * x.rowwise().norm().maxCoeff());
 }
 
-/// 4 x 3 x 5 nodes: another number along every axis and no multiple of the four lanes in a row. Every node has its own 21
-/// numbers; the rest shape is a bent and twisted block.
+/// 4 x 3 x 5 nodes: a different number along every axis, and rows that are no multiple of the four lanes. Every node has its
+/// own 21 numbers. The rest shape is a bent and twisted block.
 GridSolid bent_solid(Parameters parameters = Parameters::kPerNode) {
     GridSolid solid;
     solid.grid = {4, 3, 5};
@@ -70,7 +70,7 @@ Points shaken_rest(const GridSolid& solid, double amplitude, unsigned seed) {
     return solid.rest + random_points(solid.rest.rows(), amplitude, seed);
 }
 
-/// The thesis' operators and formulas as they are printed, over fields of vectors.
+/// The thesis' operators and formulas as printed, over fields of vectors.
 class PrintedFormulas {
   public:
     using Field = std::vector<Vec3>;
@@ -102,7 +102,7 @@ class PrintedFormulas {
                 }
             subtract(backward(i, inner), -1, &sum);
         }
-        // (8) with the sign of its middle term as printed: t_2 holds r_1 x r_3
+        // (8) with the sign of its middle term as printed: t_2 holds r_1 x r_3.
         std::array<Field, 3> t{Field(nodes), Field(nodes), Field(nodes)};
         for (std::size_t n = 0; n < nodes; ++n) {
             const auto element = [n](const std::array<Field, 3>& a) {
@@ -156,7 +156,7 @@ class PrintedFormulas {
     std::size_t index(const std::array<int, 3>& a) const {
         return static_cast<std::size_t>(solid_.grid.index(a[0], a[1], a[2]));
     }
-    /// sum -= sign * f: the formulas give what stands against the force.
+    /// sum -= sign * f, because the formulas give the opposite of the force.
     static void subtract(const Field& f, double sign, Field* sum) {
         for (std::size_t n = 0; n < f.size(); ++n) (*sum)[n] -= sign * f[n];
     }
@@ -174,14 +174,14 @@ TEST(DifferenceSolid, RestOfAnyShapeIsExactlyFreeOfForceAndEnergy) {
 }
 
 TEST(DifferenceSolid, ForceIsTheSlopeOfTheEnergy) {
-    // Acceptance T1. Step 1e-4 m of a body of 1 m: truncation and rounding are near 1e-9.
+    // Acceptance T1. A step of 1e-4 m on a body of 1 m: truncation and rounding are near 1e-9.
     const GridSolid solid = bent_solid();
     expect_force_is_minus_slope_of_energy(DifferenceSolid(solid), 0, shaken_rest(solid, 0.1, 1),
                                           1e-5, 1e-8);
 }
 
 TEST(DifferenceSolid, ForceIsThatOfThePrintedFormulas) {
-    // Acceptance T2: (3), (6) and (8) from the thesis' operators, coded apart.
+    // Acceptance T2: (3), (6) and (8) from the thesis' operators, coded separately.
     const GridSolid solid = bent_solid();
     const Points x = shaken_rest(solid, 0.3, 2), v = random_points(x.rows(), 2.0, 3);
     const Points printed = PrintedFormulas(solid).force(x, v);
@@ -273,7 +273,7 @@ TEST(DifferenceSolid, SecondDerivativeIsExact) {
 TEST(DifferenceSolid, PositivePartIsPositiveWhereTheSecondDerivativeIsNot) {
     const GridSolid solid = bent_solid();
     const DifferenceSolid term(solid);
-    // Squeezed to a third: compressive stress everywhere
+    // Compressed to a third, so that all stresses are compressive.
     const Points x = 0.33 * shaken_rest(solid, 0.1, 15);
     const ImplicitStep step{.end_s = 0, .step_s = kForever, .start = solid.rest};
     const auto min = [&](Curvature curvature) {
@@ -307,11 +307,11 @@ TEST(DifferenceSolid, MetricBoundsTheSecondDerivativeAtRest) {
                 for (int k = 0; k < 3; ++k) metric(3 * i + k, 3 * j + k) = scalar(i, j);
         const Eigen::MatrixXd stiffness = hessian(
             term, {.end_s = 0, .step_s = step, .start = solid.rest}, solid.rest, Curvature::kExact);
-        // Largest share of the bound that is used; the small diagonal stands for the mass that holds the body in place.
+        // Maximum fraction of the bound that is used. The small diagonal stands for the mass that holds the body in place.
         metric.diagonal().array() += 1e-9 * metric.diagonal().maxCoeff();
         const double used = testing_of::fractions(stiffness, metric).maxCoeff();
         EXPECT_LT(used, 1.0 + 1e-9);
-        EXPECT_GT(used, 0.5);  // a bound far too large would cost as many times the iterations
+        EXPECT_GT(used, 0.5);  // a much larger bound would cost as many times the iterations
     }
 }
 
@@ -336,7 +336,7 @@ TEST(DifferenceSolid, SameInputGivesTheSameBits) {
     const DifferenceSolid one(solid), other(solid);
     const Points x = shaken_rest(solid, 0.2, 18), v = random_points(x.rows(), 1.0, 19);
     const Points first = force_of(one, x, v);
-    one.energy(0, solid.rest);  // whatever happened in between
+    one.energy(0, solid.rest);  // another evaluation in between
     EXPECT_EQ(first, force_of(one, x, v));
     EXPECT_EQ(first, force_of(other, x, v));
     EXPECT_EQ(one.energy(0, x), other.energy(0, x));
@@ -351,12 +351,12 @@ TEST(DifferenceSolid, VolumeElementsAreSigned) {
     EXPECT_DOUBLE_EQ(term.volume_element_sum(mirrored), -term.volume_element_sum(solid.rest));
     EXPECT_EQ(term.inverted_count(solid.rest), 0);
     EXPECT_EQ(term.inverted_count(mirrored), 3 * 2 * 4);
-    // Were it |dV|, the mirrored body would be at rest.
+    // With |dV| the mirrored body would be free of stress.
     EXPECT_GT(term.energy(0, mirrored), 1.0);
 }
 
 TEST(DifferenceSolid, ResolutionIndependentParametersGiveABlockTheSameEnergyPerStretch) {
-    // (1/4) lambda_33 (G_33 - G0_33)^2 for a stretch along a3, whatever the grid
+    // (1/4) lambda_33 (G_33 - G0_33)^2 for a stretch along a3, for any grid.
     for (const GridShape grid : {GridShape{3, 3, 3}, GridShape{4, 2, 7}, GridShape{6, 5, 4}}) {
         GridSolid solid{grid, block_rest(grid, Vec3(1, 2, 3)), {}};
         solid.material = {isotropic_material(1.5, 0, 0, 1, 0)};

@@ -44,7 +44,7 @@ TEST(Pulse, ImpulseIsTheIntegralOfTheForceOverAnyInterval) {
     for (const Pulse& pulse : {kBoxPulse, kTrianglePulse, kSinePulse})
         for (const double from : {0.0, 0.21, 0.44})
             for (const double to : {0.3, 0.5, 0.68, 0.9}) {
-                // Simpson over a fine grid; box ends inside an interval cost it one sample, 3 N / 20000
+                // Simpson's rule on a fine grid. Box ends inside an interval cause an error of one sample, 3 N / 20000.
                 const int intervals = 20000;
                 const double width = (to - from) / intervals;
                 double sum = force_n(pulse, from) + force_n(pulse, to);

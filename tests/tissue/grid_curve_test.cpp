@@ -23,7 +23,7 @@ GridCurve varied_curve() {
     return curve;
 }
 
-/// A piece of a helix, unevenly spaced.
+/// A section of a helix, unevenly spaced.
 GridCurve bent_curve() {
     GridCurve curve = varied_curve();
     for (int i = 0; i < 7; ++i) {
@@ -72,7 +72,7 @@ TEST(GridCurve, ABentCurvePulledStraightHasFiniteForces) {
     expect_force_is_exact(term, shaken(straight, 1e-3, 2), 1e-6);
 }
 
-/// One end held (both of its first nodes), a small load on the other, over P L^3 / (3 EI).
+/// Both of the first two nodes are held and a small load acts on the other end. Deflection divided by P L^3 / (3 EI).
 TEST(GridCurve, ACantileverBendsAsABeamShorterByHalfALink) {
     const double length = 2, stiffness = 0.7, load_n = 1e-4;
     for (const int nodes : {9, 17, 33}) {
@@ -91,8 +91,9 @@ TEST(GridCurve, ACantileverBendsAsABeamShorterByHalfALink) {
 }
 
 TEST(GridCurve, BucklesAtEulersLoad) {
-    // Pinned at both ends and pressed by P: a link's force is EA/2 (s^3 - s). Bending counts in material coordinates, so a
-    // rod pressed to s of its length gives way at s EI (q / L)^2, where q = 2/h sin(pi h / 2) is the discrete pi.
+    // Pinned at both ends and compressed by P: the force of a link is EA/2 (s^3 - s). Bending is measured in material
+    // coordinates, so a rod that is compressed to s times its length buckles at s EI (q / L)^2, where q = 2/h sin(pi h / 2) is
+    // the discrete pi.
     const int nodes = 21;
     const double length = 1.5, bending = 0.4, tension = 500;
     const double h = 1.0 / (nodes - 1);
@@ -118,7 +119,7 @@ TEST(GridCurve, BucklesAtEulersLoad) {
 }
 
 TEST(GridCurve, HangsAsACatenary) {
-    // Between two points at one height: length = 2 a sinh(span / 2a), sag = a (cosh(span / 2a) - 1).
+    // Between two points at the same height: length = 2 a sinh(span / 2a), sag = a (cosh(span / 2a) - 1).
     const double length = 1, span = 0.6, weight = 9.81;
     double a = span / 4;
     for (int k = 0; k < 100; ++k) {
@@ -134,7 +135,7 @@ TEST(GridCurve, HangsAsACatenary) {
         std::vector<char> fixed(static_cast<std::size_t>(nodes), 0);
         fixed.front() = fixed.back() = 1;
         Points load = Points::Zero(nodes, 3), x = curve.rest;
-        // A link's weight on its two ends, as the catenary's weight lies on its length
+        // Half of a link's weight is on each of its ends, because the weight of a catenary is distributed over its length.
         load.col(2).setConstant(-weight / (nodes - 1));
         for (int i = 0; i < nodes; ++i) {
             const double along = 2.0 * i / (nodes - 1) - 1;

@@ -110,7 +110,7 @@ TEST(GridShape, CylinderIsRoundAndUnfolded) {
     EXPECT_EQ(rest(grid.index(2, 0, 0), 0), 0.04);
     GridSolid solid{grid, rest, {isotropic_material(1, 0, 0, 1, 0)}};
     EXPECT_NO_THROW(check(solid, "muscle"));
-    // A polygon in a circle: below pi R^2 L, by less and less
+    // A polygon inside a circle: its area is below pi R^2 and converges to it.
     const double round = std::numbers::pi * 1e-4 * 0.04;
     const double coarse = round - enclosed_volume(grid, rest);
     const GridShape fine_grid{3, 17, 17};

@@ -13,7 +13,7 @@ namespace {
 
 using namespace laws;
 
-/// Anisotropic and different in every node.
+/// Anisotropic, and different in every node.
 std::vector<SurfaceMaterial> varied_materials(int nodes) {
     std::vector<SurfaceMaterial> materials;
     for (int i = 0; i < nodes; ++i) {
@@ -42,7 +42,7 @@ GridSurface varied_tube() {
     return surface;
 }
 
-/// Neither flat nor evenly spaced.
+/// A sheet that is neither flat nor evenly spaced.
 GridSurface curved_sheet() {
     GridSurface surface = varied_sheet();
     for (Eigen::Index i = 0; i < surface.rest.rows(); ++i) {
@@ -71,7 +71,7 @@ TEST_P(AnyGridSurface, PotentialAndItsDerivativesAgree) {
     expect_potential_is_exact(term, surface.rest, shape, 0.02);
 }
 TEST_P(AnyGridSurface, PositiveCurvatureIsPositive) {
-    // Crumpled to half its size
+    // Crumpled to half its size.
     expect_positive_curvature(term, surface.rest, 0.5 * shape, 0.02);
 }
 TEST_P(AnyGridSurface, RestIsFreeOfForceHoweverTurned) { expect_rest_is_free(term, surface.rest); }
@@ -124,7 +124,7 @@ TEST(GridSurface, BendsByThePlainQuadraticFormWhenItsRestIsFlat) {
 
 TEST(GridSurface, RollingAFlatSheetUpCostsNoMetricEnergy) {
     const GridSurface surface = plain_sheet({9, 5}, Vec2(1, 0.5), 50, 0.2);
-    // Chords as long as the spacing: an isometry of the links
+    // Chords are as long as the spacing, so the links keep their length.
     const double angle = 0.3, radius = 0.125 / (2 * std::sin(angle / 2));
     Points rolled = surface.rest;
     for (int i = 0; i < 9; ++i)
@@ -133,7 +133,7 @@ TEST(GridSurface, RollingAFlatSheetUpCostsNoMetricEnergy) {
                 surface.rest(surface.grid.index(i, j), 1), radius * (1 - std::cos(i * angle));
     const GridSurfaceTerm term(surface);
     EXPECT_LT(term.metric_energy(rolled), 1e-25);
-    // 7 inner rows of 1/8 each, |D_11 r| = L^2 2 sin(angle/2) / spacing
+    // 7 inner rows of 1/8 each, |D_11 r| = L^2 2 sin(angle/2) / spacing.
     const double second = 64 * 0.125 * 2 * std::sin(angle / 2);
     EXPECT_NEAR(term.bending_energy(rolled), 7.0 / 8 * 0.5 * 0.2 * second * second, 1e-12);
 }
@@ -145,13 +145,13 @@ TEST(GridSurface, WideningATubeCostsTheChangeOfItsSecondDifference) {
     tube.material = {isotropic_surface(0, 0, 1, 1, 0)};
     const GridSurfaceTerm term(tube);
     const Points wide = tube_rest(tube.grid, 0.6, 1);
-    // D_22 of a circle of radius r is r w^2 long, w = 2 N sin(pi / N); the normal keeps its own length.
+    // D_22 of a circle of radius r has the length r w^2, w = 2 N sin(pi / N). The normal part keeps its own length.
     const double w = 2 * 24 * std::sin(std::numbers::pi / 24);
     const double expected = 0.5 * std::pow(0.1 * w * w, 2);
     EXPECT_NEAR(term.bending_energy(wide), expected, 1e-10 * expected);
 }
 
-/// Middle of a strip resting on supports at both ends under its own weight, over the beam's 5 q / (384 zeta).
+/// Sag of the middle of a strip that is supported at both ends, under its own weight, divided by the beam's 5 q / (384 zeta).
 double pinned_sag_ratio(int nodes, Parameters meant, double zeta) {
     const GridSurface surface = plain_sheet({nodes, 3}, Vec2(1, 0.3), 1e4, zeta, meant);
     std::vector<char> fixed(static_cast<std::size_t>(surface.grid.size()), 0);
@@ -177,7 +177,7 @@ TEST(GridSurface, APinnedSheetSagsByTheBeamFormulaAtAnyResolution) {
 }
 
 TEST(GridSurface, ValuesPerNodeMakeAFinerSheetStiffer) {
-    // zeta per node counts (M - 1) N times: what the thesis' values do.
+    // With the thesis' values, zeta per node counts (M - 1) N times.
     for (const int nodes : {5, 9})
         EXPECT_NEAR(
             pinned_sag_ratio(nodes, Parameters::kPerNode, 0.2),
@@ -200,14 +200,14 @@ TEST(GridSurface, ACantileverOfTwoClampedRowsIsShorterByHalfASpacing) {
         const Points u = small_deflection(GridSurfaceTerm(surface), surface.rest, fixed, load);
         const double tip = -u(surface.grid.index(nodes - 1, 1), 2);
         EXPECT_NEAR(tip * 3 * zeta / 1e-3, std::pow(1 - h / 2, 3), h * h) << nodes;
-        // Sum of the hinges: h^3 sum k^2 over k = 1 .. M-2
+        // Sum over the hinges: h^3 sum k^2 over k = 1 .. M-2.
         const double n = nodes - 1;
         EXPECT_NEAR(tip * 3 * zeta / 1e-3, (n - 1) * (2 * n - 1) / (2 * n * n), 1e-4) << nodes;
     }
 }
 
 TEST(GridSurface, HangsFromItsUpperRowByTheClosedForm) {
-    // Row k from the free end carries m g k / M; its stretch solves s^3 - s = T L1^-3 / lambda (physics of the solid in 2-D).
+    // Row k from the free end carries m g k / M. Its stretch solves s^3 - s = T L1^-3 / lambda, as for the solid, but in 2-D.
     const int m = 6;
     const double mg = 9.81, lambda = 3, length = 2;
     GridSurface surface = plain_sheet({m, 4}, Vec2(length, 1), 1, 0);

@@ -2,7 +2,7 @@
 /// \file
 /// The thesis' cube under a ceiling (figures 5 and 9), and its equilibrium by Newton's method.
 ///
-/// L = 3 m and g = 9.81 m/s^2 are inferred: with them the published figures come out. The plane of highest a3 is held.
+/// L = 3 m and g = 9.81 m/s^2 are inferred: with them the published figures are reproduced. The plane of highest a3 is held.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline GridSolid hanging_cube(int nodes_per_edge, const SolidMaterial& material,
     return {grid, block_rest(grid, Vec3::Constant(kCubeEdge)), {material}, parameters};
 }
 
-/// `Solid` is a term made from a GridSolid; the ceiling holds the highest plane of a3.
+/// `Solid` is a term made from a GridSolid. The ceiling holds the highest plane of a3.
 template <class Solid>
 solve::MotionSystem hang(const GridSolid& solid) {
     std::vector<char> fixed(static_cast<std::size_t>(solid.grid.size()), 0);
@@ -39,8 +39,8 @@ solve::MotionSystem hang(const GridSolid& solid) {
     return system;
 }
 
-/// Newton with halved steps, until no node moves by 1e-10 m. The second derivative is exact where that is positive, as it
-/// is near the end, where it converges fastest; else it is the positive part, which leads downhill from anywhere.
+/// Newton's method with halved steps, until no node moves by 1e-10 m. The exact second derivative is used where it is positive,
+/// as near the end, where it converges fastest. Elsewhere its positive part is used, which leads downhill from anywhere.
 inline Points equilibrium(const solve::MotionSystem& system, const Points& start) {
     const solve::ImplicitStep still{
         .end_s = 0, .step_s = std::numeric_limits<double>::infinity(), .start = start};
@@ -70,7 +70,7 @@ inline Points equilibrium(const solve::MotionSystem& system, const Points& start
     return x;
 }
 
-/// Mean depth of the lowest plane below the ceiling, share of the edge.
+/// Mean depth of the lowest plane below the ceiling, as a fraction of the edge.
 inline double hang_length(const GridShape& grid, const Points& x) {
     const auto mean_height = [&](int index) {
         double sum = 0;
@@ -85,8 +85,8 @@ inline double volume_change(const GridSolid& solid, const Points& x) {
     return enclosed_volume(solid.grid, x) / enclosed_volume(solid.grid, solid.rest) - 1;
 }
 
-/// Hanging length, share of L, of a bar of the metric term alone, exact for finite differences: link k from the free end
-/// carries T_k = m g k / M, and its stretch solves s^3 - s = T_k / (lambda L^3).
+/// Hanging length of a bar of the metric term alone, as a fraction of L. It is exact for finite differences: link k from the
+/// free end carries T_k = m g k / M, and its stretch solves s^3 - s = T_k / (lambda L^3).
 inline double closed_form_hang_length(int nodes, double elastic_n_per_m3, double mass_kg) {
     const double edge_cubed = kCubeEdge * kCubeEdge * kCubeEdge;
     double sum = 0;

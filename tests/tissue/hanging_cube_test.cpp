@@ -18,7 +18,7 @@ Points hanging(const GridSolid& solid) {
 }
 
 TEST(HangingCube, FigureFiveTheOriginalParametersDependOnTheResolution) {
-    // T4a: eta = 0.01 in every node. Values of the closed form, which figure 5 shows as pictures.
+    // T4a: eta = 0.01 in every node. The values are those of the closed form; figure 5 shows only pictures.
     const std::map<int, double> expected = {{3, 1.7854}, {4, 1.4212}, {5, 1.2483}};
     for (const auto& [nodes, length] : expected) {
         const GridSolid solid =
@@ -42,8 +42,8 @@ TEST(HangingCube, EquationTenMakesTheParametersIndependentOfTheResolution) {
 }
 
 TEST(HangingCube, HangsAlmostTheSameAtEveryResolutionWithTheVolumeTerm) {
-    // T4c and T5c, the volume change in per cent; the thesis finds about 1 at 9^3. Lengths and changes are those of an
-    // independent prototype. At 11^3 and 13^3 they are 1.1397, 0.660 and 1.1377, 0.482, too slow for a test.
+    // T4c and T5c. The volume change is in per cent; the thesis finds about 1 at 9^3. Lengths and changes are those of an
+    // independent prototype. At 11^3 and 13^3 they are 1.1397, 0.660 and 1.1377, 0.482, which is too slow for a test.
     struct Row {
         int nodes;
         double length, volume_percent;
@@ -63,7 +63,7 @@ TEST(HangingCube, HangsAlmostTheSameAtEveryResolutionWithTheVolumeTerm) {
 }
 
 TEST(HangingCube, DriftsSidewaysSinceTheDifferencesLookToOneSide) {
-    // A known defect of the discretisation, 0.8 % of L at 3^3: a change here is a change of the reference.
+    // A known defect of the discretisation, 0.8 % of L at 3^3. A change here is a change of the reference.
     const GridSolid solid = hanging_cube(3, kThesisCube);
     const Points x = hanging(solid);
     EXPECT_NEAR((x.col(0) - solid.rest.col(0)).mean() / kCubeEdge, -0.0079, 1e-4);
@@ -71,7 +71,7 @@ TEST(HangingCube, DriftsSidewaysSinceTheDifferencesLookToOneSide) {
 }
 
 TEST(HangingCube, SofteningTheLowerHalfStretchesTheLowerHalf) {
-    // Inhomogeneous: links of the lower half have a quarter of lambda. Without the volume term columns do not mix.
+    // Inhomogeneous: links of the lower half have a quarter of lambda. Without the volume term, columns do not interact.
     GridSolid solid = hanging_cube(5, isotropic_material(1.5, 0.1, 0, 4, 0));
     const Points even = hanging(solid);
     solid.material.assign(125, solid.material[0]);

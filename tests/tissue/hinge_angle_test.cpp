@@ -25,7 +25,7 @@ HingeCorners random_hinge(unsigned seed) {
 }
 
 TEST(HingeAngle, IsTheTurnFromFlat) {
-    // n1 = e x (xa - x0) is up here; folding up is towards it.
+    // n1 = e x (xa - x0) points up here, and folding up is towards it.
     for (const double angle : {-2.5, -0.3, 0.0, 0.7, 3.0})
         EXPECT_NEAR(hinge_angle(folded_corners(angle)), -angle, 1e-14);
     const HingeCorners x = random_hinge(1);

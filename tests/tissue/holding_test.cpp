@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tethers, contacts and dead loads: what holds and pushes the tissue from outside.
+// Zero-length springs, contacts and dead loads: what holds and pushes the tissue from outside.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -62,7 +62,7 @@ TEST(ZeroLengthSprings, TheMetricBoundsBothDirections) {
     EXPECT_EQ(metric.sum(), 20.0);
 }
 
-/// Node 17 over the triangle 0 1 3, and node 10 over a fixed plane.
+/// Node 17 above the triangle 0 1 3, and node 10 above a fixed plane.
 Contacts some_contacts() {
     Contacts::Contact carried;
     carried.node = 17;
@@ -77,7 +77,8 @@ Contacts some_contacts() {
     carried.stiffness_n_per_m = 30;
     Contacts::Contact fixed;
     fixed.node = 10;
-    fixed.point = kHeldBlock.rest.row(10).transpose() + Vec3(0, 0, 4e-4);  // 0.4 mm inside at rest
+    // 0.4 mm inside in the rest pose.
+    fixed.point = kHeldBlock.rest.row(10).transpose() + Vec3(0, 0, 4e-4);
     fixed.normal = Vec3::UnitZ();
     fixed.stiffness_n_per_m = 50;
     Contacts contacts;
@@ -107,7 +108,7 @@ TEST(Contacts, ForcesAreTheSlopeOfTheEnergyWhilePressed) {
     EXPECT_GE(contacts.max_penetration(x), 2e-3 - 1e-12);
 }
 
-// However long a node has been pressed, once it is free it is let go as fast as one that was just touched.
+// However long a node has been pressed, once it is free it is released as fast as one that has just been touched.
 TEST(Contacts, WhatHasBeenPressedForLongIsLetGoAtOnce) {
     Contacts::Contact contact;
     contact.stiffness_n_per_m = 50;
@@ -126,7 +127,7 @@ TEST(Contacts, WhatHasBeenPressedForLongIsLetGoAtOnce) {
     EXPECT_NEAR(shift(contacts, 4e-3), pressed - 1e-3, 1e-12);
 }
 
-// One node held down by a spring k over a plane at 0, pulled by a force f: steps of "solve, remember" press it out.
+// One node is held down by a spring k above a plane at 0 and pulled by a force f. Steps of "solve, remember" press it out.
 TEST(Contacts, WhatIsLeftOfAPenetrationIsPushedOutStepByStep) {
     Contacts::Contact contact;
     contact.stiffness_n_per_m = 50;
@@ -137,14 +138,14 @@ TEST(Contacts, WhatIsLeftOfAPenetrationIsPushedOutStepByStep) {
     std::vector<double> depth;
     for (int step = 0; step < 8; ++step) {
         contacts.set({contact});
-        // k z + kc (z - s) = f while it presses
+        // k z + kc (z - s) = f while it presses.
         const double s = contacts.list()[0].shift_m;
         x(0, 2) = (f + contact.stiffness_n_per_m * s) / (k + contact.stiffness_n_per_m);
         depth.push_back(contacts.max_penetration(x));
         contacts.remember(x);
     }
     EXPECT_NEAR(depth[0], 0.02 / 90, 1e-12);
-    // Half of what is left goes into the shift, and kc/(k + kc) of that comes out.
+    // Half of the remaining penetration goes into the shift, and kc/(k + kc) of that reduces the penetration.
     for (std::size_t i = 1; i < depth.size(); ++i)
         EXPECT_NEAR(depth[i] / depth[i - 1], 1 - 0.5 * 50 / 90, 0.01);
     contacts.forget();
@@ -152,7 +153,7 @@ TEST(Contacts, WhatIsLeftOfAPenetrationIsPushedOutStepByStep) {
     EXPECT_EQ(contacts.list()[0].shift_m, 0.0);
 }
 
-/// A node over a plane that it sticks to, from one solve to the next.
+/// A node above a plane with adhesion, from one solve to the next.
 struct StickyNode {
     Contacts::Contact contact;
     Points x = Points::Zero(1, 3);
@@ -164,7 +165,7 @@ struct StickyNode {
         contact.stick_n = 1e-3;
         contact.stick_m = 6e-4;
     }
-    /// N, once a solve has ended at that height.
+    /// Pull after a solve that ended at this height, N.
     double pull_at(double height_m) {
         x(0, 2) = height_m;
         contacts.set({contact});
@@ -181,9 +182,9 @@ TEST(Contacts, WhatWasPressedSticksALittleAndThenLetsGo) {
     node.contacts.set({node.contact});
     node.x(0, 2) = 1.5e-4;
     expect_gradient_is_exact(node.contacts, node.x);
-    EXPECT_NEAR(node.pull_at(1e-4), 1e-3, 1e-9);  // a third of the way from where it was let go
+    EXPECT_NEAR(node.pull_at(1e-4), 1e-3, 1e-9);  // at a third of dc beyond the release
     EXPECT_GT(node.pull_at(3e-4), 0.0);
-    EXPECT_EQ(node.pull_at(6e-4), 0.0);  // torn
+    EXPECT_EQ(node.pull_at(6e-4), 0.0);  // torn off
     EXPECT_EQ(node.pull_at(1e-4), 0.0);
 }
 

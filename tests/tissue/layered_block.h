@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A small layered block of tissue and its top sheet, and the checks every energy term has to pass.
+/// A small layered block of tissue and its top sheet, and checks that every energy term must pass.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace risorius::tissue {
 
-/// Nodes on a wavy nx x ny x nz grid, each cell cut into six tets around its main diagonal.
+/// Nodes on a wavy nx x ny x nz grid. Each cell is cut into six tets around its main diagonal.
 struct LayeredBlock {
     Points rest;
     Tets tets;
@@ -86,8 +86,8 @@ Points gradient_of(const Term& term, const Points& x) {
     return gradient;
 }
 
-/// Central differences against the gradient in every coordinate. At a step of 1e-8 m on elements of millimetres, round-off
-/// and truncation are both near 1e-8 of the largest force.
+/// Compares the gradient with central differences in every coordinate. With a step of 1e-8 m on elements of millimetres,
+/// rounding and truncation are both near 1e-8 of the maximum force.
 template <class Term>
 void expect_gradient_is_exact(const Term& term, const Points& x, double tolerance = 1e-6) {
     const Points gradient = gradient_of(term, x);
@@ -106,7 +106,7 @@ void expect_gradient_is_exact(const Term& term, const Points& x, double toleranc
     }
 }
 
-/// Internal forces neither push nor turn the body as a whole.
+/// Internal forces neither translate nor rotate the body as a whole.
 inline void expect_no_net_force_or_torque(const Points& x, const Points& gradient) {
     const double largest = gradient.cwiseAbs().maxCoeff();
     ASSERT_GT(largest, 0.0);

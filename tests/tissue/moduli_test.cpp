@@ -11,7 +11,7 @@ namespace {
 
 const Vec3 kEdges(0.3, 0.5, 0.2);
 const GridShape kModuliGrid{4, 3, 5};
-constexpr double kStrain = 1e-6;  // what is of second order in it is below every tolerance here
+constexpr double kStrain = 1e-6;  // its second-order effects are below every tolerance here
 
 GridSolid block(const IsotropicModuli& moduli) {
     GridSolid solid{kModuliGrid, block_rest(kModuliGrid, kEdges), {SolidMaterial{}}};
@@ -21,7 +21,8 @@ GridSolid block(const IsotropicModuli& moduli) {
     return solid;
 }
 
-/// Stress on the face where a_axis is 1, Pa, in a body deformed by x = F r0: what holds the nodes there, by its area.
+/// Stress on the face where a_axis is 1, Pa, in a body deformed by x = F r0: the holding force on the nodes divided by the
+/// area.
 Vec3 traction(const GridSolid& solid, const Mat3& deformation, int axis) {
     const Points x = solid.rest * deformation.transpose();
     Points force = Points::Zero(x.rows(), 3);
@@ -94,7 +95,7 @@ TEST(Moduli, ConversionsLeadBack) {
 }
 
 TEST(Moduli, TheThesisCubeIsAFewPascalsStiffAndHardensWithResolution) {
-    // lambda = 1.5, psi = 10 per node, edges of 3 m
+    // lambda = 1.5, psi = 10 per node, edges of 3 m.
     EXPECT_DOUBLE_EQ(block_moduli(Mat3::Constant(1.5), Vec3(3, 3, 3))(0, 1), 4.5);
     EXPECT_DOUBLE_EQ(nodal_volume_modulus(10, 27, {3, 3, 3}), 4320);
     EXPECT_DOUBLE_EQ(nodal_volume_modulus(10, 27, {9, 9, 9}), 64 * 4320);

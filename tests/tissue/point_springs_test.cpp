@@ -20,7 +20,7 @@ namespace {
 using solve::NodeBlend;
 using namespace testing_of;
 
-/// Springs of every kind: pulled, pressed, of no length; on nodes and between them.
+/// Springs of every kind: stretched, compressed, of zero length; at nodes and between them.
 std::vector<PointSpring> mixed_springs() {
     return {{NodeBlend(0), {0.1, 0.2, 1.5}, 3.0, 0.4, 0.2},
             {NodeBlend({1, 2, 3}, {0.2, 0.5, 0.3}), {0.1, 0.0, 0.1}, 2.0, 1.5, 0.1},
@@ -48,7 +48,7 @@ TEST(PointSprings, ADamperBesideASpringWithLengthResistsOnlyLengthening) {
 }
 
 TEST(PointSprings, ForceIsMinusTheSlopeOfTheEnergy) {
-    // Central differences with step 1e-6: error about 1e-10
+    // Central differences with step 1e-6: the error is about 1e-10.
     expect_force_is_minus_slope_of_energy(PointSprings(mixed_springs()), 0,
                                           random_points(4, 1.0, 3), 1e-6, 1e-8);
 }
@@ -179,7 +179,7 @@ TEST(InteractiveSpring, TakesABodyAlongInEveryKindOfStepAndThenLetsItFly) {
         solve::MotionState state{0, Points::Zero(2, 3), Points::Zero(2, 3)};
         const auto steps = solve::make_integrator({.method = method, .step_s = 1e-3});
 
-        // Pulled at the middle of the two: both follow alike
+        // Pulled at the middle of the two: both follow alike.
         spring->attach(NodeBlend({0, 1}, {0.5, 0.5}), {0, 0, 1});
         steps->advance(system, state, 1.0);
         EXPECT_LT((state.x.row(0) - Eigen::RowVector3d(0, 0, 1)).norm(), 1e-3);

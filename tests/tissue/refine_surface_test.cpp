@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adaptive resolution of surfaces: bisection keeps the mesh and the material, the estimate knows where to look.
+// Adaptive resolution of surfaces: bisection preserves the mesh and the material, and the estimate knows where to refine.
 #include "risorius/tissue/detail/refine_surface.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace risorius::tissue {
 namespace {
 
-/// A square metre of isotropic sheet, material coordinates in metres.
+/// A square metre of isotropic sheet, with material coordinates in metres.
 TriangleSurface sheet(int nodes, double bending_n_m = 0) {
     GridSurface grid;
     grid.grid = {nodes, nodes};
@@ -35,7 +35,7 @@ double area_by(const TriangleSurface& surface) {
     return sum;
 }
 
-/// Every inner edge has two triangles that run along it in opposite directions, and no node lies within an edge.
+/// Every inner edge has two triangles that run along it in opposite directions, and no node lies inside an edge.
 void expect_conforming(const TriangleSurface& surface) {
     std::map<std::pair<int, int>, int> runs;
     for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
@@ -97,7 +97,7 @@ TEST(Bisection, PartsHaveTheMaterialOfTheWhole) {
         EXPECT_EQ(next.surface.material[t].mass_kg,
                   surface.material[static_cast<std::size_t>(next.parent[t])].mass_kg);
     EXPECT_NEAR(node_mass(next.surface).sum(), mass, 1e-12 * mass);
-    // Nothing marked, nothing changed
+    // Nothing is marked, so nothing changes.
     EXPECT_EQ(bisected(surface, marks(surface, {})).surface.triangles, surface.triangles);
 }
 
@@ -139,7 +139,7 @@ TEST(AdaptiveSurface, BisectionsOfATriangleAreLimited) {
 }
 
 TEST(SurfaceError, FallsWithTheSizeAndIsNearTheTrueError) {
-    // G - G0 of x = (s + c s^2, t, 0) is (2 c s (2 + 2 c s), 0, 0); of triangles between nodes it is constant
+    // G - G0 of x = (s + c s^2, t, 0) is (2 c s (2 + 2 c s), 0, 0). In triangles between nodes it is constant.
     constexpr double kC = 0.2;
     double before = 0;
     for (const int nodes : {9, 17}) {
@@ -171,7 +171,7 @@ TEST(SurfaceError, FallsWithTheSizeAndIsNearTheTrueError) {
 
 TEST(SurfaceError, ConstantCurvatureHasNoErrorInsideAndChangingCurvatureHas) {
     TriangleSurface limp = sheet(13);
-    limp.material = {isotropic_surface(0, 0, 0.01, 2, 0)};  // bending alone
+    limp.material = {isotropic_surface(0, 0, 0.01, 2, 0)};  // bending only
     const TriangleSheetTerm term(limp);
     const auto fraction = [&](const std::function<double(double)>& height) {
         const Points x = mapped(limp.rest, [&](const Vec3& p) -> Vec3 {
@@ -189,10 +189,11 @@ TEST(SurfaceError, ConstantCurvatureHasNoErrorInsideAndChangingCurvatureHas) {
     EXPECT_GT(fraction([](double s) { return 1e-3 * std::sin(9 * s); }), 0.01);
 }
 
-/// Held at its border, a patch of 1/4 x 1/4 in the middle pushed out by 0.3 m; stretched by 5 % to begin with.
+/// A sheet that is held at its border. A patch of 1/4 x 1/4 in its middle is pushed out by 0.3 m. It begins with a stretch of 5
+/// %.
 struct PokedSheet {
     double multiplications = 0;
-    double assembled = 0;  ///< second derivatives of a triangle
+    double assembled = 0;  ///< number of second derivatives of a triangle
 
     static bool is_patch(const Eigen::RowVector3d& p) {
         return (p.head<2>().array() - 0.5).abs().maxCoeff() < 0.125 + 1e-9;
@@ -251,7 +252,7 @@ TEST(AdaptiveSurface, PokedSheetNeedsLessThanHalfTheWorkOfAUniformOne) {
     EXPECT_NEAR(PokedSheet::push(adaptive, state.x) / fine, 1, 0.01);
     EXPECT_LT(solve.multiplications, 0.25 * solve_uniform.multiplications);
     EXPECT_LT(solve.assembled, 0.5 * solve_uniform.assembled);
-    // Near a corner of the patch the triangles are small, near a corner of the sheet they are not
+    // Near a corner of the patch the triangles are small; near a corner of the sheet they are not.
     double near = 1, far = 1;
     for (Eigen::Index t = 0; t < adaptive.surface().triangles.rows(); ++t) {
         const Vec2 middle = coordinates_of(adaptive.surface(), t).rowwise().mean();

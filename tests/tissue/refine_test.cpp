@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adaptive resolution: the tree keeps its balance, the estimate knows the error, and the body stays what it is.
+// Adaptive resolution: the tree stays balanced, the estimate knows the error, and the body stays the same.
 #include "risorius/tissue/refine.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<CellPlace> places_of(const CellMesh& mesh) {
     return places;
 }
 
-/// Greatest difference in level of cells that share a point, found from the cells' extents alone.
+/// Maximum difference in level between cells that share a point, found from the extents of the cells alone.
 int worst_step_between_neighbours(const CellMesh& mesh) {
     int worst = 0;
     for (const CellMesh::Cell& a : mesh.cells())
@@ -75,12 +75,12 @@ TEST(CellTree, MergingUndoesSplitting) {
 
 TEST(CellTree, MergingIsRefusedOnlyWhereItWouldUnbalanceTheTree) {
     CellTree tree({3, 3, 3});
-    tree.split({1, {1, 1, 1}});  // meets all eight root cells at the middle, so all are split
+    tree.split({1, {1, 1, 1}});  // meets all eight root cells in the middle, so all are split
     EXPECT_FALSE(tree.merge({0, {0, 0, 0}})) << "its part is split";
     EXPECT_FALSE(tree.merge({0, {1, 1, 1}})) << "it meets that part across a corner";
     EXPECT_TRUE(tree.merge({1, {1, 1, 1}}));
     EXPECT_TRUE(tree.merge({0, {1, 1, 1}}));
-    // A split on the far side of a neighbour is no reason to refuse
+    // A split on the far side of a neighbour is no obstacle.
     CellTree wide({4, 2, 2});
     wide.split({1, {3, 0, 0}});
     wide.split({0, {0, 0, 0}});
@@ -108,7 +108,7 @@ const RestShape kBlock = [](const Vec3& a) -> Vec3 {
 };
 const CellModuli kTissue{.mu_pa = 3e3, .bulk_pa = 2e4};
 
-/// Smooth and volume-changing: stretches, shears and bends.
+/// A smooth map that changes volume: it stretches, shears and bends.
 Vec3 smooth_map(const Vec3& a) {
     const Vec3 x = kBlock(a);
     return x + 0.01 * Vec3(a[0] * a[0] + a[1] * a[2], a[1] * a[1] - a[0] * a[2], a[2] * a[0]);
@@ -129,7 +129,7 @@ TEST(StrainError, LinearDeformationHasNoErrorOnAnyMesh) {
               static_cast<Eigen::Index>(thesis.mesh().cells().size()));
 }
 
-/// Energy of the difference between the strain of the smooth map and that of the cells, by 4^3 points per cell.
+/// Energy of the difference between the strain of the smooth map and that of the cells, with 4^3 points per cell.
 double true_squared_error(const CellSolid& solid) {
     const Points vertices = solid.vertices(mapped(solid.mesh(), smooth_map));
     double sum = 0;
@@ -164,7 +164,7 @@ double true_squared_error(const CellSolid& solid) {
 TEST(StrainError, FallsWithTheCellSizeAndIsNearTheTrueError) {
     double before = 0;
     for (const int nodes : {5, 9}) {
-        // K = 0: the cells' dilatation is a mean, which has no true counterpart point by point
+        // K = 0, because the cells' dilatation is a mean, which has no exact counterpart point by point.
         const CellSolid solid(cell_body(uniform_cells({nodes, nodes, nodes}), kBlock,
                                         {.mu_pa = kTissue.mu_pa}, 1000));
         const double squared = squared_error(solid, mapped(solid.mesh(), smooth_map)).sum();
@@ -189,7 +189,7 @@ TEST(StrainError, SeesVolumeChangeThatVariesFromCellToCell) {
     EXPECT_NEAR(error(4e4) - shape, 2 * (both - shape), 1e-9 * both) << "linear in K";
 }
 
-/// What holds and pulls the thesis' cube: its highest plane of a3, and weight.
+/// The thesis' cube under its weight, held at its highest plane of a3.
 bool hang(const std::shared_ptr<CellSolid>& solid, SolveStage stage, solve::MotionState& state) {
     const CellBody& body = solid->body();
     std::vector<char> fixed;
@@ -260,7 +260,7 @@ TEST(AdaptiveSolid, PokedPlaceIsRefinedAndMergedAgainWhenLeftAlone) {
     EXPECT_EQ(mesh.cells()[static_cast<std::size_t>(mesh.cell_at({0.9, 0.9, 0.1}))].place.level, 0);
     EXPECT_GT(adaptive.estimated_error(), 0);
 
-    // Elsewhere later: there the cells are split, here merged
+    // Later the strain is elsewhere: cells are split there and merged here.
     const auto elsewhere = [](const Vec3& a) -> Vec3 {
         const double away = (a - Vec3(0.8, 0.8, 0)).squaredNorm();
         return kBlock(a) - Vec3(0, 0, 0.01 * std::exp(-away / 0.02));
@@ -307,10 +307,10 @@ TEST(AdaptiveSolid, MaterialAndLinearStatesAreUnchangedByRefinement) {
     EXPECT_LT((state.x - mapped(solid.mesh(), place)).cwiseAbs().maxCoeff(), 1e-14 * kSide * 10);
     EXPECT_LT((state.v - mapped(solid.mesh(), speed)).cwiseAbs().maxCoeff(), 1e-14 * 10);
     EXPECT_NEAR(solid.energy(0, state.x), energy, 1e-12 * energy);
-    // Its centre of mass is that of the description as well, so weight pulls where it did
+    // Its centre of mass is that of the description too, so the weight acts at the same point.
     const Vec3 centre = solid.body().rest.transpose() * solid.body().mass_kg / mass;
     EXPECT_LT((centre - Vec3::Constant(kSide / 2)).norm(), 1e-12 * kSide);
-    // What was asked for stays, whatever the strain
+    // Splits that were asked for stay, whatever the strain.
     state.x = mapped(solid.mesh(), place);
     EXPECT_FALSE(adaptive.refine(state));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Second derivatives of the tissue of a face: tetrahedra, skin, tethers, contacts.
+// Second derivatives of the tissue of a face: tetrahedra, skin, zero-length springs, contacts.
 #include "risorius/tissue/contacts.h"
 #include "risorius/tissue/detail/principal_stretches.h"
 #include "risorius/tissue/skin_sheet.h"
@@ -126,7 +126,7 @@ TEST(SecondDerivatives, OfContactsThatHardenAreTheSlopeOfTheirForces) {
     expect_slope_of_gradient(
         pushed, x, [&](const Points& y, Points& g) { return contacts.add_energy(y, g); }, kStep_m,
         kTolerance);
-    // E = kc/(3 h) d^3: 2 kc d / h along the normal of the node that touches, nothing at the one that does not
+    // E = kc/(3 h) d^3: 2 kc d / h along the normal at the node that touches, and zero at the one that does not.
     EXPECT_NEAR(pushed.topLeftCorner(3, 3).trace(), 2 * 40 * kDepth_m / kHardens_m, 1e-6);
     EXPECT_EQ(pushed.block(3, 3, 3, 3).norm(), 0);
 }

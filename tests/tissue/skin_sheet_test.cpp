@@ -16,7 +16,7 @@ SkinSheet sheet_over(const LayeredBlock& block, double membrane_n_per_m, double 
                      Eigen::VectorXd::Constant(count, bending_n_m));
 }
 
-/// A strip of two triangles folded along the y axis by `angle`, hinge edge 0-1.
+/// A strip of two triangles that is folded along the y axis by `angle`, with hinge edge 0-1.
 Points folded(double angle) {
     Points x(4, 3);
     x << 0, 0, 0, 0, 5e-3, 0, 4e-3 * std::cos(angle), 2e-3, 4e-3 * std::sin(angle), -4e-3, 3e-3, 0;
@@ -36,7 +36,7 @@ const LayeredBlock kThinBlock(6, 5, 1);
 TEST(SkinSheet, EveryInnerEdgeBends) {
     const SkinSheet sheet = sheet_over(kThinBlock, 20, 2e-5);
     EXPECT_EQ(sheet.triangle_count(), 40);
-    EXPECT_EQ(sheet.hinge_count(), 51);  // 20 diagonals, 15 + 16 inner sides
+    EXPECT_EQ(sheet.hinge_count(), 51);  // 20 diagonals, 15 + 16 inner edges
 }
 
 TEST(SkinSheet, RestIsFreeOfStress) {
@@ -74,7 +74,7 @@ TEST(SkinSheet, AFlatHingeAtRestIsSmooth) {
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-15);
     EXPECT_TRUE(gradient.allFinite());
     expect_gradient_is_exact(hinge, shaken(rest, 1e-6, 3), 1e-5);
-    // Linear from the start: half the fold, half the force; up or down makes no difference
+    // Linear from the start: half the fold gives half the force. Up and down make no difference.
     const double whole = gradient_of(hinge, folded(2e-4)).norm();
     EXPECT_NEAR(gradient_of(hinge, folded(1e-4)).norm() / whole, 0.5, 1e-3);
     EXPECT_NEAR(gradient_of(hinge, folded(-2e-4)).norm() / whole, 1.0, 1e-3);
@@ -88,8 +88,8 @@ TEST(SkinSheet, AFoldedHingeFlattenedKeepsFiniteForces) {
 }
 
 TEST(SkinSheet, RollingAStripCostsTheSumOfItsFolds) {
-    // Rolled along x, only the edges across the strip fold, each by spacing / radius: w/2 (|e| angle)^2 with
-    // w = 3 kB / (spacing |e|), which over the n - 2 inner lines of edges is 3 kB/2 area / radius^2 (n - 2)/(n - 1).
+    // Rolled along x, only the edges across the strip fold, each by spacing / radius: w/2 (|e| angle)^2 with w = 3 kB /
+    // (spacing |e|). Summed over the n - 2 inner lines of edges, this is 3 kB/2 area / radius^2 (n - 2)/(n - 1).
     const int n = 41;
     LayeredBlock block(n, 5, 1, 1e-3);
     block.rest.col(2).setZero();
@@ -102,7 +102,7 @@ TEST(SkinSheet, RollingAStripCostsTheSumOfItsFolds) {
         rolled(i, 2) = radius * (1 - std::cos(angle));
     }
     const double expected = 1.5 * kb * (40e-3 * 4e-3) / (radius * radius) * 39 / 40;
-    // angles of 1/200: what the small-angle form leaves out is of the order of its square
+    // For angles of 1/200, the error of the small-angle form is of the order of their square.
     EXPECT_NEAR(sheet.add_energy(rolled, gradient), expected, 1e-4 * expected);
 }
 

@@ -25,7 +25,7 @@ GridSolid cube() {
     return solid;
 }
 
-/// What check() says, or nothing.
+/// The message of check(), or nothing.
 std::string complaint(const GridSolid& solid) {
     try {
         check(solid, "cube.json:/solid");
@@ -76,7 +76,7 @@ TEST(SolidMaterial, RestHasToBeFiniteAndUnfolded) {
               "cube.json:/solid/rest: expected a shape that is nowhere folded, with a positive "
               "volume in each corner of every cell, found -4.5 m^3 in cell [0, 0, 0]");
     solid = cube();
-    solid.rest(solid.grid.index(1, 0, 3), 2) = 0.5;  // below the node under it, at 2
+    solid.rest(solid.grid.index(1, 0, 3), 2) = 0.5;  // below the node under it, which is at 2
     EXPECT_EQ(complaint(solid),
               "cube.json:/solid/rest: expected a shape that is nowhere folded, with a positive "
               "volume in each corner of every cell, found -6.75 m^3 in cell [0, 0, 2]");
@@ -163,7 +163,7 @@ TEST(Drag, BrakesEveryNodeByItsCoefficient) {
     expect_gradient_of_potential(drag, step, x, 1e-4, 1e-9);
     expect_hessian_of_potential(drag, step, x, 1e-4, 1e-9);
 
-    // Nothing moves in an equilibrium
+    // Nothing moves in an equilibrium.
     const solve::ImplicitStep equilibrium{
         .end_s = 0, .step_s = std::numeric_limits<double>::infinity(), .start = start};
     EXPECT_EQ(potential_gradient(drag, equilibrium, x).cwiseAbs().maxCoeff(), 0.0);

@@ -135,7 +135,7 @@ TEST(SurfaceMaterial, PhysicalConstantsThereAndBack) {
         sheet_constants(surface_material(sheet, Vec2(3, 0.5)), Vec2(3, 0.5));
     EXPECT_LT((back.membrane_n_per_m - sheet.membrane_n_per_m).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_LT((back.bending_n_m - sheet.bending_n_m).cwiseAbs().maxCoeff(), 1e-18);
-    // A square: lambda = k / L^2
+    // For a square, lambda = k / L^2.
     EXPECT_DOUBLE_EQ(surface_material(sheet, Vec2(2, 2)).elastic_n_per_m3(1, 1), 25.0 / 4);
 }
 

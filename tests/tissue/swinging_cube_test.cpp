@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cube let go under its ceiling: the transients of figures 9a and 9b, acceptance tests T5a and T5b. Implicit Euler would
-// damp what is measured here, so the classic Runge-Kutta method steps at 0.6 of its limit.
+// The cube is released under its ceiling: the transients of figures 9a and 9b, acceptance tests T5a and T5b. Implicit Euler
+// would damp the measured motion, so the classic Runge-Kutta method is used at 0.6 of its stable step.
 #include <gtest/gtest.h>
 
 #include "risorius/solve/integrator.h"
@@ -10,7 +10,7 @@
 namespace risorius::tissue {
 namespace {
 
-constexpr double kSampleS = 1e-3;  // the sum of dV rings with the fastest waves
+constexpr double kSampleS = 1e-3;  // the sum of dV oscillates with the fastest waves
 
 struct Swing {
     double sum_peak_percent = 0;     ///< of sum dV, figure 9a
@@ -18,13 +18,13 @@ struct Swing {
     double volume_peak_at_s = 0;
 };
 
-/// `fastest_hz` is the greatest angular frequency of the cube's linear vibrations, rad/s.
+/// `fastest_hz` is the maximum angular frequency of the cube's linear vibrations, rad/s.
 Swing swing(int nodes, double fastest_hz, double until_s) {
     const GridSolid solid = hanging_cube(nodes, isotropic_material(1.5, 0.1, 10, 4, 0));
     const solve::MotionSystem system = hang<DifferenceSolid>(solid);
     const DifferenceSolid gauge(solid);
     const double sum_at_rest = gauge.volume_element_sum(solid.rest);
-    // Stability of the classic method on the imaginary axis ends at 2.83.
+    // The stability of the classic method on the imaginary axis ends at 2.83.
     const auto integrator = solve::make_integrator(
         {.method = solve::Method::kRungeKutta4, .step_s = 0.6 * 2.83 / fastest_hz});
     solve::MotionState state{.t_s = 0, .x = solid.rest, .v = Points::Zero(solid.rest.rows(), 3)};
@@ -45,7 +45,7 @@ Swing swing(int nodes, double fastest_hz, double until_s) {
 }
 
 TEST(SwingingCube, FigureNineVolumePeaksFallWithResolution) {
-    // Figure 9a ends at 0.01 %, figure 9b shows up to about 10 % at 3^3. The numbers are those of an independent prototype.
+    // Figure 9a ends at 0.01 %; figure 9b shows up to about 10 % at 3^3. The numbers are those of an independent prototype.
     struct Row {
         int nodes;
         double fastest_hz, sum_percent, volume_percent;

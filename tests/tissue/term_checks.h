@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What every force term of a surface or curve has to pass: forces and second derivatives against differences, laws of
+/// Checks that every force term of a surface or curve must pass: forces and second derivatives against differences, laws of
 /// motion, and a linear solve for small deflections.
 #pragma once
 
@@ -42,7 +42,7 @@ inline Eigen::MatrixXd dense(const solve::MetricBuilder& builder) {
     return lower.selfadjointView<Eigen::Lower>();
 }
 
-/// Force = - dE/dx, by central differences of a step that suits bodies of about 1 m.
+/// Force = - dE/dx, by central differences with a step that suits bodies of about 1 m.
 inline void expect_force_is_exact(const solve::EnergyTerm& term, const Points& x,
                                   double tolerance = 1e-8) {
     const Points force = force_of(term, x);
@@ -61,7 +61,8 @@ inline void expect_force_is_exact(const solve::EnergyTerm& term, const Points& x
     }
 }
 
-/// Gradient of the potential against its values, and second derivative against gradients, both with damping.
+/// Compares the gradient of the potential with differences of its values, and the second derivative with differences of
+/// gradients. Both include damping.
 inline void expect_potential_is_exact(const solve::EnergyTerm& term, const Points& start,
                                       const Points& x, double step_s) {
     const solve::ImplicitStep step{step_s, step_s, start};
@@ -95,7 +96,7 @@ inline void expect_positive_curvature(const solve::EnergyTerm& term, const Point
     EXPECT_GT(eigenvalues.minCoeff(), -1e-12 * eigenvalues.maxCoeff());
 }
 
-/// The scalar metric is above the second derivative at rest in every direction, and not by far.
+/// The scalar metric is above the second derivative at the rest shape in every direction, but not by far.
 inline void expect_metric_bounds_rest(const solve::EnergyTerm& term, const Points& rest,
                                       double step_s, double at_most) {
     const solve::ImplicitStep step{step_s, step_s, rest};
@@ -116,7 +117,7 @@ inline void expect_metric_bounds_rest(const solve::EnergyTerm& term, const Point
 }
 
 inline void expect_rest_is_free(const solve::EnergyTerm& term, const Points& rest) {
-    // Against the force of a shape 1 % away
+    // Relative to the force of a shape that is 1 % away.
     const double size = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
     const double scale = force_of(term, shaken(rest, 0.01 * size, 11)).cwiseAbs().maxCoeff();
     ASSERT_GT(scale, 0.0);
@@ -126,7 +127,7 @@ inline void expect_rest_is_free(const solve::EnergyTerm& term, const Points& res
     EXPECT_NEAR(term.energy(0, rest), 0, 1e-20 * scale * size);
 }
 
-/// Damping takes energy out, and nothing out of a turning body.
+/// Damping removes energy, but none from a body that rotates as a whole.
 inline void expect_damping_dissipates(const solve::EnergyTerm& term, const Points& x) {
     const Points v = shaken(Points::Zero(x.rows(), 3), 1.0, 12);
     const Points damping = force_of(term, x, v) - force_of(term, x);
@@ -139,7 +140,7 @@ inline void expect_damping_dissipates(const solve::EnergyTerm& term, const Point
     EXPECT_LT(none.cwiseAbs().maxCoeff(), 1e-12 * damping.cwiseAbs().maxCoeff());
 }
 
-/// - K x + the explicit force is the force, with the rate lagged or not.
+/// - K x + the explicit force is the force, with and without a lagged rate.
 inline void expect_secant_is_the_force(const solve::EnergyTerm& term, const Points& x) {
     const Points v = shaken(Points::Zero(x.rows(), 3), 1.0, 13);
     const Points force = force_of(term, x, v);
@@ -152,7 +153,7 @@ inline void expect_secant_is_the_force(const solve::EnergyTerm& term, const Poin
     }
 }
 
-/// Displacement of the linearised body under a dead load.
+/// Displacement of the linearised body under a constant load.
 inline Points small_deflection(const solve::EnergyTerm& term, const Points& rest,
                                const std::vector<char>& fixed, const Points& load) {
     solve::HessianBuilder builder(static_cast<int>(rest.rows()), fixed);
@@ -168,8 +169,8 @@ inline Points small_deflection(const solve::EnergyTerm& term, const Points& rest
     return out;
 }
 
-/// Equilibrium under a dead load by Newton's method with halving; `x` is the start and the result. True when no node
-/// moved more than 1e-9 m at last.
+/// Equilibrium under a constant load by Newton's method with halving. `x` is the start and the result. Returns true when no
+/// node moved more than 1e-9 m in the last step.
 inline bool solve(const solve::EnergyTerm& term, const std::vector<char>& fixed, const Points& load,
                   Points& x, int iterations = 200) {
     const auto total = [&](const Points& y, Points& gradient) {

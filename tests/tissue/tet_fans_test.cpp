@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fans of tetrahedra: all tets once, each where its fan says it is.
+// Fans of tetrahedra: every tet occurs once, and each is where its fan says.
 #include "risorius/tissue/detail/tet_fans.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(TetFans, HoldEveryTetOfABlockOnce) {
 }
 
 TEST(TetFans, ThreeTetsThatCloseAroundAnEdgeAreNone) {
-    Tets tets(3, 4);  // about 0-1, ring 2 3 4 2
+    Tets tets(3, 4);  // around 0-1, ring 2 3 4 2
     tets << 0, 1, 2, 3, 0, 1, 3, 4, 0, 1, 4, 2;
     const TetFans found = find_fans(tets);
     EXPECT_TRUE(found.fans.empty());

@@ -10,7 +10,7 @@
 namespace risorius::tissue {
 namespace {
 
-// 5 x 4 x 3 nodes: 144 tets; one more block of 3 x 2 x 2 has 12, and a lone tet leaves three lanes of a group empty.
+// 5 x 4 x 3 nodes: 144 tets. Another block of 3 x 2 x 2 nodes has 12, and a single tet leaves three lanes of a group empty.
 const LayeredBlock kTetBlock(5, 4, 3);
 
 Eigen::VectorXd moduli(int count, double from, double to) {
@@ -34,9 +34,9 @@ TEST(TetSolid, RestIsFreeOfStress) {
     const TetSolid solid = tissue_of(kTetBlock);
     Points gradient = Points::Zero(kTetBlock.nodes(), 3);
     const double energy = solid.add_energy(kTetBlock.rest, gradient);
-    // Strains of rounding size, squared: K V eps^2 is about 1e-33 J
+    // Strains of rounding size, squared: K V eps^2 is about 1e-33 J.
     EXPECT_LT(std::abs(energy), 1e-30);
-    // K V / edge is about 0.1 N, times 1e-16 of strain
+    // K V / edge is about 0.1 N, times 1e-16 of strain.
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -102,7 +102,7 @@ TEST(TetSolid, TheMetricIsTheStiffnessUnderSmallShearAndMore) {
     const Eigen::MatrixXd metric = lower.selfadjointView<Eigen::Lower>();
     EXPECT_LT((metric * Eigen::VectorXd::Ones(kTetBlock.nodes())).cwiseAbs().maxCoeff(),
               1e-10 * metric.cwiseAbs().maxCoeff());
-    // Energy of any small displacement, from the gradient: u . dE(rest + u) / 2 <= 1/2 u . A u
+    // Energy of any small displacement, from the gradient: u . dE(rest + u) / 2 <= 1/2 u . A u.
     const Points u = shaken(Points::Zero(kTetBlock.nodes(), 3), 1e-9, 5);
     const Points gradient = gradient_of(solid, kTetBlock.rest + u);
     const double stored = 0.5 * (u.array() * gradient.array()).sum();
@@ -124,7 +124,7 @@ TEST(TetSolid, TheLaplacianIsTheMetricWithTheShearModulusAlone) {
 }
 
 TEST(TetSolid, AStepIsDampedAsTheLaplacianSays) {
-    const LayeredBlock block(5, 4, 2);  // with tets in fans and alone
+    const LayeredBlock block(5, 4, 2);  // some tets in fans and some alone
     const TetSolid at_rest = tissue_of(block);
     TetSolid solid = tissue_of(block);
     constexpr double kViscosity = 3.0;
@@ -144,12 +144,12 @@ TEST(TetSolid, AStepIsDampedAsTheLaplacianSays) {
         EXPECT_NEAR(solid.add_step_energy(x, gradient, precision), energy + lost,
                     fraction * (energy + lost));
         EXPECT_LT((gradient - still - damping).norm(), fraction * damping.norm());
-        // Where it began there is no damping
+        // At the start of the step there is no damping.
         Points begun = Points::Zero(block.nodes(), 3), plain = begun;
         solid.add_step_energy(start, begun, precision);
         at_rest.add_energy(start, plain, precision);
         EXPECT_LT((begun - plain).norm(), fraction * plain.norm());
-        // and outside of a step there is none
+        // Outside of a step there is none either.
         Points outside = Points::Zero(block.nodes(), 3);
         solid.add_energy(x, outside);
         EXPECT_EQ(outside, still);
@@ -164,7 +164,7 @@ TEST(TetSolid, SqueezingThroughItselfIsCountedAsInverted) {
     EXPECT_EQ(solid.inverted_count(rest), 0);
     EXPECT_EQ(solid.inverted_count(x), 1);
     EXPECT_NEAR(solid.min_relative_volume(x), -0.5, 1e-12);
-    // and is no second rest
+    // The mirrored tet is not a second rest shape.
     Points mirrored = rest, gradient = Points::Zero(4, 3);
     mirrored.col(2) *= -1;
     EXPECT_NEAR(solid.add_energy(mirrored, gradient), 4e-9 * 3e4 / 2 * (4 + 4 * 1.2 * 1.2), 1e-12);
@@ -199,7 +199,7 @@ TEST(TetSolid, TwoRunsGiveTheSameBits) {
     const TetSolid solid = tissue_of(kTetBlock), other = tissue_of(kTetBlock);
     const Points x = shaken(kTetBlock.rest, 8e-4, 6);
     Points a = Points::Zero(kTetBlock.nodes(), 3), b = a;
-    other.add_energy(kTetBlock.rest, b);  // scratch left over from another state must not matter
+    other.add_energy(kTetBlock.rest, b);  // scratch data of another state must not matter
     b.setZero();
     EXPECT_EQ(solid.add_energy(x, a), other.add_energy(x, b));
     EXPECT_TRUE((a.array() == b.array()).all());

@@ -57,7 +57,8 @@ TriangleSurface irregular_sheet() {
     return irregularly_triangulated(grid_of(grid, sheet_rest(grid, Vec2(1.2, 0.9)), anisotropic()),
                                     0.4, 3);
 }
-/// An octahedron cut once and blown up: closed, four or six triangles at a point, a fibre direction of its own in each.
+/// An octahedron, subdivided once and projected to a sphere: closed, with four or six triangles at each point, and its own
+/// fibre direction in each triangle.
 TriangleSurface ball() {
     TriangleSurface surface;
     surface.rest.resize(18, 3);
@@ -130,7 +131,7 @@ TEST(TriangleSheet, MetricBoundsTheStiffnessOfAFlatSheet) {
     expect_metric_bounds_rest(TriangleSheetTerm(surface), surface.rest, 0.02, 4.0);
 }
 
-/// Equilateral triangles in rows, about 1 m each way, material coordinates in metres.
+/// Equilateral triangles in rows, about 1 m in each direction, with material coordinates in metres.
 TriangleSurface equilateral(int rows, double bending_n_m) {
     TriangleSurface surface;
     const double side = 1.0 / rows, height = side * std::sqrt(0.75);
@@ -158,7 +159,7 @@ TriangleSurface equilateral(int rows, double bending_n_m) {
     return surface;
 }
 
-/// Bending energy of z = 1/2 x . b x over that of the plate it stands for, inside and at the border.
+/// Bending energy of z = 1/2 x . b x divided by that of the plate it represents, inside and at the border.
 double energy_ratio(const TriangleSurface& surface, const Mat2& b, double plate_n_m) {
     Points x = surface.rest;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
@@ -179,7 +180,7 @@ TEST(TriangleSheet, BendsLikeThePlateOnAnyTrianglesInAnyDirection) {
     twist << 0, 1, 1, 0;
     bowl << 1, 0, 0, 1;
     for (const Mat2& b : {along, across, twist, bowl}) {
-        // Triangles with all three neighbours are exact; those at the border relax, which is of the order of h.
+        // Triangles with all three neighbours are exact. Those at the border relax, which is an effect of order h.
         const double coarse = energy_ratio(equilateral(10, 0.7), b, 0.7);
         const double fine = energy_ratio(equilateral(20, 0.7), b, 0.7);
         EXPECT_LT(fine, 1.0001);
@@ -189,7 +190,7 @@ TEST(TriangleSheet, BendsLikeThePlateOnAnyTrianglesInAnyDirection) {
 }
 
 TEST(TriangleSheet, HingesOfTheSkinRollAsThePlateDoes) {
-    // Rolled along x: energy per area over D/2 curvature^2. Edges at the border, one in forty, do not bend.
+    // Rolled along x: energy per area divided by D/2 curvature^2. Edges at the border, one in forty, do not bend.
     const auto ratio = [](const Triangles& triangles, const Points& rest, double hinge_n_m) {
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(triangles.rows());
         const SkinSheet skin(triangles, rest, none,
@@ -225,7 +226,7 @@ TEST(TriangleSheet, FlatteningAnArchCostsItsCurvature) {
     const TriangleSheetTerm term(
         triangulated(grid_of(grid, arch, surface_material(sheet, Vec2(1, 0.5)))));
     const double expected = 0.5 * plate / (radius * radius) * 0.5;
-    // The end columns' outer triangles, one of 80 each, have no fold along the arch.
+    // The outer triangles of the end columns, one of 80 each, have no fold along the arch.
     EXPECT_NEAR(term.bending_energy(flat), expected * 78 / 80, 2e-3 * expected);
     EXPECT_LT(term.bending_energy(arch), 1e-20);
 }
@@ -257,8 +258,8 @@ TEST(TriangleSheet, APinnedSheetSagsAsTheGridDoes) {
     }
 }
 
-/// How far the lowest points of the same cloth at rest lie apart, over the sag of the grid. Each carries its own mass: the
-/// grid shares it evenly, borders included, triangles by area.
+/// Distance between the lowest points of the same cloth in both equilibria, divided by the sag of the grid. Each has its own
+/// mass: the grid distributes it evenly, borders included, and triangles distribute it by area.
 double sag_difference(const SurfaceGrid& grid, const std::vector<char>& fixed) {
     const GridSurface surface =
         grid_of(grid, sheet_rest(grid, Vec2(3, 3)), isotropic_surface(2, 0.1, 0.01, 4, 0.1));
@@ -275,7 +276,7 @@ double sag_difference(const SurfaceGrid& grid, const std::vector<char>& fixed) {
 }
 
 TEST(TriangleSheet, AHammockOfTheSameMaterialSagsAsTheGridDoes) {
-    // A node between the supports has 1/N of a strip's mass on the grid, 1/(N-1) on triangles.
+    // A node between the supports has 1/N of a strip's mass on the grid and 1/(N-1) on triangles.
     double before = 0.1;
     for (const int nodes : {7, 13, 25}) {
         const SurfaceGrid grid{nodes, nodes};
@@ -332,7 +333,8 @@ TEST(TriangleSheet, IrregularTrianglesCoverTheSheetOnce) {
 }
 
 TEST(TriangleSheet, AClothHungByThreeCornersSagsAsTheGridDoes) {
-    // What three nodes hold is a point: the stress there grows with the resolution, and the two see it differently.
+    // Three nodes hold single points. The stress there grows with the resolution, and the two discretisations see it
+    // differently.
     for (const int nodes : {7, 13}) {
         const SurfaceGrid grid{nodes, nodes};
         std::vector<char> fixed(static_cast<std::size_t>(grid.size()), 0);

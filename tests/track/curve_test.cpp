@@ -42,7 +42,7 @@ TEST(Curve, SmoothIsC1EverywhereAlsoAtItsEnds) {
     for (const Key& key : kRamp) {
         const double left = (curve.at(key.time_s) - curve.at(key.time_s - h)) / h;
         const double right = (curve.at(key.time_s + h) - curve.at(key.time_s)) / h;
-        // Greatest curvature of these pieces is about 6 * 0.7 / 0.1^2 = 420 /s^2, times h.
+        // The maximum curvature of these pieces is about 6 * 0.7 / 0.1^2 = 420 /s^2, times h.
         EXPECT_NEAR(left, right, 1e-3) << "at " << key.time_s;
     }
 }
@@ -80,7 +80,7 @@ TEST(MinimumJerk, StartsAndEndsAtRestWithPeakSpeedInTheMiddle) {
     EXPECT_EQ(minimum_jerk(0.5), 0.5);
     EXPECT_EQ(minimum_jerk(1), 1.0);
     EXPECT_EQ(minimum_jerk(2), 1.0);
-    // Peak speed 1.875 times the mean (Flash & Hogan 1985).
+    // The peak speed is 1.875 times the mean (Flash & Hogan 1985).
     EXPECT_NEAR((minimum_jerk(0.5 + 1e-5) - minimum_jerk(0.5 - 1e-5)) / 2e-5, 1.875, 1e-6);
     EXPECT_NEAR(minimum_jerk(1e-3), 1e-8, 2e-11);  // 10 s^3
 }

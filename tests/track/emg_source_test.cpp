@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Electromyograms in, and simulated ones out: what is read from where, and how much a way there and back loses.
+// Electromyograms as input and simulated ones as output: what is read from where, and how much is lost on the way out and back.
 
 #include "risorius/track/detail/emg_source.h"
 
@@ -54,14 +54,14 @@ double excitation(const Timeline& timeline, const char* muscle, Side side, doubl
     return timeline.at(t_s).excitation[channels().column(muscle, side)];
 }
 
-// Rises within 0.4 s, holds 0.7, falls; twice.
+// Rises within 0.4 s, holds for 0.7 s and falls, twice.
 double intended(double t) {
     const double rise = minimum_jerk((t - 0.5) / 0.4), fall = minimum_jerk((t - 1.3) / 0.4);
     const double again = minimum_jerk((t - 1.9) / 0.3) - minimum_jerk((t - 2.3) / 0.3);
     return 0.7 * (rise - fall) + again;
 }
 
-/// Noise between 20 and 450 Hz hardly filtered by the band: white, at 1 kHz, of the intended amplitude.
+/// White noise at 1 kHz with the intended amplitude. The band from 20 to 450 Hz hardly filters it.
 std::vector<double> raw_emg(double amplitude, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<double> samples(3000);
@@ -75,7 +75,7 @@ std::vector<double> raw_emg(double amplitude, unsigned seed) {
 
 TEST_F(EmgSource, RawSignalsBecomeTheExcitationThatMadeThem) {
     write("ZYG_L", {raw_emg(0.2, 1)});
-    // Rectified noise of amplitude 0.2 has the mean 0.2 sqrt(2/pi); the band keeps 43 of 50 parts of its power.
+    // Rectified noise of amplitude 0.2 has the mean 0.2 sqrt(2/pi). The band keeps 43/50 of its power.
     const double maximum = 0.2 * std::sqrt(2 / 3.14159265358979) * std::sqrt(0.86);
     const Timeline timeline(
         script_of(R"("emg": {"file": "emg_test.csv", "rate_hz": 1000, "maximum": {"ZYG_L": )" +
@@ -89,7 +89,7 @@ TEST_F(EmgSource, RawSignalsBecomeTheExcitationThatMadeThem) {
         if (t < 0.3) max_at_rest = std::max(max_at_rest, u);
     }
     EXPECT_LT(std::sqrt(squares),
-              0.08);               // the flutter that 6 Hz leave of noise
+              0.08);               // the fluctuation of noise that 6 Hz leaves
     EXPECT_LT(max_at_rest, 0.01);  // the offset of 0.01 is gone
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kRight, 0.9), 0);
     EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 3.1), 0);
@@ -111,7 +111,7 @@ TEST_F(EmgSource, EnvelopesAreTakenAsTheyAreAndSourcesAddUp) {
     EXPECT_DOUBLE_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 1), 0.25);
     EXPECT_DOUBLE_EQ(excitation(timeline, "zygomaticus_major", Side::kRight, 1), 0.25);
     EXPECT_DOUBLE_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 2.5), 1);
-    // Its own largest value is the maximum of b; 0.25 more is held to 1.
+    // The maximum of b is its own largest value; the sum with 0.25 is limited to 1.
     EXPECT_DOUBLE_EQ(excitation(timeline, "frontalis_medial", Side::kLeft, 1), 1);
 }
 
@@ -189,7 +189,8 @@ TEST(SimulatedEmg, IsTheSmoothedExcitationWithoutDelay) {
     EXPECT_NEAR(emg.at(1.5)[column], 0.8, 1e-6);
     for (double t = 0; t < 2; t += 0.01) {
         EXPECT_GE(emg.at(t)[column], 0) << t;
-        EXPECT_LE(emg.at(t)[column], 0.8 * 1.06) << t;  // both passes of Butterworth's swing by 4 %
+        // The overshoot of both Butterworth passes is 4 %.
+        EXPECT_LE(emg.at(t)[column], 0.8 * 1.06) << t;
     }
 }
 
@@ -238,7 +239,7 @@ TEST_F(EmgSource, SimulatedEmgReadAgainGivesTheExcitationOfTheScript) {
     for (double t = 0; t < 2.95; t += 0.005)
         max = std::max(
             max, std::abs(excitation(read, "zygomaticus_major", Side::kLeft, t) - intended(t)));
-    EXPECT_LT(max, 0.03);  // what 6 Hz cut off a rise within 0.3 s
+    EXPECT_LT(max, 0.03);  // what 6 Hz removes from a rise within 0.3 s
     EXPECT_GT(max, 0.001);
 }
 

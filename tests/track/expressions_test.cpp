@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expressions take the times that are reported for people, and more of one is more of everything in it.
+// Expressions have the times reported for people, and a higher intensity increases every part.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -26,7 +26,7 @@ Timeline of(const std::string& expression, const std::string& more) {
 }
 
 TEST(Expressions, TakeTheTimesReportedForPeople) {
-    // Onsets, s: Schmidt et al. 2006 and reviews of dynamic stimuli; offsets take 1.3 to 2 times as long
+    // Onsets, s, after Schmidt et al. 2006 and reviews of dynamic stimuli. Offsets take 1.3 to 2 times as long.
     const std::map<std::string, std::pair<double, double>> onset{
         {"happiness", {0.4, 0.75}}, {"sadness", {0.6, 1.2}}, {"anger", {0.4, 0.8}},
         {"fear", {0.25, 0.5}},      {"disgust", {0.4, 0.7}}, {"surprise", {0.15, 0.35}},

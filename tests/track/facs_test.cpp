@@ -210,7 +210,7 @@ TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {
               "expressions.json:/expressions/joy/units/AU12/delay: expected [0, 0.9], found 1");
 }
 
-// Every number of the anatomy tables that other folders rely on, as far as it can be checked here.
+// Checks every number of the anatomy tables that other folders rely on, as far as possible here.
 TEST(StandardAnatomy, BandsThicknessAndAttachmentsNameKnownLandmarksAndMuscles) {
     const std::filesystem::path folder =
         std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs" / "standard";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A face left to itself blinks, looks about and sways as people do, the same way for the same seed.
+// An idle face blinks, looks around and sways as people do, and does so in the same way for the same seed.
 #include "risorius/track/detail/idle.h"
 
 #include <gtest/gtest.h>

@@ -132,7 +132,7 @@ TEST(Script, TransparentBackgroundIsKnown) {
 }
 
 TEST(Script, HeaderIsReadBeforeTheRigIsKnown) {
-    // Its channel does not exist, which only a rig can tell.
+    // Its channel does not exist, but only a rig can tell.
     const ScriptHeader header = read_script_header(kRoot / "samples/broken/script.json");
     EXPECT_EQ(header.rig, "../../rigs/adult/rig.json");
     EXPECT_EQ(header.rig_file, kRoot / "rigs/adult/rig.json");

@@ -99,7 +99,7 @@ TEST(Timeline, ExpressionIsZeroOutsideAndItsIntensityAtTheApex) {
         EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58, 1e-15);
         EXPECT_NEAR(excitation(face.at(t), "orbicularis_oculi_orbital.r"), 0.5 * 0.6 * 0.58, 1e-15);
     }
-    // Halfway through the onset and through the slower offset.
+    // Half way through the onset, and through the slower offset.
     EXPECT_NEAR(excitation(face.at(1.2), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58 / 2, 1e-12);
     EXPECT_NEAR(excitation(face.at(2.4), "zygomaticus_major.l"), 0.5 * 0.8 * 0.58 / 2, 1e-12);
 }
@@ -118,7 +118,7 @@ TEST(Timeline, ExpressionHasNoJumps) {
     Drive previous = face.at(0.9);
     for (double t = 0.9 + h; t < 3; t += h) {
         const Drive now = face.at(t);
-        // Peak speed of a minimum-jerk rise of 0.4 in 0.34 s is 2.2 per second.
+        // The peak speed of a minimum-jerk rise of 0.4 in 0.34 s is 2.2 per second.
         ASSERT_LT((now.excitation - previous.excitation).cwiseAbs().maxCoeff(), 2.3 * h) << t;
         previous = now;
     }

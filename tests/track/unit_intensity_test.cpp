@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of an action unit a script asks for, whatever way it asks.
+// Intensity of the action units that a script asks for, in every way it can ask.
 #include "risorius/track/unit_intensity.h"
 
 #include <gtest/gtest.h>

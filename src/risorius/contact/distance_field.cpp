@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kMarginCells = 3;
 
-/// Replaces the values at grid points 1..count of a line of count + 2 by the coefficients of the natural cubic spline
-/// through them: (c[i-1] + 4 c[i] + c[i+1]) / 6 = value, no curvature at the ends.
+/// Replaces the values at grid points 1..count of a line of count + 2 by the coefficients of the natural cubic spline through
+/// them: (c[i-1] + 4 c[i] + c[i+1]) / 6 = value, without curvature at the ends.
 void fit_line(double* line, int count, std::ptrdiff_t stride, std::vector<double>& scratch) {
     const auto at = [&](int i) -> double& { return line[i * stride]; };
-    // The end coefficients equal the end values; Thomas' algorithm between them
+    // The end coefficients equal the end values. Thomas' algorithm solves for the others.
     scratch.assign(static_cast<std::size_t>(count + 2), 0.0);
     for (int i = 2; i < count; ++i) {
         const double pivot = 4 - scratch[i - 1];
@@ -32,7 +32,7 @@ void fit_line(double* line, int count, std::ptrdiff_t stride, std::vector<double
 }  // namespace
 
 struct DistanceField::Cell {
-    int first[3];            // coefficient the splines start at
+    int first[3];            // index of the first coefficient of the splines
     double value[3][4];      // of the four splines on each axis
     double slope[3][4];      // 1/m
     double curvature[3][4];  // 1/m^2
@@ -46,7 +46,7 @@ DistanceField::DistanceField(const Points& positions, const Triangles& triangles
         throw Error(place + "/margin_m", "[0, inf)", format_number(options.margin_m));
     const ClosedSurface surface(positions, triangles, place);
 
-    // Vertices that no triangle uses must not widen the grid
+    // Vertices that no triangle uses must not enlarge the grid.
     Vec3 low = positions.row(triangles(0, 0)).transpose(), high = low;
     for (long t = 0; t < triangles.rows(); ++t)
         for (int k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ DistanceField::DistanceField(const Points& positions, const Triangles& triangles
         size_[axis] = points[axis] + 2;
     }
 
-    // Exact distances at the grid points; from one to the next they change by the spacing at most, which shortens the search
+    // Exact distances at the grid points. Between neighbours they differ by the spacing at most, which shortens the search.
     coefficients_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], 0.0);
     const auto index = [&](int i, int j, int k) {
         return static_cast<std::size_t>((i * size_[1] + j) * size_[2] + k);
@@ -86,7 +86,7 @@ DistanceField::DistanceField(const Points& positions, const Triangles& triangles
                     nearest ? nearest->gap_m : surface.nearest(p)->gap_m;
             }
 
-    // Spline coefficients, axis by axis; each pass also fills the border beyond the grid points
+    // Spline coefficients, axis by axis. Each pass also fills the border beyond the grid points.
     std::vector<double> scratch;
     for (int i = 1; i <= points[0]; ++i)
         for (int j = 1; j <= points[1]; ++j)
@@ -104,7 +104,7 @@ DistanceField::Cell DistanceField::cell_of(const Vec3& p) const {
     Cell cell;
     for (int axis = 0; axis < 3; ++axis) {
         const double place = (p(axis) - low_(axis)) / spacing_;
-        const int last = size_[axis] - 4;  // of the cells between grid points
+        const int last = size_[axis] - 4;  // last cell between grid points
         cell.first[axis] = std::clamp(static_cast<int>(std::floor(place)), 0, last);
         const double u = place - cell.first[axis], r = 1 - u;
         const double s = 1 / spacing_;

@@ -17,7 +17,7 @@ class Plane : public Shape {
     Mat3 curvature(const Vec3&) const override { return Mat3::Zero(); }
 };
 
-/// All within a radius of a segment; a sphere when its ends meet.
+/// All points within a radius of a segment; a sphere when its ends coincide.
 class Capsule : public Shape {
   public:
     Capsule(const Vec3& start, const Vec3& end, double radius)
@@ -27,7 +27,7 @@ class Capsule : public Shape {
         const Vec3 off = from_axis(p);
         const double length = off.norm();
         if (length > 0) return {length - radius_, off / length};
-        // On the axis itself every way out is as short.
+        // On the axis itself, all directions out are equally short.
         return {-radius_, axis_.isZero(0) ? Vec3(Vec3::UnitZ()) : Vec3(axis_.unitOrthogonal())};
     }
 
@@ -37,8 +37,8 @@ class Capsule : public Shape {
         if (!(length > 0)) return Mat3::Zero();
         Mat3 across = Mat3::Identity() - off * off.transpose() / (length * length);
         const double s = fraction(p);
-        if (s > 0 && s < 1)
-            across -= axis_ * axis_.transpose() / axis_.squaredNorm();  // straight along the side
+        // No curvature along the side.
+        if (s > 0 && s < 1) across -= axis_ * axis_.transpose() / axis_.squaredNorm();
         return across / length;
     }
 
@@ -53,8 +53,8 @@ class Capsule : public Shape {
     double radius_;
 };
 
-/// The shortest turn of one unit vector to another that is not its opposite. Eigen's FromTwoVectors needs a singular value
-/// decomposition for opposites, which takes as long to compile as the rest of this folder.
+/// The shortest rotation of a unit vector to another one that is not its opposite. Eigen's FromTwoVectors needs a singular
+/// value decomposition for opposites, which takes as long to compile as the rest of this folder.
 Eigen::Quaterniond turn_between(const Vec3& from, const Vec3& to) {
     const double s = std::sqrt((1 + from.dot(to)) * 2);
     Eigen::Quaterniond turn;
@@ -112,7 +112,7 @@ RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double e
     const Eigen::AngleAxisd turn(Mat3(to.linear() * from.linear().transpose()));
     const Vec3 way = to.translation() - from.translation();
     return [=](double t_s) {
-        // Cubic ease: speed and place join the rests before and after
+        // Cubic ease: speed and place are continuous at both ends.
         const double duration = end_s - start_s;
         const double s = std::clamp((t_s - start_s) / duration, 0.0, 1.0);
         const double fraction = s * s * (3 - 2 * s), rate = 6 * s * (1 - s) / duration;

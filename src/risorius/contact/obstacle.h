@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Rigid things that soft objects touch: shapes as signed distances, put somewhere and perhaps moved.
+/// Rigid obstacles that soft bodies touch: shapes given by signed distances, with a place that may move.
 ///
 ///   gap   signed distance from the surface, m, negative inside
 #pragma once
@@ -14,10 +14,11 @@
 
 namespace risorius::contact {
 
+/// The gap at a point, and its gradient.
 struct Distance {
     double gap_m;
-    Vec3
-        gradient;  ///< of the gap, out of the shape; of length 1, or nearly so where the gap is interpolated
+    /// Of the gap, pointing out of the shape; its length is 1, or nearly 1 where the gap is interpolated.
+    Vec3 gradient;
 };
 
 /// A shape in its own frame. Queries may run in parallel.
@@ -28,33 +29,35 @@ class Shape {
     virtual Mat3 curvature(const Vec3& p) const = 0;  ///< second derivative of the gap, 1/m
 };
 
-/// The half-space z < 0 is solid.
+/// The half-space z < 0.
 std::shared_ptr<const Shape> make_plane();
-/// Around the origin. These two throw Error, its place beginning with `place`, unless every size is > 0 and finite.
+/// A sphere around the origin. make_sphere() and make_capsule() throw Error, with a place that begins with `place`, unless
+/// every size is > 0 and finite.
 std::shared_ptr<const Shape> make_sphere(double radius_m, const std::string& place = "sphere");
 /// All points within `radius_m` of the segment from `start` to `end`.
 std::shared_ptr<const Shape> make_capsule(const Vec3& start, const Vec3& end, double radius_m,
                                           const std::string& place = "capsule");
 
-/// Where a rigid thing is and how it moves.
+/// Place and velocity of a rigid body.
 struct RigidState {
     Rigid place = Rigid::Identity();
-    Vec3 velocity_m_per_s = Vec3::Zero();  ///< of the place's origin
-    Vec3 spin_rad_per_s = Vec3::Zero();    ///< in the world's axes
+    Vec3 velocity_m_per_s = Vec3::Zero();  ///< of the origin of its place
+    Vec3 spin_rad_per_s = Vec3::Zero();    ///< in world axes
 };
 using RigidMotion = std::function<RigidState(double t_s)>;
 
+/// Stays at `place`.
 RigidMotion standing(const Rigid& place);
-/// At `start` at time 0, moving and turning about its own origin at a steady pace.
+/// At `start` at time 0, moving at constant velocity and rotating about its own origin at a constant rate.
 RigidMotion steady(const Rigid& start, const Vec3& velocity_m_per_s,
                    const Vec3& spin_rad_per_s = Vec3::Zero());
-/// Rests at `from`, moves to `to` between the two times with a smooth start and end, rests there.
+/// Stays at `from`, moves to `to` between the two times with a smooth start and end, and stays there.
 RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double end_s);
 
-/// The place that turns the plane z = 0 to one through `point` with `normal` pointing out of the solid.
+/// The place that moves the plane z = 0 to the plane through `point` whose `normal` points out of the solid.
 Rigid plane_place(const Vec3& point, const Vec3& normal);
 
-/// A shape where it is at one time.
+/// A shape at its place at one time.
 class PlacedShape {
   public:
     PlacedShape(const Shape& shape, const RigidState& state)
@@ -62,7 +65,7 @@ class PlacedShape {
 
     Distance distance(const Vec3& p) const;
     Mat3 curvature(const Vec3& p) const;
-    Vec3 velocity(const Vec3& p) const;  ///< of the shape's matter at p, m/s
+    Vec3 velocity(const Vec3& p) const;  ///< velocity of the shape's material at p, m/s
     const Rigid& place() const { return state_.place; }
 
   private:
@@ -71,6 +74,7 @@ class PlacedShape {
     Rigid to_shape_;
 };
 
+/// A shape with its motion.
 class Obstacle {
   public:
     explicit Obstacle(std::shared_ptr<const Shape> shape, RigidMotion motion);

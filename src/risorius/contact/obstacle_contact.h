@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Contact of a soft body's surface with one rigid obstacle, with friction (see contact_law.h for the symbols).
+/// Contact of a soft body's surface with one rigid obstacle, with friction. contact_law.h explains the symbols.
 ///
-///   E = sum over samples of A k w(g(p))     A  area of the sample, m^2     p  its place
+///   E = sum over samples of A k w(g(p))     A  area of the sample, m^2     p  its position
 ///
-/// Implicit steps lag friction: the normal force and the tangent plane are those of the step's start, which makes friction a
-/// potential mu N f0(|u|) of the slip u against the obstacle's own motion. Explicit steps take the normal force as it is.
-/// Damping acts on approach only, so that surfaces do not stick; its strength is lagged in the same way. An equilibrium has
-/// neither friction nor damping. A sample that passes through an obstacle thinner than its way in one step is not caught.
+/// In implicit steps friction is lagged: the normal force and the tangent plane are those of the step's start. This makes
+/// friction a potential mu N f0(|u|) of the slip u relative to the obstacle's own motion. Explicit steps use the present normal
+/// force. Damping acts only on approach, so that surfaces do not stick; its strength is lagged in the same way. An equilibrium
+/// has neither friction nor damping.
+///
+/// A sample that crosses a thin obstacle completely within one step is not detected.
 #pragma once
 
 #include <memory>
@@ -20,6 +22,7 @@
 
 namespace risorius::contact {
 
+/// The contact forces between one body and one obstacle.
 class ObstacleContact : public solve::EnergyTerm {
   public:
     ObstacleContact(std::vector<ContactSample> samples, std::shared_ptr<const Obstacle> obstacle,
@@ -32,12 +35,12 @@ class ObstacleContact : public solve::EnergyTerm {
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// Every sample may touch some day: each gives half its stiffness, touching or not.
+    /// Every sample may touch at some time, so each contributes half its stiffness, whether it touches or not.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
     double min_gap_m(double t_s, const Points& x) const;  ///< negative: penetration
-    int touching(double t_s, const Points& x) const;      ///< samples that press
-    /// Of the obstacle on the body, friction included, N.
+    int touching(double t_s, const Points& x) const;      ///< number of samples in contact
+    /// Force of the obstacle on the body, with friction, N.
     Vec3 total_force(double t_s, const Points& x, const Points& v) const;
 
     const std::vector<ContactSample>& samples() const { return samples_; }
@@ -46,18 +49,18 @@ class ObstacleContact : public solve::EnergyTerm {
   private:
     struct Lagged {
         int sample;
-        Vec3 start;  // p at the step's start
+        Vec3 start;  // p at the start of the step
         Vec3 normal;
         double friction_n;  // mu N
         double damping;     // N s/m
     };
-    /// Slip of a lagged sample in the step, and its approach (negative when nearing), against the obstacle's motion.
+    /// Motion of a lagged sample in the step relative to the obstacle: its slip, and its separation (negative on approach), m.
     struct Slip {
         Vec3 along;
         double apart;
     };
     Slip slip_of(const Lagged& lagged, const Rigid& carried, const Points& x) const;
-    Rigid carried(const solve::ImplicitStep& step) const;  // the obstacle's motion in the step
+    Rigid carried(const solve::ImplicitStep& step) const;  // motion of the obstacle in the step
     Vec3 force_on(const PlacedShape& shape, const ContactSample& sample, const Points& x,
                   const Points& v) const;
 

@@ -19,7 +19,7 @@ std::vector<int> nodes_of(const Triangles& triangles) {
     return nodes;
 }
 
-/// Barycentric coordinates of p's foot on the triangle's plane, perhaps beyond its sides.
+/// Barycentric coordinates of p's projection onto the triangle's plane; it may lie outside the triangle.
 Vec3 foot_on_plane(const Vec3& p, int triangle, const Triangles& triangles, const Points& x) {
     const Vec3 a = x.row(triangles(triangle, 0)).transpose();
     const Vec3 b = x.row(triangles(triangle, 1)).transpose();
@@ -80,14 +80,15 @@ void SurfaceContact::find_pairs(const Side& side, bool of_first, double reach_m,
         const auto nearest = other.nearest(p, reach_m);
         if (!nearest) continue;
         const double distance = std::abs(nearest->gap_m);
-        // Along the way to the surface; where the two meet it has no direction and the surface's own normal stands in
-        constexpr double kMeeting = 1e-3;  // thicknesses
+        // The normal is the direction to the surface. Where the distance is nearly zero, that direction is undefined and the
+        // surface's own normal replaces it.
+        constexpr double kMeeting = 1e-3;  // in units of the thickness
         Vec3 normal = nearest->normal;
         if (distance > kMeeting * material_.thickness_m)
             normal = (p - nearest->point) / nearest->gap_m;
         if (nearest->gap_m < kMeeting * material_.thickness_m && side.own >= 0) {
-            // The nearest way out may lead through a face beside the one it came in by (a cube sunk a little into another,
-            // near the edge): surfaces that touch face each other.
+            // The nearest way out may lead through a face next to the one it came in by (for instance when a cube is slightly
+            // inside another, near its edge). But surfaces that touch face each other.
             Vec3 own_normal = Vec3::Zero();
             for (int i = 0; i < sample.point.count(); ++i)
                 own_normal += sample.point.weight(i) *
@@ -95,7 +96,7 @@ void SurfaceContact::find_pairs(const Side& side, bool of_first, double reach_m,
             own_normal.normalize();
             constexpr double kFacing = 0.3;  // cosine
             if (normal.dot(own_normal) > -kFacing) {
-                // Off the surface it may lie on, so that the ray does not end where it starts
+                // Starts off the surface, so that the ray does not end where it starts.
                 const Vec3 from = p - 2 * kMeeting * material_.thickness_m * own_normal;
                 const auto exit = other.tree().cast(from, -own_normal, reach_m);
                 if (exit && other.face_normal(exit->triangle).dot(own_normal) < -kFacing) {
@@ -114,7 +115,7 @@ void SurfaceContact::add_pair(const Side& side, const ContactSample& sample, boo
                               int triangle, const Vec3& weights, const Vec3& normal,
                               const Points& x) {
     const ClosedSurface& other = surfaces_[side.other];
-    if (other.face_normal(triangle).isZero(0)) return;  // collapsed: it carries no frame
+    if (other.face_normal(triangle).isZero(0)) return;  // degenerate: it has no frame
     const auto corners = other.triangles().row(triangle);
     Pair pair{&sample,
               {corners(0), corners(1), corners(2)},
@@ -232,7 +233,7 @@ void SurfaceContact::add_hessian(const solve::ImplicitStep& step, const Points& 
             inner += pair.friction_n * across * slip_curvature(slip.along, friction) * across;
             if (slip.apart < 0) inner += c * along;
         }
-        // Over p, a, b, c; the turning of the frame is what the projection drops
+        // Blocks by p, a, b, c. The projection omits the rotation of the frame.
         const auto block = [&](int i, int j) {
             Mat3 sum = frame.slope(i).transpose() * inner * frame.slope(j);
             if (curvature == solve::Curvature::kExact) sum += frame.second_slope(y, i, j);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Contact between two soft bodies of one system, with friction (see contact_law.h for the symbols).
+/// Contact between two soft bodies of one system, with friction. contact_law.h explains the symbols.
 ///
-///   E = sum over pairs of A k w(n . xi)     xi  place of a sample in the frame of the other body's nearest triangle
+///   E = sum over pairs of A k w(n . xi)     xi  coordinates of a sample in the frame of the other body's nearest triangle
 ///
-/// Samples of each body's surface are paired with the triangles of the other, and each side carries half of the stiffness.
-/// Pairs and their normals are found at the start of a step and frozen in the frame of the triangle (carried_frame.h), so
-/// that net force and torque are zero to rounding at any state, friction and damping included. Friction and damping are
-/// lagged as in obstacle_contact.h; the slip is what the triangle sees.
+/// Samples of each body's surface are paired with triangles of the other body, and each side has half of the stiffness. Pairs
+/// and their normals are found at the start of a step and stay constant in the frame of the triangle (carried_frame.h). So net
+/// force and torque are zero up to rounding in every state, with friction and damping too. Friction and damping are lagged as
+/// in obstacle_contact.h; the slip is measured in the frame of the triangle.
 #pragma once
 
 #include <array>
@@ -21,20 +21,23 @@
 
 namespace risorius::contact {
 
+/// Density of the samples, and the range of the search.
 struct SurfaceContactOptions {
-    int per_side = 2;  ///< parts each side of a triangle is cut into for samples     [1, inf)
-    double search_m =
-        0;  ///< pairs are sought this far beyond the thickness, in and out, and the step's motion farther; 0 = 4 thicknesses
+    int per_side = 2;  ///< number of parts of each side of a triangle, for samples     [1, inf)
+    /// Search distance for pairs in addition to the thickness, inside and outside, and to the motion of the step; 0: 4
+    /// thicknesses.
+    double search_m = 0;
 };
 
 class CarriedFrame;
 
+/// The contact forces between two surfaces.
 class SurfaceContact : public solve::EnergyTerm {
   public:
-    /// Between two closed surfaces over the nodes of one system. Throws Error unless both are closed, at rest.
+    /// Contact between two closed surfaces over the nodes of one system. Throws Error unless both are closed in the rest shape.
     SurfaceContact(const Points& rest, const Triangles& first, const Triangles& second,
                    const ContactMaterial& material, const SurfaceContactOptions& options = {});
-    /// Of a surface that has no inside (a cloth, a curve) with a closed one.
+    /// Contact of a surface without an inside (a cloth, a curve) with a closed one.
     SurfaceContact(const Points& rest, std::vector<ContactSample> samples, const Triangles& closed,
                    const ContactMaterial& material, const SurfaceContactOptions& options = {});
 
@@ -48,20 +51,21 @@ class SurfaceContact : public solve::EnergyTerm {
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// Every node of either surface may touch some day: each gives half its share of the stiffness, touching or not.
+    /// Every node of either surface may touch at some time, so each contributes half its part of the stiffness, whether it
+    /// touches or not.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
-    /// Negative: penetration. Of the step's pairs; infinite without any.
+    /// Minimum gap among the pairs of the step, m; negative: penetration; infinite without pairs.
     double min_gap_m(const Points& x) const;
     int pair_count() const { return static_cast<int>(pairs_.size()); }
-    /// On the first body (or the samples) at rest in position x, N.
+    /// Force on the first body (or on the samples) at positions x without velocity, N.
     Vec3 force_on_first(const Points& x) const;
 
   private:
-    /// Samples of one surface against the triangles of another.
+    /// The samples of one surface and the triangles of another.
     struct Side {
         std::vector<ContactSample> samples;
-        int own = -1;  // surface the samples lie on, or none
+        int own = -1;  // surface of the samples; -1: none
         int other = 0;
         double fraction = 1;  // of the stiffness
     };
@@ -71,10 +75,10 @@ class SurfaceContact : public solve::EnergyTerm {
         Vec3 weights;       // of the corners
         Vec3 normal;        // in the triangle's frame
         double stiffness;   // N/m per unit of penalty
-        bool of_first;      // the sample is the first body's
-        Vec3 start;         // xi at the step's start
-        double friction_n;  // mu N of the step's start
-        double damping;     // N s/m of the step's start
+        bool of_first;      // the sample belongs to the first body
+        Vec3 start;         // xi at the start of the step
+        double friction_n;  // mu N at the start of the step
+        double damping;     // N s/m, at the start of the step
     };
     struct Slip {
         Vec3 along;
@@ -89,7 +93,7 @@ class SurfaceContact : public solve::EnergyTerm {
     static void scatter(const Pair& pair, const CarriedFrame& frame, const Vec3& y, Points& out);
 
     std::vector<ClosedSurface> surfaces_;
-    std::vector<std::vector<int>> nodes_;  // of each surface
+    std::vector<std::vector<int>> nodes_;  // nodes of each surface
     std::vector<Side> sides_;
     ContactMaterial material_;
     SurfaceContactOptions options_;

@@ -14,7 +14,7 @@ std::vector<ContactSample> surface_samples(const Points& rest, const Triangles& 
                                            int per_side) {
     assert(per_side >= 1);
     const int n = per_side;
-    // Points on shared corners and sides are found again by their nodes and shares
+    // Points on shared corners and sides are identified by their nodes and fractions.
     using Key = std::array<std::pair<int, int>, 3>;
     std::map<Key, std::size_t> found;
     std::vector<ContactSample> samples;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Points of a surface at which it feels contact: its nodes, and points between them so that a coarse grid does not swallow
-/// what is smaller than a cell.
+/// Points of a surface at which contact is evaluated: its nodes, and points between them, so that objects smaller than a cell
+/// do not pass through a coarse grid.
 #pragma once
 
 #include <vector>
@@ -11,21 +11,22 @@
 
 namespace risorius::contact {
 
+/// A point of a surface, with its area.
 struct ContactSample {
     solve::NodeBlend point;
-    double area_m2 =
-        1;  ///< it stands for, at rest; with 1 the stiffness of a contact is meant per sample, N/m
+    /// Its part of the rest area; 1: the stiffness of a contact is given per sample, N/m.
+    double area_m2 = 1;
 };
 
-/// Lattice points of every triangle, each side cut into `per_side` parts (1: nodes; 2: and mid-sides; 3: and centres), those
-/// on shared corners and sides once. Their areas sum up to the surface's.
+/// Lattice points of every triangle, whose sides are each cut into `per_side` parts (1: nodes; 2: and midpoints of sides; 3:
+/// and centres). Points on shared corners and sides appear once. Their areas add up to the area of the surface.
 std::vector<ContactSample> surface_samples(const Points& rest, const Triangles& triangles,
                                            int per_side = 1);
 
-/// The nodes alone.
+/// Only the nodes.
 std::vector<ContactSample> node_samples(const std::vector<int>& nodes, double area_m2 = 1);
 
-/// Parts per side that leave no gap between samples wider than `spacing_m` on the surface at rest.
+/// The smallest `per_side` for which gaps between samples on the rest surface are at most `spacing_m`.
 int parts_per_side(const Points& rest, const Triangles& triangles, double spacing_m);
 
 }  // namespace risorius::contact

@@ -33,7 +33,7 @@ class CounterRng {
     std::uint64_t state_;
 };
 
-/// The same numbers one after the other, where a key would only be a running number.
+/// A sequence of random numbers, for cases where the key would only be a running number.
 class RandomSequence {
   public:
     explicit RandomSequence(std::uint64_t seed) : state_(seed) {}

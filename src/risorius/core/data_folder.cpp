@@ -31,13 +31,13 @@ bool holds_data(const fs::path& folder) {
            fs::is_directory(folder / "models", ignored);
 }
 
-/// The program or shared library that this function was linked into, as a folder; empty where the system does not say.
+/// The folder of the program or shared library that contains this function; empty when the system does not tell.
 fs::path own_folder() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&data_folder), &info) != 0 && info.dli_fname) {
-        // A program's own name may be relative to a folder that it has left since; a library's path is absolute.
+        // A program's own name may be relative to a folder it has left since. A library's path is absolute.
         const fs::path file = fs::weakly_canonical(info.dli_fname, failed);
         if (!failed && file.is_absolute() && fs::exists(file, failed)) return file.parent_path();
     }
@@ -48,7 +48,7 @@ std::vector<fs::path> candidates() {
     std::vector<fs::path> folders;
     const fs::path own = own_folder();
     if (!own.empty()) {
-        // bin/risorius and lib/librisorius.so, but also lib/x86_64-linux-gnu/librisorius.so
+        // Covers bin/risorius and lib/librisorius.so, and also lib/x86_64-linux-gnu/librisorius.so.
         for (const char* up : {"..", "../.."})
             folders.push_back((own / up / "share" / "risorius").lexically_normal());
         for (fs::path above = own; above.has_relative_path(); above = above.parent_path())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Decompositions of dense matrices of any size, compiled here once: wherever Eigen's own are named they take seconds to compile.
+/// Decompositions of dense matrices of any size. They are compiled once, here, because every file that uses those of Eigen
+/// takes seconds longer to compile.
 #pragma once
 
 #include <complex>
@@ -10,25 +11,28 @@
 
 namespace risorius {
 
-/// Of a symmetric matrix, of which the lower triangle is read.
+/// Eigen-decomposition of a symmetric matrix. Only the lower triangle is read.
 struct SymmetricEigen {
     Eigen::VectorXd values;   ///< ascending
-    Eigen::MatrixXd vectors;  ///< of unit length, one per column
+    Eigen::MatrixXd vectors;  ///< unit length, one per column
 };
+/// Eigenvalues and eigenvectors of a symmetric matrix.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+/// Eigenvalues of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// The nearest symmetric matrix without negative eigenvalues; the lower triangle is read.
+/// The nearest symmetric matrix without negative eigenvalues. Only the lower triangle is read.
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& matrix);
 
-/// Of any square matrix.
+/// Eigenvalues of any square matrix.
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// X of matrix X = right, one solution per column; complete pivoting, for matrices near singular.
+/// X of matrix X = right, one solution per column. Uses complete pivoting, for nearly singular matrices.
 Eigen::MatrixXd solved_for(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+/// The inverse of a regular matrix.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
-/// x of matrix x = right, of a symmetric matrix that may be singular.
+/// x of matrix x = right. The matrix is symmetric and may be singular.
 Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 }  // namespace risorius

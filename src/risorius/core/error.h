@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The one exception for input a person can mend: place first, then what was expected, then what was found.
+/// The one exception for input that a person can correct. Its message names the place, then what was expected, then what was
+/// found:
 ///   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
 #pragma once
 
@@ -11,12 +12,13 @@
 
 namespace risorius {
 
+/// Thrown for wrong input; exit code 2.
 class Error : public std::runtime_error {
   public:
     Error(const std::string& place, const std::string& expected, const std::string& found)
         : Error(place + ": expected " + expected + ", found " + found) {}
 
-    /// The message with `word_for(field)` for each option that option_name() marks in it.
+    /// The message, with each option that option_name() marks in it replaced by `word_for(field)`.
     std::string worded(const std::function<std::string(const std::string&)>& word_for) const {
         return put_words(marked_, word_for);
     }
@@ -44,17 +46,17 @@ class Error : public std::runtime_error {
     std::string marked_;
 };
 
-/// The name of an option in the message of an Error. A library names the field of its options struct, as what() shows it; a
-/// program may put its own word in that place, such as a flag of its command line.
+/// Marks the name of an option in the message of an Error. A library gives the field of its options struct, and what() shows
+/// it. A program may show its own word instead, such as a flag of its command line; see Error::worded().
 inline std::string option_name(const std::string& field) { return "\x01" + field + "\x02"; }
 
-/// The run itself failed though the input was right: a full disk, an encoder that gives up. Exit code 1.
+/// The run itself failed although the input was right, for instance because of a full disk or a failed encoder. Exit code 1.
 class RunError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// For names in messages.
+/// A name in quotes, for messages.
 inline std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 }  // namespace risorius

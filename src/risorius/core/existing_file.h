@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A file that a JSON file names: missing, the message is about the key that asks for it.
+/// A file that a JSON file names. When it is missing, the message names the key that asks for it.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace risorius {
 
-/// Where the string points, from the folder of its own file. Throws Error when nothing is there.
+/// The path that the string gives, relative to the folder of its own file. Throws Error when nothing is there.
 std::filesystem::path existing_file(const JsonCursor& json);
 
 }  // namespace risorius

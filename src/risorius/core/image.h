@@ -8,11 +8,12 @@
 
 namespace risorius {
 
+/// A picture, RGBA. All pixels are transparent black at first.
 struct Image {
     int width_px = 0;
     int height_px = 0;
     std::vector<std::uint8_t> rgba;   ///< height x width x 4, rows from the top
-    std::vector<std::uint16_t> deep;  ///< the same in 16 bits, or nothing
+    std::vector<std::uint16_t> deep;  ///< the same in 16 bits, or empty
 
     Image() = default;
     Image(int width, int height)

@@ -53,7 +53,8 @@ std::string escape_pointer(std::string_view key) {
     return out;
 }
 
-// nlohmann keeps the last of two equal keys; a script that sets a channel twice is a mistake worth naming.
+// Finds keys that are given twice. nlohmann keeps the last of two equal keys, but a script that sets a channel twice is a
+// mistake.
 struct DuplicateKeyFinder {
     std::vector<std::set<std::string>> open;
     std::string duplicate;
@@ -77,7 +78,7 @@ std::string format_number(double value) {
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known) {
-    // Optimal string alignment: letters changed, added, left out, or swapped with their neighbour
+    // Optimal string alignment: letters changed, added, left out, or swapped with a neighbour.
     std::string best;
     std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
     for (std::string_view candidate : known) {
@@ -141,7 +142,7 @@ JsonCursor parse_json_text(const std::string& text, const std::filesystem::path&
         throw Error(name.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "valid JSON", found);
     } catch (const Json::out_of_range& error) {
-        // Its text ends with the number in quotes: "number overflow parsing '1e999'".
+        // The text of the exception ends with the number in quotes: "number overflow parsing '1e999'".
         const std::string text_of_error = error.what();
         throw Error(name.string(), "numbers within +-1.8e308",
                     text_of_error.substr(std::min(text_of_error.find('\''), text_of_error.size())));
@@ -190,7 +191,7 @@ std::optional<JsonCursor> JsonCursor::find(std::string_view key) const {
     return at(key);
 }
 
-// "$schema" at the top names the schema that an editor shows help from; readers pass over it.
+// A "$schema" at the top names the schema from which an editor shows help. Readers ignore it.
 static bool is_for_editors(const std::string& pointer, const std::string& key) {
     return pointer.empty() && key == "$schema";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A place in a JSON file: reads values and, when something is wrong, says which file, where in it (JSON pointer),
-/// what was expected and what was found. Unknown keys are errors, so every reader lists the keys it knows.
+/// A place in a JSON file. It reads values and reports errors: the file, the place in it (JSON pointer), what was expected and
+/// what was found. Unknown keys are errors, so every reader lists the keys it knows.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,8 @@
 
 namespace risorius {
 
-/// Keys keep the order of the file. Declared only: who looks into one includes <nlohmann/json.hpp>, which costs seconds.
+/// Keys keep the order of the file. The type is only declared here: files that look into a value include <nlohmann/json.hpp>,
+/// which takes seconds to compile.
 using Json = nlohmann::ordered_json;
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -29,33 +30,37 @@ struct Range {
     double max;
 };
 
+/// A value of a JSON document that knows its place. Copies share the document.
 class JsonCursor {
   public:
-    /// Reads and parses a file. Throws Error on a missing file, malformed JSON (with line and column) or a key given twice.
+    /// Reads and parses a file. Throws Error when the file is missing, when the JSON is malformed (with line and column), or
+    /// when a key is given twice.
     static JsonCursor read_file(const std::filesystem::path& file);
 
-    /// For tests and tables already in memory; `name` stands where the file's path would.
+    /// For tests and for tables that are in memory. `name` replaces the file's path in messages.
     static JsonCursor from_json(Json json, const std::string& name);
 
-    /// The file this value came from (as given), its folder, and its place "file:/json/pointer".
+    /// The file this value came from (as given).
     const std::filesystem::path& file() const;
     std::filesystem::path folder() const { return file().parent_path(); }
+    /// The place of this value, "file:/json/pointer".
     std::string place() const;
     const Json& json() const { return *value_; }
 
     bool has(std::string_view key) const;
-    JsonCursor at(std::string_view key) const;  ///< throws when the key is missing
+    JsonCursor at(std::string_view key) const;  ///< throws Error when the key is missing
     std::optional<JsonCursor> find(std::string_view key) const;
 
-    /// Throws when this is not an object or has a key outside the list (naming the nearest known one).
+    /// Throws Error when this is not an object, or when it has a key outside the list. The message names the nearest known key.
     void allow_keys(const std::vector<std::string_view>& known) const;
-    std::vector<std::string> keys() const;  ///< throws when this is not an object
-    std::vector<JsonCursor> items() const;  ///< throws when this is not an array
+    std::vector<std::string> keys() const;  ///< throws Error when this is not an object
+    std::vector<JsonCursor> items() const;  ///< throws Error when this is not an array
     bool is_object() const;
     bool is_array() const;
     bool is_string() const;
     bool is_number() const;
 
+    /// The readers below throw Error when the value has another type, is outside its range or is not one of the choices.
     double number() const;  ///< finite
     double number(Range range) const;
     int integer(int min, int max) const;
@@ -64,9 +69,10 @@ class JsonCursor {
     std::string one_of(const std::vector<std::string_view>& choices) const;
     Vec3 vec3() const;
 
-    /// A path written in this file, made relative to the file's folder.
+    /// A path that is written in this file, relative to the file's folder.
     std::filesystem::path path() const;
 
+    /// Throws Error at this place.
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
     [[noreturn]] void fail(const std::string& expected) const;  ///< found: this value, shortened
 
@@ -80,10 +86,11 @@ class JsonCursor {
     const Json* value_;
 };
 
-/// If `table` is a string it names another JSON file, relative to the file it stands in; otherwise it is the table itself.
+/// When `table` is a string, it names another JSON file, relative to the folder of its own file. Otherwise it is the table
+/// itself.
 JsonCursor follow_table(const JsonCursor& table);
 
-/// "a.json" + nearest of `known` by edit distance, or empty when nothing is near. For "did you mean" in messages.
+/// The name of `known` that is nearest by edit distance, or empty when none is near. For "did you mean" in messages.
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known);
 
 /// Shortest decimal form of a number that reads back the same.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// JSON that is read as text first, so that the same bytes can be parsed and hashed.
+/// JSON that is first read as text, so that the same bytes can be parsed and hashed.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace risorius {
 
-/// The bytes of a JSON file; the file is opened once, so it may be a pipe. Throws Error when there is no such file, when it is a
-/// folder or when it is empty.
+/// The bytes of a JSON file. The file is opened once, so it may be a pipe. Throws Error when it does not exist, is a folder or
+/// is empty.
 std::string read_json_text(const std::filesystem::path& file);
 
-/// Parses text that is in memory already. `name` stands where the path of a file would: in messages, and as the folder from which
-/// relative paths start. Throws Error on malformed JSON (with line and column) or a key given twice.
+/// Parses text that is in memory. `name` replaces the path of a file: in messages, and as the start of relative paths. Throws
+/// Error when the JSON is malformed (with line and column) or when a key is given twice.
 JsonCursor parse_json_text(const std::string& text, const std::filesystem::path& name);
 
 }  // namespace risorius

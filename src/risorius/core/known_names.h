@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Names that a person may get wrong: all there are, and which one was probably meant.
+/// Names that a person may mistype: the list of known names, and which one was probably meant.
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace risorius {
 
-/// " (did you mean "muscles"?)", or nothing when no known name is near.
+/// " (did you mean "muscles"?)", or an empty text when no known name is near.
 std::string did_you_mean(std::string_view found, const std::vector<std::string>& names);
 
-/// Where a name stands among the known ones. Throws Error naming `place`, all of them and the nearest when it is none.
+/// Index of a name among the known ones. Throws Error when it is none of them; the message names `place`, all known names and
+/// the nearest one.
 std::size_t index_of_name(const std::string& place, const std::string& found,
                           const std::vector<std::string>& names);
 

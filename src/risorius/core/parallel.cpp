@@ -23,7 +23,7 @@ void parallel_for(int count, const ThreadLimit& threads, const std::function<voi
     std::mutex mutex;
     std::vector<std::thread> others;
     std::function<void()> work;
-    // Asked before each piece of work, because a thread may have become free since.
+    // Called before each piece of work, because a thread may have become free.
     const auto recruit = [&] {
         const std::lock_guard<std::mutex> lock(mutex);
         if (failed || next + 1 >= count || !spare.take()) return;

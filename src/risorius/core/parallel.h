@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Loops on several threads. Nested loops share one pool of spare threads, so that a loop that ends early lends its threads to others.
+/// Loops on several threads. Nested loops share one pool of spare threads, so that a loop that ends early lends its threads to
+/// others.
 #pragma once
 
 #include <functional>
@@ -8,11 +9,12 @@
 
 namespace risorius {
 
+/// The number of threads that loops may still take from a pool. Several threads may use it.
 class SpareThreads {
   public:
     explicit SpareThreads(int count) : count_(count) {}
 
-    /// Whether there was one to take.
+    /// Takes a thread. Returns false when none is left.
     bool take() {
         const std::lock_guard<std::mutex> lock(mutex_);
         if (count_ <= 0) return false;
@@ -23,7 +25,7 @@ class SpareThreads {
         const std::lock_guard<std::mutex> lock(mutex_);
         ++count_;
     }
-    /// A thread that was lent goes on, even if there is one too many for a while.
+    /// Takes back a thread that was lent. The lent thread continues, even if there is one too many for a while.
     void take_back() {
         const std::lock_guard<std::mutex> lock(mutex_);
         --count_;
@@ -34,10 +36,11 @@ class SpareThreads {
     int count_;
 };
 
-/// How many threads to use; a plain number will do.
+/// How many threads to use. A plain number converts to it.
 struct ThreadLimit {
-    int max = 0;                    ///< 0 = as many as the machine has
-    SpareThreads* spare = nullptr;  ///< where to take them from, besides the one that asks
+    int max = 0;  ///< 0: as many as the machine has
+    /// The pool of additional threads; the calling thread is not taken from it.
+    SpareThreads* spare = nullptr;
 
     ThreadLimit(int max_threads = 0, SpareThreads* spare_threads = nullptr)
         : max(max_threads), spare(spare_threads) {}
@@ -45,8 +48,8 @@ struct ThreadLimit {
     int count() const;
 };
 
-/// Calls body(i) for i in [0, count) on several threads, lowest i first; each call must only write what is its own. The
-/// first exception (by i) is thrown again after all have ended. Calls may nest when they share their spare threads.
+/// Calls body(i) for i in [0, count) on several threads, lowest i first. Each call must only write its own data. The first
+/// exception (by i) is thrown again after all calls have ended. Calls may be nested when they share their spare threads.
 void parallel_for(int count, const ThreadLimit& threads, const std::function<void(int)>& body);
 
 }  // namespace risorius

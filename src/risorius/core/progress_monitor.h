@@ -15,6 +15,7 @@ class Interrupted : public std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
+/// The two functions of the caller. Both may be empty.
 struct ProgressMonitor {
     /// Receives the fraction of the run that is done, 0 to 1, and the name of what is being done.
     std::function<void(double fraction, const std::string& what)> progress;
@@ -29,7 +30,7 @@ struct ProgressMonitor {
         throw_if_stopped();
         if (progress) progress(fraction, what);
     }
-    /// A monitor for a part of the run: its 0 to 1 is `from` to `to` of the whole.
+    /// A monitor for a part of the run. Its 0 to 1 is `from` to `to` of the whole.
     ProgressMonitor subrange(double from, double to) const {
         ProgressMonitor out = *this;
         if (progress)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Shapes of the arrays that travel between folders. One row per element; SI units unless a name says otherwise.
+/// Types of the arrays that modules exchange. Arrays have one row per element. Units are SI unless a name says otherwise.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ using TexCoords = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  //
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;     ///< F x 3
 using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;          ///< T x 4
 
-/// Sides are the subject's own: left is +x in the head frame.
+/// Sides are those of the subject: left is +x in the head frame.
 enum class Side { kLeft = 0, kRight = 1 };
 
 }  // namespace risorius

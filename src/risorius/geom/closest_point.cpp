@@ -10,7 +10,8 @@ namespace risorius::geom {
 namespace {
 
 constexpr int kLeafSize = 4;
-constexpr int kStackSize = 128;  // the tree halves its triangles, so it is never deeper than 32
+// Each node has half the triangles of its parent, so the depth is at most 32.
+constexpr int kStackSize = 128;
 
 TrianglePoint at_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c,
                              const Vec3& w) {
@@ -18,7 +19,7 @@ TrianglePoint at_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const 
     return {point, w, (p - point).squaredNorm()};
 }
 
-/// Weight of the end nearest to p on the segment from a to b.
+/// Weight of b at the point of the segment from a to b that is nearest to p.
 double segment_weight(const Vec3& p, const Vec3& a, const Vec3& b) {
     const double length2 = (b - a).squaredNorm();
     return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
@@ -33,18 +34,18 @@ double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high)
     return sum;
 }
 
-/// Where the ray enters the box, infinity when it passes by. `inverse` may be infinite along an axis.
+/// Distance at which the ray enters the box; infinity when it misses. `inverse` may be infinite along an axis.
 double entry_distance(const Vec3& origin, const Vec3& inverse, const Vec3& low, const Vec3& high,
                       double farthest) {
     double enter = 0.0, leave = farthest;
     for (int k = 0; k < 3; ++k) {
         double t0 = (low(k) - origin(k)) * inverse(k), t1 = (high(k) - origin(k)) * inverse(k);
         if (t0 > t1) std::swap(t0, t1);
-        // 0 * infinity is NaN when the ray runs inside a face of the box: that axis then sets no limit.
+        // 0 * infinity is NaN when the ray runs inside a face of the box. That axis then sets no limit.
         if (t0 > enter) enter = t0;
         if (t1 < leave) leave = t1;
     }
-    // Boxes of flat triangles have no thickness; rounding must not lose them.
+    // Boxes of flat triangles have no thickness, and rounding must not miss them.
     constexpr double kSlack = 1e-12;
     return enter <= leave + kSlack * std::max(1.0, std::abs(leave))
                ? enter
@@ -57,12 +58,12 @@ std::optional<RayHit> meet(const Vec3& origin, const Vec3& direction,
     const Vec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
     const Vec3 across = direction.cross(e2);
     const double determinant = e1.dot(across);
-    if (determinant == 0) return std::nullopt;  // parallel or without area
+    if (determinant == 0) return std::nullopt;  // parallel, or a triangle without area
     const Vec3 from_corner = origin - corner[0];
     const double u = from_corner.dot(across) / determinant;
     const Vec3 q = from_corner.cross(e1);
     const double v = direction.dot(q) / determinant;
-    // A ray through a shared edge must meet one of its triangles whatever the rounding.
+    // A ray through a shared edge must hit one of its triangles, whatever the rounding.
     constexpr double kEdgeSlack = 1e-12;
     if (!(u >= -kEdgeSlack && v >= -kEdgeSlack && u + v <= 1 + kEdgeSlack)) return std::nullopt;
     RayHit hit;
@@ -78,7 +79,7 @@ TrianglePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3
     const Vec3 ab = b - a, ac = c - a, ap = p - a;
     const Vec3 normal = ab.cross(ac);
     const double scale = std::max(ab.squaredNorm(), ac.squaredNorm());
-    // Thinner than rounding can resolve: the nearest of the three sides is the answer.
+    // The triangle is thinner than rounding can resolve: the result is the nearest point of its three sides.
     constexpr double kFlat = 1e-24;
     if (!(normal.squaredNorm() > kFlat * scale * scale)) {
         const double s = segment_weight(p, a, b), t = segment_weight(p, b, c),
@@ -138,7 +139,7 @@ SurfaceTree::SurfaceTree(const Points& positions, const Triangles& triangles)
 
 void SurfaceTree::build(int node, int first, int count, const std::vector<Vec3>& centres) {
     if (count <= kLeafSize) {
-        // Lowest index first, so that ties need no further care inside a leaf.
+        // Lowest index first, so that ties inside a leaf are resolved.
         std::sort(order_.begin() + first, order_.begin() + first + count);
         nodes_[node].first = first;
         nodes_[node].count = count;
@@ -185,7 +186,7 @@ void SurfaceTree::refit(const Points& positions) {
     for (std::size_t i = 0; i < order_.size(); ++i)
         for (int k = 0; k < 3; ++k)
             corners_[i][k] = positions.row(triangles_(order_[i], k)).transpose();
-    // Children come after their parent, so backwards is bottom up.
+    // Children come after their parent, so the reverse order is bottom-up.
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) fit(*node);
 }
 
@@ -202,7 +203,8 @@ std::optional<SurfacePoint> SurfaceTree::closest(const Vec3& p, double max_dista
     stack[depth++] = {0, squared_distance_to_box(p, nodes_[0].low, nodes_[0].high)};
     while (depth > 0) {
         const Visit visit = stack[--depth];
-        // A box as far as the best so far, but for rounding, may hold an equally near triangle of lower index.
+        // A box that is as far as the best triangle so far, up to rounding, may contain an equally near triangle of lower
+        // index.
         constexpr double kRounding = 1e-12;
         if (visit.squared_distance * (1 - kRounding) > best.squared_distance) continue;
         const Node& node = nodes_[visit.node];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Closest points on a triangle surface, first hits of rays, and points bound to a surface so that they move with it.
+/// Closest points on a triangle surface, first hits of rays, and points that are bound to a surface and move with it.
 ///
-/// Results do not depend on the search tree: of equally near triangles the one with the lowest index is taken.
-/// Closest point on a triangle by regions of Voronoi: Ericson 2005, Real-Time Collision Detection, 5.1.5.
+/// Results do not depend on the search tree: of equally near triangles, the one with the lowest index is taken.
+///
+/// Source: Ericson 2005, Real-Time Collision Detection, 5.1.5, for the closest point on a triangle by Voronoi regions.
 #pragma once
 
 #include <array>
@@ -15,39 +16,43 @@
 
 namespace risorius::geom {
 
+/// The closest point of one triangle.
 struct TrianglePoint {
     Vec3 point = Vec3::Zero();
     Vec3 barycentric = Vec3::Zero();  ///< weights of the three corners, each >= 0, sum 1
     double squared_distance = 0.0;
 };
-/// Also correct for triangles that have collapsed to a segment or a point.
+/// Also correct for triangles that are degenerate to a segment or a point.
 TrianglePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// The closest point of a surface, and its triangle.
 struct SurfacePoint : TrianglePoint {
     int triangle = -1;
 };
 
+/// Where a ray hits a surface.
 struct RayHit {
     int triangle = -1;
-    double distance = 0.0;  ///< along the ray, in lengths of `direction`
+    double distance = 0.0;  ///< along the ray, in units of the length of `direction`
     Vec3 barycentric = Vec3::Zero();
     Vec3 point = Vec3::Zero();
 };
 
-/// Search tree over the triangles of a surface; keeps its own copy of their corners. Queries may run in parallel.
+/// Search tree over the triangles of a surface. It keeps a copy of their corners. Queries may run in parallel.
 class SurfaceTree {
   public:
     SurfaceTree() = default;
     SurfaceTree(const Points& positions, const Triangles& triangles);
 
-    /// Moves the triangles: keeps the tree and updates its boxes. Faster than a new tree, but slower to search after large deformation.
+    /// Moves the triangles. The tree is kept and its boxes are updated: faster than a new tree, but slower to search after a
+    /// large deformation.
     void refit(const Points& positions);
 
-    /// Empty when nothing lies within `max_distance`, or there are no triangles.
+    /// The closest point; empty when nothing lies within `max_distance`, or when there are no triangles.
     std::optional<SurfacePoint> closest(
         const Vec3& p, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-    /// First triangle hit in [0, max_distance], from either side.
+    /// The first triangle that the ray hits in [0, max_distance], from either side.
     std::optional<RayHit> cast(const Vec3& origin, const Vec3& direction,
                                double max_distance = std::numeric_limits<double>::infinity()) const;
 
@@ -56,8 +61,8 @@ class SurfaceTree {
   private:
     struct Node {
         Vec3 low, high;
-        int first = 0;  ///< leaf: first place in order_; else left child, the right one follows
-        int count = 0;  ///< triangles of a leaf, 0 for an inner node
+        int first = 0;  ///< leaf: first index in order_; else left child, followed by the right one
+        int count = 0;  ///< triangles of a leaf; 0 for an inner node
     };
 
     void build(int node, int first, int count, const std::vector<Vec3>& centres);
@@ -65,23 +70,24 @@ class SurfaceTree {
 
     Triangles triangles_;
     std::vector<int> order_;                    ///< triangles, leaf after leaf
-    std::vector<std::array<Vec3, 3>> corners_;  ///< in that order
+    std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of order_
     std::vector<Node> nodes_;
 };
 
-/// A point bound to a triangle: foot on the triangle plus an offset in the triangle's own frame.
+/// A point bound to a triangle: a foot point on the triangle plus an offset in the triangle's own frame.
 struct SurfaceBinding {
     int triangle = -1;
     Vec3 barycentric = Vec3::Zero();
     Vec3 offset = Vec3::Zero();  ///< m, in triangle_frame()
 };
 
-/// Columns: along side 0, across it in the plane, normal. The identity for a triangle without area.
+/// Columns: along side 0, perpendicular to it in the plane, normal. The identity for a triangle without area.
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// Binds p to the surface at a given foot point.
 SurfaceBinding bind_to_surface(const Vec3& p, const SurfacePoint& foot, const Points& positions,
                                const Triangles& triangles);
-/// Binds each point to the nearest triangle; `tree` is of the same surface and must not be empty.
+/// Binds each point to the nearest triangle. `tree` must be of the same surface and must not be empty.
 std::vector<SurfaceBinding> bind_to_surface(const Points& points, const SurfaceTree& tree,
                                             const Points& positions, const Triangles& triangles);
 

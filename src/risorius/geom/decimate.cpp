@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The surface while it is being coarsened.
+// The surface during coarsening.
 class Surface {
   public:
     Surface(const Triangles& triangles, const Points& points, const std::vector<char>& seam)
@@ -77,7 +77,8 @@ double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
 }
 
-// Whether a collapse leaves the seam where it is: its vertices leave along it, but for its ends, and no other edge joins two.
+// True when a collapse preserves the seam: its vertices, except its ends, move only along it, and no other edge connects two of
+// them.
 bool keeps_seam(const Surface& s, int gone, int stays, const std::vector<int>& around,
                 const std::vector<int>& common, const std::vector<int>& border) {
     if (s.on_seam(gone))
@@ -89,7 +90,7 @@ bool keeps_seam(const Surface& s, int gone, int stays, const std::vector<int>& a
     });
 }
 
-// How good the surface is after moving `gone` onto `stays`; negative when it must not be done.
+// Quality of the surface after moving `gone` onto `stays`; negative when the collapse is not allowed.
 double collapse_quality(const Surface& s, int gone, int stays, const std::vector<double>& length,
                         const DecimateOptions& options) {
     const std::vector<int> around = s.neighbours(gone), around_stays = s.neighbours(stays);
@@ -101,7 +102,7 @@ double collapse_quality(const Surface& s, int gone, int stays, const std::vector
     const auto only_these = [&](int v) {
         return static_cast<int>(s.faces_of_[v].size()) == on_edge;
     };
-    if (only_these(gone) && only_these(stays)) return -1;  // a piece's last triangle
+    if (only_these(gone) && only_these(stays)) return -1;  // the last triangle of a piece
 
     const std::vector<int> border = s.boundary_neighbours(gone);
     if (!keeps_seam(s, gone, stays, around, common, border)) return -1;
@@ -111,7 +112,7 @@ double collapse_quality(const Surface& s, int gone, int stays, const std::vector
         const Vec3 along = s.at(other) - s.at(stays);
         const Vec3 from = s.at(gone) - s.at(stays);
         const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
-        // A seam is an edge of this half only; there the normals decide, as inside a surface.
+        // A seam is a boundary of this half only. There the normals decide, as inside a surface.
         if (!s.on_seam(gone) &&
             (from - t * along).norm() > options.boundary_tolerance * length[gone])
             return -1;
@@ -165,7 +166,7 @@ void flip_edges(Surface& s, const DecimateOptions& options) {
                     if (v != a && v != b) return v;
                 return -1;
             };
-            // Orient so that face f runs a -> b.
+            // Orients the edge so that face f runs a -> b.
             for (int k = 0; k < 3; ++k)
                 if (f[k] == b && f[(k + 1) % 3] == a) std::swap(a, b);
             const int c = opposite(f), d = opposite(g);
@@ -207,9 +208,9 @@ Decimated decimate(const Triangles& triangles, const Points& points,
     for (long f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) parent[triangles(f, k)] = triangles(f, k);
 
-    // No vertex moves, so an edge keeps its place in the queue as long as it waits there.
+    // No vertex moves, so an edge keeps its priority while it is in the queue.
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
-    std::vector<std::vector<int>> waiting(count);  // of an edge a < b, b at a
+    std::vector<std::vector<int>> waiting(count);  // queued edges a < b: b is listed at a
     const auto push = [&](int a, int b) {
         if (a > b) std::swap(a, b);
         if (std::find(waiting[a].begin(), waiting[a].end(), b) != waiting[a].end()) return;
@@ -254,7 +255,7 @@ Decimated decimate(const Triangles& triangles, const Points& points,
         }
         s.faces_of_[gone].clear();
         parent[gone] = stays;
-        // Around the changed vertex, give the edges that were refused another chance.
+        // Edges around the changed vertex that were rejected before are tried again.
         for (int w : s.neighbours(stays))
             for (int x : s.neighbours(w)) push(w, x);
     }

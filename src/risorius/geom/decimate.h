@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Coarsens a triangle surface by half-edge collapse towards a size field, keeping a subset of the original vertices,
-/// then flips edges towards larger smallest angles. Deterministic.
+/// Coarsens a triangle surface towards a size field, by half-edge collapse, and then flips edges to enlarge the smallest
+/// angles. The vertices that remain are a subset of the original ones. Deterministic.
 ///
-/// Half-edge collapse: Hoppe 1996, "Progressive meshes"; here ordered by edge length over wanted length.
+/// Source: Hoppe 1996, "Progressive meshes", for half-edge collapse; here edges are ordered by length / wanted length.
 #pragma once
 
 #include <vector>
@@ -12,23 +12,26 @@
 
 namespace risorius::geom {
 
+/// Limits of collapsing and flipping.
 struct DecimateOptions {
-    double max_normal_turn_deg =
-        50;  ///< a triangle's normal may turn at most this far from its original surface
-    double boundary_tolerance =
-        0.25;  ///< largest distance of a removable boundary vertex from the new edge / wanted length
-    double longest_edge = 1.6;  ///< no edge longer than this, ratio of wanted length
+    /// Maximum angle between the normal of a triangle and that of its original surface.
+    double max_normal_turn_deg = 50;
+    /// Maximum distance of a removed boundary vertex from the new edge / wanted length.
+    double boundary_tolerance = 0.25;
+    double longest_edge = 1.6;  ///< maximum length of an edge / wanted length
 };
 
+/// The coarse surface, and where the vertices of the fine one went.
 struct Decimated {
     Triangles triangles;    ///< over the original vertex indices
-    std::vector<int> kept;  ///< original indices of the vertices left, ascending
-    std::vector<int>
-        collapsed_to;  ///< V, the kept vertex each original vertex went to; -1 if not on the surface
+    std::vector<int> kept;  ///< original indices of the remaining vertices, ascending
+    /// V; the kept vertex that replaces each original vertex; -1 if not on the surface.
+    std::vector<int> collapsed_to;
 };
 
-/// `length`: wanted edge length at each vertex. Vertices in `keep` (V, may be empty) are never removed. Vertices in `seam` (V, may be empty)
-/// lie on an edge along which another surface will be joined: they collapse only along it, and it remains an edge.
+/// `length`: wanted edge length at each vertex, m. Vertices in `keep` (V, may be empty) are never removed. Vertices in `seam`
+/// (V, may be empty) lie on an edge at which another surface will be joined. They collapse only along it, and it remains an
+/// edge.
 Decimated decimate(const Triangles& triangles, const Points& points,
                    const std::vector<double>& length, const std::vector<char>& keep,
                    const DecimateOptions& options = {}, const std::vector<char>& seam = {});

@@ -12,7 +12,7 @@ Sphere fitted_sphere(const std::vector<Vec3>& points) {
     for (const Vec3& p : points) mean += p;
     mean /= count;
 
-    // With d = p - mean: sum d d^T (c - mean) = 1/2 sum d |d|^2, and r^2 = |c - mean|^2 + mean of |d|^2
+    // With d = p - mean: sum d d^T (c - mean) = 1/2 sum d |d|^2, and r^2 = |c - mean|^2 + mean of |d|^2.
     Mat3 spread = Mat3::Zero();
     Vec3 right = Vec3::Zero();
     double squares = 0;

@@ -21,7 +21,7 @@ std::string number(double value) {
     return text.data();
 }
 
-/// One side of a face, sorted so that the sides of an edge lie together.
+/// One side of a face. Sorted, the sides of an edge are next to each other.
 struct FaceSide {
     int low, high, face;
     bool forward;  ///< runs from low to high
@@ -61,7 +61,7 @@ class MeshInspector {
         report_.findings.push_back({check, severity, name_ + where, expected, found});
     }
 
-    /// Says on the first finding of a check how many there are.
+    /// Adds the number of findings to the first finding of a check.
     void total(MeshCheck check, const std::string& what) {
         const auto counted = count_.find(check);
         if (counted == count_.end() || counted->second < 2) return;
@@ -208,7 +208,7 @@ class MeshInspector {
     }
 
     void check_facing() {
-        // Volume seen from the middle: for an open surface, positive as long as most of it looks away from its middle.
+        // Volume relative to the middle. For an open surface it is positive when most of it faces away from its middle.
         const Vec3 middle = 0.5 * (report_.low + report_.high);
         std::vector<double> volume(static_cast<std::size_t>(pieces_.count()), 0.0);
         double whole = 0;
@@ -255,7 +255,7 @@ class MeshInspector {
         const double size = (report_.high - report_.low).maxCoeff();
         if (size >= options_.smallest_size_m && size <= options_.max_size_m) return;
         std::string advice;
-        // Millimetres, centimetres, inches, decimetres, feet, metres and what a unit taken for another leaves behind.
+        // Millimetres, centimetres, inches, decimetres, feet, metres, and the results of mistaking one unit for another.
         constexpr double kTypicalHead_m = 0.3;
         double best = 0;
         for (const double factor :
@@ -322,7 +322,7 @@ class MeshInspector {
     const PolygonMesh& mesh_;
     const std::string& name_;
     const MeshCheckOptions& options_;
-    std::vector<int> faces_;  ///< looked at
+    std::vector<int> faces_;  ///< checked faces
     Triangles triangles_;
     SurfaceEdges edges_;
     SurfacePieces pieces_;

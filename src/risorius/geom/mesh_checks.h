@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Checks of a face mesh before a rig is built on it: errors and warnings.
+/// Checks of a face mesh before a rig is built on it. They give errors, warnings and notes.
 ///
-/// Messages name vertices and faces counted from 0, as the rows of PolygonMesh are, with the position in metres:
+/// Messages count vertices and faces from 0, as the rows of PolygonMesh, and give the position in metres:
 ///   head.obj:face 17: expected an area above 1e-13 m2, found 0 m2 (group skin, at (0.01, 0.02, 0.09) m)
 #pragma once
 
@@ -13,32 +13,35 @@
 
 namespace risorius::geom {
 
-/// In the order in which they are made. Later checks need the earlier ones passed, so an error in the first three ends the checks.
+/// In the order in which they are made. Later checks need the first three to pass, so an error in one of those ends the checks.
 enum class MeshCheck {
     kEmpty,            ///< no vertices or no faces
-    kNonFinite,        ///< a position that is not a number
-    kIndexRange,       ///< a corner that names no vertex
-    kDegenerateFace,   ///< a vertex twice in one face, or hardly any area
+    kNonFinite,        ///< a position that is not finite
+    kIndexRange,       ///< a corner whose index is not that of a vertex
+    kDegenerateFace,   ///< a face with a repeated vertex, or with almost no area
     kNonManifoldEdge,  ///< more than two faces at an edge
-    kWinding,       ///< neighbours that run along their edge the same way: one of them is flipped
-    kInsideOut,     ///< the surface, or a closed piece of it, faces inwards
-    kScale,         ///< not the size of a head
-    kPieces,        ///< more than one piece
-    kUnusedVertex,  ///< a vertex of no face
+    /// Neighbours that run along their common edge in the same direction: one is flipped.
+    kWinding,
+    kInsideOut,         ///< the surface, or a closed piece of it, faces inwards
+    kScale,             ///< not the size of a head
+    kPieces,            ///< more than one piece
+    kUnusedVertex,      ///< a vertex of no face
     kCoincidentVertex,  ///< boundary vertices at one position: a seam to weld
 };
 
+/// How a finding is treated. check_mesh() throws the first kError.
 enum class Severity { kIgnore, kNote, kWarning, kError };
 
 /// The defaults are for the skin of a head: open at neck, eyes and mouth, possibly split at texture seams.
 struct MeshCheckOptions {
-    std::vector<int> groups{};      ///< groups whose faces are checked; empty: all
-    double metres_per_unit = 1.0;   ///< with which the mesh was read, for advice in a message
-    double smallest_size_m = 0.12;  ///< longest side of the bounding box: a face alone
-    double max_size_m = 1.0;        ///< a head with shoulders
+    std::vector<int> groups{};  ///< groups whose faces are checked; empty: all
+    /// The factor with which the mesh was read, for advice in messages.
+    double metres_per_unit = 1.0;
+    double smallest_size_m = 0.12;  ///< lower limit of the longest side of the bounding box
+    double max_size_m = 1.0;        ///< upper limit of it: a head with shoulders
     double smallest_face_area_m2 = 1e-13;
     double seam_tolerance_m = 1e-7;
-    int findings_per_check = 5;  ///< further findings are only counted
+    int findings_per_check = 5;  ///< further findings are counted only
 
     Severity degenerate_face = Severity::kError;
     Severity non_manifold_edge = Severity::kError;
@@ -50,6 +53,7 @@ struct MeshCheckOptions {
     Severity coincident_vertex = Severity::kNote;
 };
 
+/// One finding: where it is, what was expected and what was found.
 struct MeshFinding {
     MeshCheck check;
     Severity severity;
@@ -60,14 +64,15 @@ struct MeshFinding {
     std::string message() const { return place + ": expected " + expected + ", found " + found; }
 };
 
+/// All findings, and the extent of the mesh.
 struct MeshReport {
     std::vector<MeshFinding> findings;  ///< in the order of MeshCheck
-    std::vector<int> piece_face_count;  ///< faces of each piece, in the order of its first face
+    std::vector<int> piece_face_count;  ///< faces of each piece, sorted by its first face
     int boundary_loop_count = 0;
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the groups looked at, m
+    Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the checked groups, m
 };
 
-/// All findings, including errors. `name` begins every place, usually the file.
+/// All findings, errors included. Every place begins with `name`, usually the file.
 MeshReport inspect_mesh(const PolygonMesh& mesh, const std::string& name,
                         const MeshCheckOptions& options = {});
 

@@ -11,14 +11,14 @@ namespace risorius::geom {
 
 namespace {
 
-// Nearest of some points, by cells.
+// Finds the nearest of some points, by grid cells.
 class NearestVertex {
   public:
     NearestVertex(const Points& points, const std::vector<int>& members, double cell)
         : points_(points), cell_(cell) {
         for (int v : members) cells_[cell_of(points.row(v).transpose())].push_back(v);
     }
-    /// -1 when there is none within a cell's width.
+    /// The nearest point; -1 when none is within the width of a cell.
     int nearest(const Vec3& p) const {
         const std::array<int, 3> home = cell_of(p);
         int best = -1;
@@ -70,7 +70,7 @@ MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, 
         if (std::isfinite(shortest[v])) members.push_back(static_cast<int>(v));
     const NearestVertex search(points, members, 2.0 * edges);
 
-    // The plane given is that of the landmarks; the surface knows its own better.
+    // The given plane comes from landmarks. The surface itself gives a more precise one.
     MirrorPairs mirror{std::vector<int>(count, -1), normal, offset};
     constexpr int kRounds = 4;
     for (int round = 0; round < kRounds; ++round) {
@@ -100,7 +100,8 @@ MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, 
         const Vec3 image = p - 2.0 * (mirror.normal.dot(p) - mirror.offset) * mirror.normal;
         if ((points.row(w).transpose() - image).norm() > tolerance * shortest[v]) return {};
     }
-    std::map<std::pair<int, int>, int> along_seam;  // triangles of the first half on an edge
+    // Number of triangles of the first half at an edge.
+    std::map<std::pair<int, int>, int> along_seam;
     for (long f = 0; f < triangles.rows(); ++f) {
         int min = 1, max = -1, on_seam = 0;
         for (int k = 0; k < 3; ++k) {

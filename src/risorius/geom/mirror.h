@@ -2,8 +2,8 @@
 /// \file
 /// Left and right of a symmetric surface: the mirror partner of each vertex, one half, and coarsening in pairs.
 ///
-/// Only surfaces whose vertices come in pairs, with a line of vertices between the halves, count as symmetric. Triangles need not be
-/// symmetric (polygons are cut arbitrarily): one half and its image stand for both.
+/// A surface is symmetric when its vertices come in pairs, with a line of vertices (the seam) between the halves. Its triangles
+/// need not be symmetric, because polygons are cut arbitrarily: one half and its mirror image represent both.
 #pragma once
 
 #include <vector>
@@ -13,35 +13,38 @@
 
 namespace risorius::geom {
 
+/// The mirror plane of a surface and the partner of each vertex.
 struct MirrorPairs {
-    std::vector<int>
-        partner;  ///< V, mirror partner of each vertex of the surface, itself on the seam, -1 elsewhere
-    Vec3 normal = Vec3::UnitX();  ///< of the mirror plane normal.p = offset, towards the first half
+    /// V; mirror partner of each vertex; itself on the seam, -1 elsewhere.
+    std::vector<int> partner;
+    /// Unit normal of the mirror plane normal.p = offset. It points to the first half.
+    Vec3 normal = Vec3::UnitX();
     double offset = 0.0;
 
     bool found() const { return !partner.empty(); }
     Vec3 reflect(const Vec3& direction) const {
         return direction - 2.0 * normal.dot(direction) * normal;
     }
-    /// 0 on the seam, 1 in the first half, -1 in the other.
+    /// 0 on the seam, 1 in the first half, -1 in the other half.
     int side(int v, const Points& points) const {
         if (partner[static_cast<std::size_t>(v)] == v) return 0;
         return points.row(v).dot(normal) > offset ? 1 : -1;
     }
 };
 
-/// Looks for a mirror plane near the given one. A partner's mirror image is at most `tolerance` times the shortest edge at a vertex away
-/// from it. Not found() when any vertex has no partner or a triangle crosses the seam.
+/// Searches a mirror plane near the given one. The mirror image of a vertex may be at most `tolerance` times its shortest edge
+/// away from the partner. The result is not found() when any vertex has no partner or a triangle crosses the seam.
 MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, Vec3 normal,
                               double offset, double tolerance = 0.25);
 
-/// The triangles that lie in the first half.
+/// The triangles in the first half.
 Triangles first_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
 /// The triangles in the first half whose mirror image exists too.
 Triangles paired_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
+/// The triangles of the half, followed by their mirror images.
 Triangles with_mirror_image(const Triangles& half, const MirrorPairs& mirror);
 
-/// Coarsens the first half, with vertices of the seam along the seam only, and gives both halves the result.
+/// Coarsens the first half, moving seam vertices only along the seam, and gives both halves the result.
 Decimated decimate_mirrored(const Triangles& half, const Points& points,
                             const std::vector<double>& length, const MirrorPairs& mirror,
                             const DecimateOptions& options = {});

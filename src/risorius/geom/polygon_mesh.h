@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A mesh as its file gives it: polygons of any size over shared vertices, with faces in named groups. The vertex order is that of the file,
-/// so that displacement tables by vertex index remain valid.
+/// A mesh as its file gives it: polygons of any size over shared vertices, with faces in named groups. The vertices have the
+/// order of the file, so that tables of displacements by vertex index remain valid.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,27 @@
 
 namespace risorius::geom {
 
-/// A picture that gives faces their colour.
+/// A picture that colours faces.
 struct Texture {
     std::filesystem::path file;
-    std::string named_in;  ///< place that names it, for messages: "head.mtl:7"
-    std::vector<std::uint8_t>
-        embedded;  ///< the picture's file itself where it lies within the mesh's
+    std::string named_in;  ///< the place that names it, for messages: "head.mtl:7"
+    /// The bytes of the picture's file, when it is stored inside the mesh's file.
+    std::vector<std::uint8_t> embedded;
 };
 
+/// V vertices, F faces and C corners. Positions are in metres once a mesh is read.
 struct PolygonMesh {
     Points positions;  ///< V x 3
-    std::vector<int> face_begin{
-        0};  ///< F + 1; corners of face f are [face_begin[f], face_begin[f+1])
+    /// F + 1; the corners of face f are [face_begin[f], face_begin[f+1])
+    std::vector<int> face_begin{0};
     std::vector<int> corner_vertex;  ///< C, vertex index of each corner
     TexCoords corner_texcoord;       ///< C x 2, or 0 rows when the file has none
     std::vector<int> face_group;     ///< F, index into group_names
     std::vector<std::string> group_names;
-    std::vector<Texture>
-        textures;  ///< the files need not exist; they are read only when colours are needed
-    std::vector<int> face_texture;  ///< F, into textures or -1; empty when there are none
+    /// The files need not exist; they are read only when colours are needed.
+    std::vector<Texture> textures;
+    /// F; index into textures or -1; empty when there are no textures.
+    std::vector<int> face_texture;
 
     int vertex_count() const { return static_cast<int>(positions.rows()); }
     int face_count() const { return static_cast<int>(face_begin.size()) - 1; }
@@ -43,9 +45,9 @@ struct PolygonMesh {
     }
 };
 
-/// Fan triangles of the faces whose group is listed (all faces when `groups` is empty), in face order.
-/// A quad is cut along its shorter diagonal in the mesh's own positions. `corners`, when given, receives F x 3 corner
-/// indices (for texture coordinates).
+/// Fan triangles of the faces whose group is listed (of all faces when `groups` is empty), in the order of faces, F x 3. A quad
+/// is cut along its shorter diagonal at the mesh's own positions. `corners`, when given, receives F x 3 corner indices for
+/// texture coordinates.
 Triangles triangulate(const PolygonMesh& mesh, const std::vector<int>& groups = {},
                       Triangles* corners = nullptr);
 

@@ -37,7 +37,7 @@ std::vector<std::array<int, 2>> self_intersections(const Points& positions,
         low.row(t) = corner(t, 0).cwiseMin(corner(t, 1)).cwiseMin(corner(t, 2)).transpose();
         high.row(t) = corner(t, 0).cwiseMax(corner(t, 1)).cwiseMax(corner(t, 2)).transpose();
     }
-    // Sweep along y: of the boxes that begin before this one ends, those that overlap it.
+    // Sweep along y. Considers boxes that begin before this one ends, and of those the ones that overlap it.
     std::vector<int> order(static_cast<std::size_t>(count));
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds self-intersections of a surface: triangles that share no vertex and intersect each other.
+/// Finds self-intersections of a surface: triangles that intersect and have no vertex in common.
 ///
-/// Two triangles in general position intersect when an edge of one passes through the other; both are tested. Pairs that only touch, to a
-/// billionth of their size, do not count, nor do coplanar ones.
-/// Segment against triangle: Moeller & Trumbore 1997, J. Graphics Tools 2(1), 21-28.
+/// Two triangles in general position intersect when an edge of one passes through the other; both are tested. Pairs that only
+/// touch, up to a billionth of their size, do not count. Coplanar pairs do not count either.
+///
+/// Source: Moeller & Trumbore 1997, J. Graphics Tools 2(1), 21-28, for segment against triangle.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace risorius::geom {
 
-/// Pairs of triangles, the smaller index first, ascending.
+/// Pairs of triangles, smaller index first, ascending.
 std::vector<std::array<int, 2>> self_intersections(const Points& positions,
                                                    const Triangles& triangles);
 

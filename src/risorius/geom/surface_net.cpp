@@ -40,11 +40,11 @@ double GridField::at(const Vec3& p) const {
 
 NetSurface surface_net(const GridField& field) {
     const auto& size = field.size;
-    std::vector<int> vertex_of(field.values.size(), -1);  // by the cell's first sample
+    std::vector<int> vertex_of(field.values.size(), -1);  // by the first sample of the cell
     std::vector<Vec3> vertices;
     const auto inside = [&](int i, int j, int k) { return field.values[field.index(i, j, k)] < 0; };
 
-    // A vertex in every cell that is crossed
+    // One vertex in every cell that the surface crosses.
     for (int k = 0; k + 1 < size[2]; ++k)
         for (int j = 0; j + 1 < size[1]; ++j)
             for (int i = 0; i + 1 < size[0]; ++i) {
@@ -71,7 +71,7 @@ NetSurface surface_net(const GridField& field) {
                 vertices.push_back(field.place(i, j, k) + field.step_m * sum / crossings);
             }
 
-    // Four cells around every edge that is crossed
+    // One quad of four cells around every edge that the surface crosses.
     std::vector<std::array<int, 3>> faces;
     for (int k = 1; k + 1 < size[2]; ++k)
         for (int j = 1; j + 1 < size[1]; ++j)

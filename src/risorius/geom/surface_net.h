@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The zero surface of a field on a grid, as triangles: naive surface nets (Gibson 1998), with one vertex in each cell that the surface
-/// crosses, at the mean of its crossings of the cell's edges.
+/// The zero surface of a field on a grid, as triangles. The method is naive surface nets (Gibson 1998): one vertex in each cell
+/// that the surface crosses, at the mean of the surface's crossings of the cell's edges.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace risorius::geom {
 
-/// Samples of a field, negative inside; index (k * size[1] + j) * size[0] + i.
+/// Samples of a field, negative inside. The index of a sample is (k * size[1] + j) * size[0] + i.
 struct GridField {
     std::array<int, 3> size{0, 0, 0};  ///< samples along x, y, z
     Vec3 origin = Vec3::Zero();        ///< of the first sample, m
@@ -20,7 +20,7 @@ struct GridField {
     std::vector<float> values;
 
     GridField() = default;
-    /// Covers the box; all samples are `value`.
+    /// A grid that covers the box; all samples are `value`.
     GridField(const Vec3& low, const Vec3& high, double step_m, float value);
 
     std::size_t index(int i, int j, int k) const {
@@ -30,13 +30,14 @@ struct GridField {
                static_cast<std::size_t>(i);
     }
     Vec3 place(int i, int j, int k) const { return origin + step_m * Vec3(i, j, k); }
-    /// Interpolated between samples; outside of the grid the value at its border.
+    /// Interpolated between samples. Outside the grid it is the value at the border.
     double at(const Vec3& p) const;
 };
 
+/// The surface as triangles.
 struct NetSurface {
     Points vertices;      ///< V x 3, m
-    Triangles triangles;  ///< F x 3, counter-clockwise from where the field is positive
+    Triangles triangles;  ///< F x 3, counter-clockwise as seen from where the field is positive
 };
 NetSurface surface_net(const GridField& field);
 

@@ -19,7 +19,7 @@ SurfaceEdges surface_edges(const Triangles& triangles) {
             const auto [low, high] = std::minmax({triangles(t, k), triangles(t, (k + 1) % 3)});
             sides.push_back({{low, high}, t, k});
         }
-    // Stable: triangles at an edge stay in ascending order.
+    // Stable, so that triangles at an edge stay in ascending order.
     std::stable_sort(sides.begin(), sides.end(),
                      [](const Side& a, const Side& b) { return a.vertices < b.vertices; });
 
@@ -51,7 +51,7 @@ Triangles triangle_neighbours(const SurfaceEdges& edges, int triangle_count) {
 
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles,
                                              const SurfaceEdges& edges) {
-    // Directed boundary edges by their start, taken lowest end first.
+    // Directed boundary edges by their start. The lowest end is taken first.
     std::map<int, std::vector<int>> ends;
     for (int e = 0; e < edges.count(); ++e) {
         if (edges.triangle_count(e) != 1) continue;
@@ -64,13 +64,13 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles,
     std::vector<std::vector<int>> loops;
     for (auto& [start, list] : ends) {
         while (!list.empty()) {
-            // Walk until the chain meets itself, cut that loop off, go on with what is left of the chain.
+            // Walks until the chain meets itself, cuts that loop off, and continues with the rest of the chain.
             std::vector<int> chain{start};
             while (!chain.empty()) {
                 const auto out = ends.find(chain.back());
                 if (out == ends.end() || out->second.empty()) {
-                    chain
-                        .pop_back();  // only where winding is inconsistent: a chain that does not close
+                    // An open chain; it occurs only where winding is inconsistent.
+                    chain.pop_back();
                     continue;
                 }
                 const int next = out->second.back();
@@ -147,8 +147,8 @@ std::vector<Hinge> surface_hinges(const Triangles& triangles, const SurfaceEdges
         const int i = edges.triangle_begin[e];
         const int t0 = edges.triangle[i], t1 = edges.triangle[i + 1];
         const int k0 = edges.side[i], k1 = edges.side[i + 1];
-        if (triangles(t0, k0) == triangles(t1, k1))
-            continue;  // both run the same way: one is flipped
+        // Both run in the same direction: one is flipped.
+        if (triangles(t0, k0) == triangles(t1, k1)) continue;
         hinges.push_back({{triangles(t0, k0), triangles(t0, (k0 + 1) % 3)},
                           {triangles(t0, (k0 + 2) % 3), triangles(t1, (k1 + 2) % 3)},
                           {t0, t1}});

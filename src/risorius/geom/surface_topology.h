@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Topology of a triangle surface: edges, neighbours, boundary loops, pieces, hinges, vertex normals.
+/// Topology of a triangle surface: edges, neighbours, boundary loops, pieces, hinges and vertex normals.
 ///
-/// Corner k of a triangle is its k-th vertex; side k runs from corner k to corner k + 1 (mod 3). Results are ordered by
-/// index, so the same triangles give the same lists.
+/// Corner k of a triangle is its k-th vertex; side k runs from corner k to corner k + 1 (mod 3). Results are sorted by index,
+/// so the same triangles always give the same lists.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace risorius::geom {
 
-/// Undirected edges, sorted by their vertices, and the triangles at each.
+/// Undirected edges, sorted by their vertices, and the triangles at each edge.
 struct SurfaceEdges {
     std::vector<std::array<int, 2>> vertices;  ///< E, smaller index first
-    std::vector<int> triangle_begin{
-        0};  ///< E + 1; triangles at edge e are [triangle_begin[e], triangle_begin[e+1])
+    /// E + 1; the triangles at edge e are [triangle_begin[e], triangle_begin[e+1])
+    std::vector<int> triangle_begin{0};
     std::vector<int> triangle;  ///< ascending at each edge
     std::vector<int> side;      ///< which side of that triangle the edge is
 
@@ -26,43 +26,44 @@ struct SurfaceEdges {
 };
 SurfaceEdges surface_edges(const Triangles& triangles);
 
-/// F x 3: the triangle across side k, -1 at a boundary and where more than two triangles meet.
+/// F x 3: the triangle across side k; -1 at a boundary and where more than two triangles meet.
 Triangles triangle_neighbours(const SurfaceEdges& edges, int triangle_count);
 
-/// Closed chains of boundary edges, in the direction their triangles run (surface to the left). Each starts at its
-/// smallest vertex; loops are sorted by it. Where several boundaries touch in one vertex the chain is cut there, so
-/// that no loop visits a vertex twice.
+/// Closed chains of boundary edges, in the direction of their triangles (surface to the left). Each starts at its smallest
+/// vertex, and loops are sorted by that vertex. Where several boundaries touch in one vertex, the chain is cut there, so that
+/// no loop visits a vertex twice.
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles, const SurfaceEdges& edges);
 
-/// Pieces joined by shared vertices, numbered by their first triangle.
+/// Pieces that are connected by shared vertices, numbered by their first triangle.
 struct SurfacePieces {
     std::vector<int> of_triangle;     ///< F
-    std::vector<int> of_vertex;       ///< V, -1 for a vertex no triangle uses
+    std::vector<int> of_vertex;       ///< V; -1 for a vertex that no triangle uses
     std::vector<int> triangle_count;  ///< per piece
 
     int count() const { return static_cast<int>(triangle_count.size()); }
 };
 SurfacePieces surface_pieces(const Triangles& triangles, int vertex_count);
 
-/// Vertices one edge away, ascending, packed: those of v are [begin[v], begin[v + 1]).
+/// Vertices one edge away, ascending, packed: the neighbours of v are [begin[v], begin[v + 1]).
 struct VertexNeighbours {
     std::vector<int> begin{0};
     std::vector<int> vertex;
 };
 VertexNeighbours vertex_neighbours(const SurfaceEdges& edges, int vertex_count);
 
-/// Two triangles with a common edge, for bending: (edge[0], edge[1], wing[0]) is wound like the surface, wing[1] is on the other side.
+/// Two triangles with a common edge, for bending. (edge[0], edge[1], wing[0]) is wound like the surface; wing[1] is on the
+/// other side.
 struct Hinge {
     std::array<int, 2> edge;
     std::array<int, 2> wing;
     std::array<int, 2> triangle;
 };
-/// One per edge with exactly two triangles of consistent winding, in edge order.
+/// One hinge per edge with exactly two triangles of consistent winding, in edge order.
 std::vector<Hinge> surface_hinges(const Triangles& triangles, const SurfaceEdges& edges);
 
-/// Area-weighted unit normals, V x 3; zero for a vertex without area. Summed in triangle order.
+/// Area-weighted unit normals, V x 3; zero for a vertex without area. Summed in the order of triangles.
 Points vertex_normals(const Points& positions, const Triangles& triangles);
 void vertex_normals(const Points& positions, const Triangles& triangles,
-                    Points& normals);  ///< needs no allocation when it has the right size
+                    Points& normals);  ///< allocates nothing when `normals` has the right size
 
 }  // namespace risorius::geom

@@ -23,16 +23,17 @@ struct CellHash {
     }
 };
 
-/// Vertices kept so far, by cells no smaller than the tolerance: whatever is near enough lies in the 27 cells around.
+/// The vertices kept so far, in cells no smaller than the tolerance. Every vertex within the tolerance lies in the 27 cells
+/// around.
 class NearVertices {
   public:
     NearVertices(const Points& positions, double tolerance)
         : positions_(positions),
           tolerance_(tolerance),
-          // A cell for exact equality only has to be small; it must not overflow the integers of a cell either.
+          // For exact equality a cell only needs to be small, but its integer coordinates must not overflow.
           cell_size_(std::max(tolerance, 1e-9)) {}
 
-    /// Nearest kept vertex within the tolerance, -1 when there is none.
+    /// The nearest kept vertex within the tolerance; -1 when there is none.
     int find(int vertex) const {
         const Vec3 p = positions_.row(vertex).transpose();
         const Cell centre = cell_of(p);

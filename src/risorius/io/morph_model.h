@@ -2,13 +2,17 @@
 /// \file
 /// Writes and reads a mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and others.
 ///
-/// Space: metres, y up, the face looks along +z, as glTF asks for. Every part is a primitive of one mesh with a material of
-/// its own and only the vertices it needs, in the order of the mesh; the attribute _VERTEX holds each one's number in the
-/// mesh. Blend shapes are morph targets of positions and normals, stored where they are not zero (sparse accessors), their names in
-/// the mesh's extras.targetNames. Positions of targets are whole numbers of 16 bits that the node's scale makes metres of
-/// (KHR_mesh_quantization), not "normalized" ones, which three.js from r145 to r168 misreads in sparse accessors; normals are floats.
-/// Sources: glTF 2.0 specification, Khronos 2021, sections 3.6.2.3 and 3.7.2.2; KHR_mesh_quantization, Khronos 2020; three.js pull
-/// requests 22874 and 29330.
+/// Coordinates are metres, y is up and the face looks along +z, as glTF requires. Every part is a primitive of one mesh. It has
+/// its own material and only the vertices it needs, in the order of the mesh; the attribute _VERTEX has their indices in the
+/// mesh.
+///
+/// Blend shapes are morph targets of positions and normals. They are stored where they are not zero (sparse accessors), and
+/// their names are in the mesh's extras.targetNames. Positions of targets are 16-bit integers, which the scale of the node
+/// converts to metres (KHR_mesh_quantization). They are not "normalized" integers, because three.js from r145 to r168 reads
+/// those wrongly in sparse accessors. Normals are floats.
+///
+/// Sources: glTF 2.0 specification, Khronos 2021, sections 3.6.2.3 and 3.7.2.2; KHR_mesh_quantization, Khronos 2020; three.js
+/// pull requests 22874 and 29330.
 #pragma once
 
 #include <filesystem>
@@ -20,19 +24,21 @@
 
 namespace risorius::io {
 
+/// A blend shape: displacements of some vertices.
 struct MorphTarget {
     std::string name;
     std::vector<int> vertex;  ///< ascending
-    Points delta;             ///< one row per vertex above, m at weight 1
+    Points delta;             ///< one row per entry of `vertex`; displacement at weight 1, m
 };
 
-/// A part of one material.
+/// A part with one material.
 struct MorphPart {
     std::string name;
-    Triangles triangles;   ///< F x 3, into the model's vertices, counter-clockwise from outside
-    TexCoords texcoords;   ///< 3F x 2 per corner, or no rows; v up
+    /// F x 3, indices of the model's vertices, counter-clockwise from outside.
+    Triangles triangles;
+    TexCoords texcoords;   ///< 3F x 2, one row per corner, or no rows; v is up
     Vec3 colour{1, 1, 1};  ///< sRGB
-    Points tint;           ///< V x 3 on the model's vertices, sRGB, times the colour; or no rows
+    Points tint;  ///< V x 3 at the model's vertices, sRGB; multiplied by the colour; or no rows
     double roughness = 0.6;
     double opacity = 1;
     bool see_both_sides = false;
@@ -45,24 +51,26 @@ struct MorphAnimation {
     Eigen::MatrixXf weights;  ///< frames x targets
 };
 
+/// A mesh with parts, blend shapes and animations.
 struct MorphModel {
     std::string name;
     Points vertices;  ///< V x 3, m, head frame
-    std::vector<int>
-        stands_for;  ///< V, the vertex at the same place whose normal this one shares; empty: itself
+    /// V; the vertex at the same position with which this one shares its normal; empty: itself.
+    std::vector<int> stands_for;
     std::vector<MorphPart> parts;
     std::vector<MorphTarget> targets;
     std::vector<MorphAnimation> animations;
     Json extras;  ///< an object; its keys are written next to targetNames
-    /// Deltas in 1/32767 of the largest; or as floats, for readers that do not know KHR_mesh_quantization.
+    /// true: displacements are integer multiples of 1/32767 of the maximum. false: floats, for readers that do not know
+    /// KHR_mesh_quantization.
     bool whole_numbers = true;
 };
 
-/// The bytes of the file; they depend only on the model.
+/// The bytes of the file. They depend only on the model.
 std::string glb_bytes(const MorphModel& model);
 
-/// Reads a file that glb_bytes() wrote: vertices, targets, extras and animations; of the parts only the triangles. Throws Error for other
-/// files.
+/// Reads a file that glb_bytes() wrote: vertices, targets, extras and animations, but of the parts only the triangles. Throws
+/// Error for other files.
 MorphModel read_glb(const std::filesystem::path& file);
 
 }  // namespace risorius::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Binary glTF in (tinygltf): what write_glb.cpp writes.
+// Reads binary glTF (tinygltf), as written by write_glb.cpp.
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class Unpacker {
     Unpacker(const tinygltf::Model& model, std::string place)
         : model_(model), place_(std::move(place)) {}
 
-    /// One row per element.
+    /// The numbers of an accessor, one row per element.
     Eigen::MatrixXf floats(int index, int width) const {
         const tinygltf::Accessor& accessor = at(model_.accessors, index, "accessor");
         const bool whole = accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
@@ -150,7 +150,7 @@ tinygltf::Model load_model(const std::filesystem::path& file) {
     return model;
 }
 
-// Scale of the one node that shows the mesh, m; the same along every axis.
+// Scale of the one node that shows the mesh, m. It is the same along every axis.
 double unit_of(const tinygltf::Model& model, const Unpacker& from) {
     double unit_m = 1;
     for (const tinygltf::Node& node : model.nodes)
@@ -162,7 +162,7 @@ double unit_of(const tinygltf::Model& model, const Unpacker& from) {
     return unit_m;
 }
 
-// The displacements of each target, by ascending vertex.
+// Writes the displacements of each target, in the order of vertices.
 void write_targets(const std::vector<std::map<int, Vec3>>& deltas, MorphModel& out) {
     for (std::size_t t = 0; t < deltas.size(); ++t) {
         MorphTarget& target = out.targets[t];
@@ -174,7 +174,7 @@ void write_targets(const std::vector<std::map<int, Vec3>>& deltas, MorphModel& o
     }
 }
 
-// The weights of all shapes over time.
+// Reads the weights of all shapes over time.
 MorphAnimation read_animation(const Unpacker& from, const tinygltf::Animation& animation,
                               std::size_t targets) {
     const tinygltf::AnimationSampler& sampler =
@@ -212,7 +212,7 @@ MorphModel read_glb(const std::filesystem::path& file) {
         out.targets.push_back({name.get<std::string>(), {}, {}});
     out.extras.erase("targetNames");
 
-    // Back to one list of vertices; those of seams are there more than once, with the same place
+    // Merges the primitives into one list of vertices. Those at seams occur several times, at the same position.
     std::vector<std::map<int, Vec3>> deltas(out.targets.size());
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         const auto number = primitive.attributes.find("_VERTEX");

@@ -2,11 +2,10 @@
 /// \file
 /// Reads face meshes from files with assimp: OBJ, PLY, STL, glTF/GLB, FBX, COLLADA and other formats.
 ///
-/// Vertices keep the order of the file (OBJ, PLY, glTF), polygons stay polygons, groups and objects
-/// keep their names.
+/// Vertices keep the order of the file (OBJ, PLY, glTF), polygons stay polygons, and groups and objects keep their names.
 ///
 ///   OBJ          groups are the "g" or "o" names, or the materials where there are neither
-///   glTF, PLY    vertices in file order, mesh after mesh; glTF holds triangles only
+///   glTF, PLY    vertices in file order, mesh after mesh; glTF has only triangles
 ///   FBX, DAE,    assimp gives face corners without the file's indices: corners of one node at exactly
 ///   STL, ...     the same position become one vertex, in the order of first use; one group per node
 ///                with a mesh, named after it, or "node.material" where a node has several; node
@@ -15,7 +14,7 @@
 ///                diffuse colour elsewhere; files next to the mesh or inside it
 ///   units        the unit stated in FBX and COLLADA files is applied, which gives metres; then
 ///                `metres_per_unit` multiplies
-///   texture      v up, as in OBJ (glTF's v is flipped)
+///   texture      v is up, as in OBJ (glTF's v is flipped)
 #pragma once
 
 #include <filesystem>
@@ -24,19 +23,18 @@
 
 namespace risorius::io {
 
-/// Positions are multiplied by `metres_per_unit`: 0.01 for a head in centimetres. FBX and COLLADA
-/// state their unit themselves and need 1 unless they state it wrongly.
+/// Positions are multiplied by `metres_per_unit`, for example 0.01 for a head in centimetres. FBX and COLLADA state their unit
+/// themselves and need 1, unless they state it wrongly.
 struct MeshReadOptions {
     double metres_per_unit = 1.0;
 };
 
-/// Throws Error on a missing, unreadable, empty or non-finite mesh. Vertices in messages count from
-/// 0, except that messages about a line of an OBJ file ("head.obj:12") count as the file does,
-/// from 1.
+/// Throws Error for a mesh that is missing, unreadable, empty or not finite. Vertices in messages count from 0. But messages
+/// about a line of an OBJ file ("head.obj:12") count from 1, as the file does.
 geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOptions& options = {});
 
-/// Writes Wavefront OBJ with groups; positions are divided by `metres_per_unit`. The file is written under another name first and then
-/// renamed. Throws RunError when it cannot be written.
+/// Writes Wavefront OBJ with groups. Positions are divided by `metres_per_unit`. The file is written under a temporary name and
+/// then renamed. Throws RunError when it cannot be written.
 void write_obj(const geom::PolygonMesh& mesh, const std::filesystem::path& file,
                double metres_per_unit = 1.0);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Binary glTF out (tinygltf): parts with the vertices they need, morph targets as sparse accessors, animated weights.
+// Writes binary glTF (tinygltf): parts with the vertices they need, morph targets as sparse accessors, animated weights.
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace risorius::io {
 
 namespace {
 
-constexpr double kNoTurn = 0.035;    // of a normal, at weight 1: two degrees are not seen
+constexpr double kNoTurn = 0.035;    // change of a normal at weight 1; two degrees are not visible
 constexpr double kMaxWhole = 32767;  // of 16 bits
 
 using Floats = std::vector<float>;
@@ -74,7 +74,7 @@ tinygltf::Value value_of(const Json& json) {
     return {};
 }
 
-// The one binary buffer of the file, and the accessors that look into it.
+// The one binary buffer of the file, and the accessors that refer to it.
 class Packer {
   public:
     explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
@@ -92,8 +92,8 @@ class Packer {
             index_view(values, vertices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         return add(accessor);
     }
-    /// Vectors that are zero for all of `count` but the ones listed. There is always one, as some readers take accessors without
-    /// numbers of their own for none at all.
+    /// Writes `count` vectors that are zero except for the listed ones. At least one is listed, because some readers ignore
+    /// accessors without numbers.
     template <typename T>
     int sparse(std::vector<unsigned> at, std::vector<T> values, unsigned count) {
         if (at.empty()) {
@@ -164,9 +164,10 @@ class Packer {
     tinygltf::Model& model_;
 };
 
-// The vertices of a part: one for every vertex of the model, and one more for every further texture coordinate on it.
+// The vertices of a part: one for every vertex of the model that it uses, and one more for every further texture coordinate
+// there.
 struct PartVertices {
-    std::vector<int> vertex;  ///< of the model
+    std::vector<int> vertex;  ///< index in the model
     std::vector<std::array<double, 2>> texcoord;
     std::vector<unsigned> corner;  ///< 3F
 
@@ -198,7 +199,7 @@ struct PartVertices {
     }
 };
 
-/// Dense fields of a target, to be looked up by vertex.
+/// Dense fields of a target, indexed by vertex.
 struct TargetFields {
     Points delta, turn;
     TargetFields(const MorphModel& model, const MorphTarget& target, const Points& normals) {
@@ -211,10 +212,10 @@ struct TargetFields {
     }
 };
 
-// The morph targets of a part. What of one does not move at all shares one accessor for all targets.
+// The morph targets of a part. Targets that do not move it share one accessor.
 class PartTargets {
   public:
-    /// `unit`, m: of the whole numbers that deltas become; 0: they stay floats.
+    /// `unit`: displacement of the integer 1, m; 0: displacements stay floats.
     PartTargets(Packer& packer, const PartVertices& part, double unit)
         : packer_(packer), part_(part), unit_(unit) {}
 
@@ -295,7 +296,7 @@ std::string glb_bytes(const MorphModel& model) {
     for (const MorphTarget& target : model.targets)
         if (target.delta.size() > 0)
             largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
-    // Positions are counted in it too, and the node makes metres of them
+    // Positions use the same unit, and the scale of the node converts both to metres.
     const double unit = model.whole_numbers ? largest / kMaxWhole : 0;
     if (unit > 0) out.extensionsUsed = out.extensionsRequired = {"KHR_mesh_quantization"};
     const Points normals = vertex_normals(model, model.vertices);
@@ -322,7 +323,7 @@ std::string glb_bytes(const MorphModel& model) {
             Floats coordinates;
             for (const auto& [u, v] : own.texcoord) {
                 coordinates.push_back(static_cast<float>(u));
-                coordinates.push_back(static_cast<float>(1 - v));  // glTF counts from above
+                coordinates.push_back(static_cast<float>(1 - v));  // glTF measures from the top
             }
             primitive.attributes["TEXCOORD_0"] =
                 packer.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ out: groups, polygons of any size and texture coordinates, in the order of the mesh.
+// Writes Wavefront OBJ: groups, polygons of any size and texture coordinates, in the order of the mesh.
 #include <array>
 #include <fstream>
 #include <map>

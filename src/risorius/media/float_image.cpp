@@ -14,7 +14,7 @@ using namespace detail;
 
 namespace {
 
-// Where channels 0, 1, 2 = R, G, B lie in the planes G, B, R
+// Index of the plane (G, B, R) for channels 0, 1, 2 = R, G, B.
 constexpr int kPlaneOf[] = {2, 0, 1};
 
 template <typename Row>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Floating-point pictures: OpenEXR files, 32 bits, compressed without loss (ZIP), written by the FFmpeg libraries. One channel is named Y,
-/// three are named R, G and B.
+/// Floating-point pictures as OpenEXR files: 32 bits, lossless compression (ZIP), written by the FFmpeg libraries. A single
+/// channel is named Y; three channels are named R, G and B.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 namespace risorius::media {
 
+/// A picture of floating-point samples.
 struct FloatImage {
     int width_px = 0, height_px = 0;
     int channels = 1;            ///< 1 or 3
     std::vector<float> samples;  ///< height x width x channels, rows from the top
 };
 
-/// Written under another name first and then renamed. Throws RunError on failure.
+/// Written under a temporary name and then renamed. Throws RunError on failure.
 void write_exr(const FloatImage& image, const std::filesystem::path& file);
-/// Reads files of these two kinds only.
+/// Reads only files of these two kinds. Throws Error for others.
 FloatImage read_exr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -19,7 +19,7 @@ class RowReader {
   public:
     RowReader(std::ifstream& in, const std::filesystem::path& file) : in_(in), file_(file) {}
 
-    /// One row of RGBE pixels, packed channel by channel or plain.
+    /// Reads one row of RGBE pixels, run-length encoded by channel or plain.
     void read(std::vector<std::array<std::uint8_t, 4>>& row) {
         const auto width = row.size();
         std::array<std::uint8_t, 4> first;

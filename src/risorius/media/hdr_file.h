@@ -2,7 +2,7 @@
 /// \file
 /// High dynamic range pictures (Radiance .hdr, RGBE), as used for photographed surroundings.
 ///
-/// Source: Ward 1991, Real Pixels (Graphics Gems II), and the file format of Radiance.
+/// Sources: Ward 1991, Real Pixels (Graphics Gems II), and the file format of Radiance.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,13 @@
 
 namespace risorius::media {
 
+/// A picture of linear light.
 struct HdrPicture {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< 3 per pixel, rows from the top, linear
 };
 
-/// Throws Error for a file that is no .hdr of RGBE pixels in rows from the top left, or that ends before its last row.
+/// Throws Error unless the file is an .hdr with RGBE pixels in rows from the top left that is complete to its last row.
 HdrPicture read_hdr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PNG pictures through libpng, which keeps the bytes of 8-bit sRGB pixels as they are; OpenCV's reader of all formats would load
-// 77 more libraries at every start of the program.
+// PNG pictures through libpng, which keeps the bytes of 8-bit sRGB pixels. OpenCV's reader for all formats would load 77 more
+// libraries at every start of the program.
 #include "risorius/media/image_file.h"
 
 #include <png.h>
@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-/// Whether the chunks (length, type, data, checksum) run from the signature to IEND inside the
-/// file. libpng would complain on standard error about a file cut short; this says it first.
+/// Checks that the chunks (length, type, data, checksum) extend from the signature to IEND within the file. Otherwise libpng
+/// would complain about an incomplete file on standard error.
 bool chunks_are_whole(const std::vector<unsigned char>& bytes) {
     std::size_t at = kSignature.size();
     while (at + 12 <= bytes.size()) {
@@ -133,7 +133,7 @@ Image read_png(const std::filesystem::path& file) {
 
 void put_text(Image& image, const std::string& text, int x, int y, int height_px) {
     constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-    constexpr double kCapitals_px = 21;  // of the font at scale 1
+    constexpr double kCapitals_px = 21;  // height of capitals at scale 1
     cv::Mat pixels(image.height_px, image.width_px, CV_8UC4, image.rgba.data());
     cv::putText(pixels, text, {x, y}, kFont, height_px / kCapitals_px, {30, 30, 30, 255},
                 height_px > 14 ? 2 : 1, cv::LINE_AA);

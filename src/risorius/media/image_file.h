@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pictures to and from files (libpng): PNG with or without alpha.
+/// Reads and writes picture files with libpng: PNG with or without alpha.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,19 @@
 
 namespace risorius::media {
 
-/// Written under another name first and then renamed. Alpha is kept when any pixel is not opaque. Throws RunError on failure.
+/// Written under a temporary name and then renamed. Alpha is kept when any pixel is not opaque. Throws RunError on failure.
 void write_png(const Image& image, const std::filesystem::path& file);
-/// 16 bits per channel: the picture's 16-bit pixels, or its 8 bits expanded to 16 where it has none.
+/// 16 bits per channel: the picture's 16-bit pixels, or its 8-bit pixels expanded to 16 bits.
 void write_png16(const Image& image, const std::filesystem::path& file);
-/// Numbers rather than colours: one channel, 8 or 16 bits, rows from the top.
+/// Writes numbers instead of colours: one channel, 8 or 16 bits, rows from the top.
 void write_grey_png(int width_px, int height_px, int bits,
                     const std::vector<std::uint16_t>& samples, const std::filesystem::path& file);
-/// Whether any pixel is not opaque.
+/// True when any pixel is not opaque.
 bool has_transparency(const Image& image);
+/// Throws Error when the file is missing, incomplete, or not a PNG file with 8 bits per channel.
 Image read_png(const std::filesystem::path& file);
 
-/// Writes ASCII text, its baseline beginning at x, y; capitals are `height_px` high. For captions of pictures.
+/// Writes ASCII text for captions. Its baseline begins at x, y, and capitals are `height_px` high.
 void put_text(Image& image, const std::string& text, int x, int y, int height_px);
 
 }  // namespace risorius::media

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Loudness of a recording: EBU R 128 and ITU-R BS.1770-4, by libebur128.
+/// Loudness of a recording after EBU R 128 and ITU-R BS.1770-4, by libebur128.
 ///
-///   LUFS   integrated loudness: K-weighted power of blocks of 0.4 s, without those below -70 LUFS and then without those
-///          10 LU below the mean of the rest
-///   dBTP   true peak: the highest value between the samples too, four times oversampled
+///   LUFS   integrated loudness: K-weighted power of blocks of 0.4 s; blocks below -70 LUFS do not count, and then blocks
+///          10 LU below the mean of the others do not count
+///   dBTP   true peak: the maximum, also between the samples, by fourfold oversampling
 #pragma once
 
 #include "risorius/media/detail/sound.h"
 
 namespace risorius::media {
 
+/// The loudness of a whole recording.
 struct Loudness {
     double integrated_lufs = 0;  ///< minus infinity for silence and for less than 0.4 s
     double true_peak_dbtp = 0;   ///< minus infinity for silence
@@ -19,8 +20,8 @@ struct Loudness {
 /// Throws RunError for a number of channels or a rate that the standard does not cover.
 Loudness loudness_of(const Sound& sound);
 
-/// The part of a recording that is heard in a video of this length, whose first frame is `offset` samples before the first sample; filled up
-/// with silence. `length` in samples of its own rate.
+/// The part of a recording that is heard in a video, with silence added. `offset` is the number of samples from the first frame
+/// to the first sample, `length` is the length of the video; both are in samples of the recording's own rate.
 Sound heard(const Sound& sound, std::int64_t offset, std::int64_t length);
 
 /// Changes the level by this many decibels.

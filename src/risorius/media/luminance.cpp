@@ -11,12 +11,12 @@ namespace risorius::media {
 
 namespace {
 
-// Rec. 709
+// BT.709
 constexpr std::array<double, 3> kFraction{0.2126, 0.7152, 0.0722};
 
 using Table = std::array<double, 256>;
 
-/// What a byte of each channel adds to the luminance.
+/// Contribution of a byte of each channel to the luminance.
 const std::array<Table, 3>& luminance_of_byte() {
     static const std::array<Table, 3> tables = [] {
         std::array<Table, 3> out{};
@@ -74,7 +74,7 @@ PictureMeasures LuminanceMeter::measure(const Image& image) {
         const std::size_t begin = 4 * kBlock_px * i,
                           end = std::min(begin + 4 * kBlock_px, image.rgba.size());
         const std::uint8_t *now = image.rgba.data(), *before = before_.data();
-        // Most of a picture is as it was: the background always, the face at rest
+        // Most of a picture does not change: the background never, and the face only where it moves.
         if (first || std::memcmp(now + begin, before + begin, end - begin) != 0) {
             block = {};
             for (std::size_t k = begin; k < end; k += 4) {

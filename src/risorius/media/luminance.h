@@ -4,7 +4,8 @@
 ///
 ///   Y    relative luminance of a pixel, 0 black .. 1 white: sRGB decoded to linear light (IEC 61966-2-1), BT.709 weights
 ///
-/// The values are proportional to those of a screen whose luminance is proportional to the decoded value. Pixels are weighted by opacity.
+/// The values are proportional to the luminance of a screen that shows the decoded values linearly. Pixels are weighted by
+/// opacity.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,22 @@
 
 namespace risorius::media {
 
+/// The statistics of one picture.
 struct PictureMeasures {
-    double luminance_mean = 0;  ///< of Y
-    double luminance_sd = 0;    ///< RMS contrast as Peli 1990, J. Opt. Soc. Am. A 7(10), has it
+    double luminance_mean = 0;  ///< mean of Y
+    double luminance_sd = 0;    ///< RMS contrast as defined by Peli 1990, J. Opt. Soc. Am. A 7(10)
     double contrast_rms = 0;    ///< luminance_sd / luminance_mean
-    double motion_energy = 0;   ///< mean of (Y - Y of the picture before)^2; 0 for the first
+    double motion_energy = 0;   ///< mean of (Y - Y of the previous picture)^2; 0 for the first
 };
 
+/// Measures the pictures of one video.
 class LuminanceMeter {
   public:
     /// Pictures must be given in order and have the same size.
     PictureMeasures measure(const Image& image);
 
   private:
-    /// Sums over groups of neighbouring pixels, which are kept while these pixels do not change.
+    /// Sums over a group of neighbouring pixels. They are reused while these pixels do not change.
     struct Block {
         double opacity = 0, sum = 0, squares = 0;
     };
@@ -35,7 +38,7 @@ class LuminanceMeter {
     std::vector<Block> blocks_;
 };
 
-/// Mean of Y where the mask is not 0; NaN where it is 0 everywhere.
+/// Mean of Y where the mask is not 0; NaN when it is 0 everywhere.
 double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask);
 
 /// Y of an sRGB pixel.

@@ -9,7 +9,8 @@
 namespace risorius::media {
 
 struct PhaseScrambler::Impl {
-    cv::Mat turn;  // complex, length 1: that of the spectrum of noise, so that pictures stay real
+    // Complex numbers of length 1; their phases are those of real noise, so that pictures stay real.
+    cv::Mat turn;
 };
 
 PhaseScrambler::PhaseScrambler(int width_px, int height_px, unsigned seed)
@@ -26,7 +27,7 @@ PhaseScrambler::PhaseScrambler(int width_px, int height_px, unsigned seed)
             const double length = std::hypot(one[0], one[1]);
             one = length > 0 ? one / length : cv::Vec2d(1, 0);
         }
-    impl_->turn.at<cv::Vec2d>(0, 0) = cv::Vec2d(1, 0);  // the mean
+    impl_->turn.at<cv::Vec2d>(0, 0) = cv::Vec2d(1, 0);  // keeps the mean
 }
 
 PhaseScrambler::~PhaseScrambler() = default;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kPicture = "a picture (PNG, JPEG, TGA, BMP, TIFF, WebP)";
 
-/// Bytes in memory as FFmpeg reads a file.
+/// Bytes in memory that FFmpeg reads like a file.
 class MemoryFile {
   public:
     explicit MemoryFile(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {
@@ -73,7 +73,7 @@ Image rgba_of(const AVFrame& picture, const std::string& name) {
                                           picture.height, AV_PIX_FMT_RGBA, flags, nullptr, nullptr,
                                           nullptr));
     if (!scaler) throw Error(name, "a pixel format that can be converted", "another one");
-    // JPEG by its standard (JFIF): BT.601 over the whole range
+    // JPEG files follow JFIF: BT.601 with full range.
     const int* matrix = sws_getCoefficients(SWS_CS_ITU601);
     const bool is_yuv = (av_pix_fmt_desc_get(format)->flags & AV_PIX_FMT_FLAG_RGB) == 0;
     sws_setColorspaceDetails(scaler.get(), matrix,
@@ -95,7 +95,7 @@ Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& na
     AVFormatContext* format = avformat_alloc_context();
     if (!format) throw std::bad_alloc();
     format->pb = file.io();
-    // On failure the context is freed by FFmpeg.
+    // On failure FFmpeg frees the context.
     if (avformat_open_input(&format, nullptr, nullptr, nullptr) < 0) throw no_picture;
     struct Close {
         AVFormatContext*& format;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Reads pictures of common formats (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8 bits of sRGB.
+/// Reads pictures of common formats (PNG, JPEG, TGA, BMP, TIFF, WebP) through the FFmpeg libraries, as 8-bit sRGB.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace risorius::media {
 
-/// Throws Error that names the file when it is missing or no picture.
+/// Throws Error that names the file when it is missing or not a picture.
 Image read_picture(const std::filesystem::path& file);
-/// The same from the bytes of a file, which messages call `name`.
+/// The same for the bytes of a file, which messages call `name`.
 Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
 }  // namespace risorius::media

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// SHA-256 of bytes and files, as lower-case hexadecimal. For run records: which script, which mesh, which frames.
+/// SHA-256 of bytes and files, as lower-case hexadecimal digits. Run records use it to identify scripts, meshes and frames.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 namespace risorius::media {
 
+/// Computes the checksum of bytes that are added in pieces.
 class Sha256 {
   public:
     Sha256();
@@ -22,6 +23,7 @@ class Sha256 {
     std::unique_ptr<Impl> impl_;
 };
 
+/// The checksum of a file. Throws Error when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace risorius::media

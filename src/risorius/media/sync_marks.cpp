@@ -78,7 +78,7 @@ std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& i
     if (strip.x < 0 || strip.y < 0) return std::nullopt;
     std::array<bool, kCounterCells> cells{};
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        // The inner half of a cell: encoders blur its edge
+        // Only the inner half of a cell counts, because encoders blur its edge.
         long sum = 0, count = 0;
         const int x0 = strip.x + static_cast<int>(i) * cell_px, inset = cell_px / 4;
         for (int y = strip.y + inset; y < strip.y + cell_px - inset; ++y)

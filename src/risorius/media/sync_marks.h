@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Marks in a corner of every picture for equipment that watches the screen: a square for a photodiode, and the frame number as black and
-/// white cells, which any encoder preserves and which can be read without a font.
+/// Marks in a corner of every picture for equipment that watches the screen: a square for a photodiode, and the frame number as
+/// black and white cells. Any encoder preserves the cells, and reading them needs no font.
 ///
-/// The counter is a strip of 24 square cells, from the left: white, black, the number as 20 bits with the most significant
+/// The counter is a strip of 24 square cells. From the left: white, black, the number as 20 bits with the most significant bit
 /// first (white is 1), a cell that makes the number of white bits even, white. Numbers start again at 2^20.
 #pragma once
 
@@ -15,19 +15,21 @@
 
 namespace risorius::media {
 
+/// Corners of the picture.
 enum class Corner { kUpperLeft, kUpperRight, kLowerLeft, kLowerRight };
-/// "upper_left", ...
+/// "upper_left", "upper_right", "lower_left", "lower_right".
 const std::vector<std::string>& corner_names();
+/// Throws Error at `place` for an unknown name.
 Corner corner_named(const std::string& name, const std::string& place);
 
 inline constexpr int kCounterCells = 24;
 
-/// A white or black square of this side; cut where the picture ends.
+/// A white or black square with this side, clipped to the picture.
 void draw_photodiode(Corner corner, int side_px, bool lit, Image& image);
 
-/// `cell_px`: side of a cell.
+/// Draws the counter. `cell_px`: side of a cell.
 void draw_frame_counter(Corner corner, int cell_px, int frame, Image& image);
-/// The number on the picture; empty when there is none or its check fails.
+/// The number in the picture; empty when there is none or its parity is wrong.
 std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& image);
 
 }  // namespace risorius::media

@@ -29,7 +29,7 @@ ToneCurve::ToneCurve(const Tone& tone) {
         const double light = tone.gain * linear_of(i) + tone.offset;
         const auto at = static_cast<std::size_t>(i);
         byte_[at] = byte_of(std::clamp(light, 0.0, 1.0));
-        // What still becomes the last byte is not cut
+        // Values that still round to the last byte do not count as clipped.
         is_cut_[at] = light < linear_of(0) - 1e-12 || light > linear_of(255) + 1e-12;
     }
 }

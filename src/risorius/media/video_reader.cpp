@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decodes forward from the nearest key frame; frames are told apart by their time stamps.
+// Decodes forward from the nearest key frame. Frames are identified by their time stamps.
 #include "risorius/media/video_reader.h"
 
 #include <algorithm>
@@ -23,9 +23,8 @@ struct VideoReader::Impl {
     CodecPtr codec;
     FramePtr picture;
     PacketPtr packet;
-    std::vector<std::int64_t>
-        stamps;    ///< of every frame in order of display, in units of the stream
-    int next = 0;  ///< the frame the decoder gives next
+    std::vector<std::int64_t> stamps;  ///< of every frame in display order, in units of the stream
+    int next = 0;                      ///< frame that the decoder returns next
     bool draining = false;
 
     ~Impl() {
@@ -52,7 +51,7 @@ void VideoReader::Impl::open(const std::filesystem::path& file) {
     const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
     if (index < 0 || !decoder) throw Error(name, "a video stream", "none that can be decoded");
     stream = format->streams[index];
-    // FFmpeg's own decoder of VP9 leaves transparency out.
+    // FFmpeg's own decoder of VP9 ignores transparency.
     if (decoder->id == AV_CODEC_ID_VP9 && av_dict_get(stream->metadata, "alpha_mode", nullptr, 0))
         if (const AVCodec* whole = avcodec_find_decoder_by_name("libvpx-vp9")) decoder = whole;
 
@@ -79,8 +78,7 @@ void VideoReader::Impl::read_index() {
     }
     std::sort(stamps.begin(), stamps.end());
 
-    // The header was written last and says how much there should be: MP4 the count, Matroska the
-    // length.
+    // The header is written last and tells the expected size: MP4 the number of frames, Matroska the duration.
     std::int64_t promised = stream->nb_frames;
     if (promised == 0 && format->duration > 0)
         promised = std::llround(static_cast<double>(format->duration) / AV_TIME_BASE *
@@ -101,7 +99,7 @@ void VideoReader::Impl::seek(int frame) {
     draining = false;
 }
 
-/// The next picture of the stream; false at the end.
+/// Decodes the next picture of the stream. Returns false at the end.
 bool VideoReader::Impl::decode() {
     for (;;) {
         const int got = avcodec_receive_frame(codec.get(), picture.get());
@@ -133,7 +131,7 @@ Image VideoReader::Impl::convert() const {
                                           picture->width, picture->height, AV_PIX_FMT_RGBA, flags,
                                           nullptr, nullptr, nullptr));
     if (!scaler) throw Error(name, "a pixel format that can be converted", "another one");
-    // A file that does not say: high-definition heights are BT.709 by custom, lower ones BT.601.
+    // When the file does not tell: by convention, high-definition heights use BT.709 and lower ones BT.601.
     int space = picture->colorspace;
     if (space == AVCOL_SPC_UNSPECIFIED)
         space = picture->height >= 720 ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;

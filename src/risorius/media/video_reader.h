@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Reads frames of a video file through the FFmpeg libraries: their number, size, times, and the pixels of any frame.
+/// Reads frames of a video file through the FFmpeg libraries: their number, size and times, and the pixels of any frame.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,10 @@
 
 namespace risorius::media {
 
+/// An open video file.
 class VideoReader {
   public:
-    /// Reads the index of the whole file. Throws Error when it is missing, no video, or cut short.
+    /// Reads the index of the whole file. Throws Error when the file is missing, not a video, or incomplete.
     explicit VideoReader(const std::filesystem::path& file);
     ~VideoReader();
     VideoReader(const VideoReader&) = delete;
@@ -23,12 +24,10 @@ class VideoReader {
     int height_px() const;
     double fps() const;
 
-    /// When a frame is shown, s; as stored, so Matroska's are rounded to a millisecond. Frame in
-    /// [0, frames()).
+    /// Time at which a frame is shown, s, as stored; Matroska's are rounded to a millisecond. `frame` is in [0, frames()).
     double time_s(int frame) const;
 
-    /// A frame's pixels; YUV is converted by the matrix and range the file names. Fastest in
-    /// ascending order.
+    /// The pixels of a frame. YUV is converted with the matrix and range that the file names. Ascending order is fastest.
     Image frame(int frame);
 
   private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses the form by the target's ending and keeps everything under a temporary name until
-// finish().
+// Chooses the form by the target's ending, and keeps everything under a temporary name until finish().
 #include "risorius/media/video_writer.h"
 
 #include <algorithm>
@@ -34,8 +33,7 @@ bool is_frame_name(const std::string& name) {
                        [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// Frames of an earlier run may be replaced; a folder with anything else in it is not ours to
-/// remove.
+/// Frames of an earlier run may be replaced. A folder that contains anything else must not be removed.
 void check_folder(const fs::path& target) {
     const fs::path folder = target.parent_path();
     std::error_code failure;
@@ -73,9 +71,10 @@ struct VideoWriter::Impl {
     fs::path target;
     VideoOptions options;
     Form form;
-    detail::TemporaryFile temporary;  // declared before the encoder, so removed after it has closed
-    std::unique_ptr<detail::Encoder>
-        encoder;  // made by the first frame, which tells whether alpha is needed
+    // Declared before the encoder, so that it is removed after the encoder has closed.
+    detail::TemporaryFile temporary;
+    // Made at the first frame, which shows whether alpha is needed.
+    std::unique_ptr<detail::Encoder> encoder;
     bool alpha = false;
     int frames = 0;
     bool finished = false;
@@ -83,8 +82,7 @@ struct VideoWriter::Impl {
     Impl(const fs::path& target_, const VideoOptions& options_)
         : target(target_), options(options_), form(form_of(target_)), temporary(target_) {}
 
-    /// The first failed write removes everything at once: a full disk gets its room back before the
-    /// message.
+    /// The first failed write removes everything at once, so that a full disk has room again before the message.
     template <typename Step>
     void run(Step step) {
         try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Frames to video through the FFmpeg libraries, constant frame rate, frame n at n / fps:
+/// Writes frames to a video through the FFmpeg libraries, at a constant frame rate. Frame n is at n / fps.
 ///
 ///   .mp4    H.264; lossless: H.264 in RGB            AAC
 ///   .mov    H.264; lossless: H.264 in RGB            PCM     with transparency ProRes 4444; lossless: PNG
@@ -11,7 +11,8 @@
 /// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
 /// millisecond.
 ///
-/// Everything is written under a temporary name beside the target and renamed by finish(); an abandoned writer leaves nothing.
+/// Everything is written under a temporary name beside the target, which finish() renames. A writer that is abandoned leaves
+/// nothing.
 #pragma once
 
 #include <filesystem>
@@ -24,36 +25,38 @@
 
 namespace risorius::media {
 
-/// Options that are not given have the usual value. Options that the target's format does not have are an error.
+/// Options that are not given have the usual value. Options that the target's format does not support are errors.
 struct VideoOptions {
-    int width_px = 0;  ///< even where colour is stored at half size: yuv420p
+    int width_px = 0;  ///< must be even where colour is stored at half size: yuv420p
     int height_px = 0;
     int fps = 60;
-    std::optional<int> crf = {};  ///< quality: H.264 0..51, 18; VP9 0..63, 24; less is better
-    std::optional<std::string> preset =
-        {};  ///< of H.264: slower ones make smaller files; none: "faster" with subme=2
+    /// Quality, lower is better: H.264 0..51, default 18; VP9 0..63, default 24.
+    std::optional<int> crf = {};
+    /// Preset of H.264: slower ones make smaller files; none: "faster" with subme=2.
+    std::optional<std::string> preset = {};
     std::optional<std::string> pixels = {};     ///< "yuv420p", or "yuv444p": colour at full size
-    std::optional<int> keyframe_interval = {};  ///< frames, a quarter of a second
+    std::optional<int> keyframe_interval = {};  ///< in frames; default: a quarter of a second
     bool lossless = false;
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
-    bool alpha = false;            ///< frames may be transparent though the first is not
-    std::shared_ptr<const Sound> sound =
-        {};  ///< cut or filled up with silence to the length of the video
-    std::int64_t sound_offset_samples =
-        0;  ///< from the first frame to its first sample; of its rate
+    bool alpha = false;            ///< frames may be transparent even if the first one is not
+    /// Cut, or extended with silence, to the length of the video.
+    std::shared_ptr<const Sound> sound = {};
+    /// From the first frame to the first sample, at the sound's own rate.
+    std::int64_t sound_offset_samples = 0;
 };
 
-/// Throws Error when the ending is none of these, or size and options do not fit the format.
+/// Throws Error when the ending is none of these, or when size or options do not fit the format.
 void check_target(const std::filesystem::path& target, const VideoOptions& options);
 
+/// A video that is being written. All frames must have the size of the options.
 class VideoWriter {
   public:
     VideoWriter(const std::filesystem::path& target, const VideoOptions& options);
-    ~VideoWriter();  ///< without finish(): removes what was written
+    ~VideoWriter();  ///< without finish(), it removes what was written
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    void append(const Image& frame);  ///< throws RunError (disk full, encoder)
+    void append(const Image& frame);  ///< throws RunError, for instance when the disk is full
     void finish();                    ///< flushes, closes, renames; throws RunError
     int frames() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes sound to a WAV file: integers of 16 or 24 bits, or floating point of 32.
+/// Writes sound to a WAV file: 16-bit or 24-bit integers, or 32-bit floating point.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace risorius::media {
 
-/// Uses the sound's own rate, channels and bits; integers are clipped at full scale. Written under another name first and then renamed.
-/// Throws RunError on failure.
+/// Uses the sound's own rate, channels and bits. Integers are clipped at full scale. Written under a temporary name and then
+/// renamed. Throws RunError on failure.
 void write_wav(const Sound& sound, const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -12,12 +12,12 @@ namespace {
 constexpr double kInnerStep_s = 0.25e-3;
 constexpr double kPiece_s = 1e-3;
 
-/// Equal pieces of at most `longest`; a length that is a multiple of it up to rounding gives no extra piece.
+/// Number of equal pieces of at most `longest`. A length that is a multiple of it, up to rounding, gets no extra piece.
 int piece_count(double length, double longest) {
     return std::max(1, static_cast<int>(std::ceil(length / longest - 1e-6)));
 }
 
-/// 1 / r.
+/// 1 / r, s.
 double time_constant(double a, double u, const ActivationTimes& times, const ActivationLaw& law) {
     const double slope = 0.5 + 1.5 * std::abs(a);
     const double grow = times.t_act_s * slope, fall = times.t_deact_s / slope;

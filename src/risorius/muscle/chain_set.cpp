@@ -68,7 +68,8 @@ ChainSet::Pull ChainSet::pull(const Chain& chain, double length_m, double activa
     const double slack = chain.tendon_m, f0 = properties_.f0_n;
     Pull fibres = fibre_pull(chain, length_m - slack, activation);
     if (properties_.rigid_tendon || slack == 0 || fibres.tension <= 0) return fibres;
-    // Tendon strain at which both pull alike: Newton's steps, kept between two strains of opposite signs
+    // Finds the tendon strain at which tendon and fibres have equal tension, by Newton steps between two strains whose excess
+    // has opposite signs.
     const auto excess = [&](double strain, double& slope) {
         fibres = fibre_pull(chain, length_m - slack * (1 + strain), activation);
         const Curve::Value tendon = curves_.tendon.at(strain);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Fibres of a volume muscle with their tendons: chains of nodes that pull along themselves with one tension each.
+/// Fibres of a volume muscle with their tendons: chains of nodes. Each chain pulls along itself with one tension.
 ///
-///   L    length of a chain, all its segments     lT   of it tendon, lTs when just slack     S = L - lT   of it fibres
-///   r    l/l0 at rest      alpha   pennation at l0      S0   S at rest, when the tendon is just slack
-///   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, thickness constant
+///   L    length of a chain, all segments     lT   tendon part of it; lTs when just slack     S = L - lT   fibre part of it
+///   r    l/l0 in the rest pose      alpha   pennation at l0      S0   S in the rest pose, when the tendon is just slack
+///   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, for constant thickness
 ///   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
 ///
-/// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The length is that of the whole chain: segments in
-/// series cannot run apart, and a stiff tendon makes no stiff segment. A short tendon may be rigid: lT = lTs.
+/// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The law depends on the length of the whole chain: so
+/// segments in series cannot diverge in length, and a stiff tendon does not make a stiff segment. A short tendon may be rigid:
+/// lT = lTs.
 #pragma once
 
 #include <vector>
@@ -23,17 +24,19 @@ enum class Curvature;
 
 namespace risorius::muscle {
 
+/// Properties that all chains of a muscle have in common.
 struct ChainProperties {
     double f0_n = 0;           ///< F0 of one chain                                [0, inf)
     double rest_stretch = 1;   ///< r                                              (sin alpha, inf)
     double pennation_rad = 0;  ///< alpha                                          [0, pi/2)
-    double tendon_fraction = 0;  ///< lTs / length of a chain at rest                [0, 1)
+    double tendon_fraction = 0;  ///< lTs / rest length of a chain                     [0, 1)
     bool rigid_tendon = true;
 };
 
+/// All chains of one muscle.
 class ChainSet {
   public:
-    /// Each chain is a list of two or more rows of `rest`. Throws std::invalid_argument for a segment without length.
+    /// Each chain is a list of two or more rows of `rest`. Throws std::invalid_argument for a segment of zero length.
     ChainSet(std::vector<std::vector<int>> chains, const Points& rest, ChainProperties properties,
              MuscleCurves curves);
 
@@ -43,12 +46,12 @@ class ChainSet {
     /// Returns E, J, and adds dE/dx to `gradient`, N.
     double add_energy(const Points& x, double activation, Points& gradient) const;
 
-    /// A positive second derivative, segment by segment: a chain's stiffness is given to its segments in series.
-    /// Node i is row `row[i]` of the builder.
+    /// Adds a positive second derivative, segment by segment. The stiffness of a chain is distributed to its segments in
+    /// series. Node i is row `row[i]` of the builder.
     void add_stiffness(const Points& x, double activation, const std::vector<int>& row,
                        solve::HessianBuilder& hessian) const;
 
-    /// The second derivative of E itself: the one stiffness of a chain joins all its nodes. kPositive without its negative
+    /// Adds the second derivative of E itself: one stiffness of a chain couples all its nodes. kPositive: without the negative
     /// part. Node i is row `row[i]` of the builder.
     void add_hessian(const Points& x, double activation, solve::Curvature curvature,
                      const std::vector<int>& row, solve::HessianBuilder& hessian) const;
@@ -61,7 +64,8 @@ class ChainSet {
     };
     std::vector<State> states(const Points& x, double activation) const;  ///< one per chain
 
-    double mean_stretch(const Points& x, double activation) const;  ///< of lam / r over the chains
+    /// Mean of lam / r over the chains.
+    double mean_stretch(const Points& x, double activation) const;
 
   private:
     struct Chain {

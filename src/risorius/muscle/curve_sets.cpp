@@ -62,7 +62,7 @@ const Fields<MillardShape>& fields_of(const MillardShape&) {
     return fields;
 }
 
-/// [[l, f], ...]
+/// Reads [[l, f], ...].
 std::vector<std::pair<double, double>> read_points(const JsonCursor& json) {
     std::vector<std::pair<double, double>> points;
     for (const JsonCursor& point : json.items()) {
@@ -77,7 +77,7 @@ MuscleCurves curves_of(const ZajacShape& shape) { return zajac_curves(shape); }
 MuscleCurves curves_of(const ThelenShape& shape) { return thelen_curves(shape); }
 MuscleCurves curves_of(const MillardShape& shape) { return millard_curves(shape); }
 
-/// `what` is as "zajac_curves: passive_strain > 0"; the first key in it that was given is to blame.
+/// `what` has the form "zajac_curves: passive_strain > 0". The message names the first key in it that the file gives.
 [[noreturn]] void refuse(const JsonCursor& json, const std::string& what) {
     const std::string rule = what.substr(what.find(": ") + 2);
     std::string blamed;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The published sets of force curves by name, and how a file chooses and tunes one:
+/// The published sets of force curves by name, and how a file chooses and changes one:
 ///
 ///   "curves": "thelen2003"                                     as published
-///   "curves": {"set": "zajac", "tendon_strain": 0.05}          with numbers of one's own; keys are the fields of the shape
+///   "curves": {"set": "zajac", "tendon_strain": 0.05}          with changed numbers; the keys are the fields of the shape
 ///
 ///   zajac         F. E. Zajac 1989 and S. L. Delp 1990            muscle_curves.h
 ///   thelen2003    D. G. Thelen 2003                               thelen_curves.h
@@ -21,18 +21,19 @@
 
 namespace risorius::muscle {
 
-/// Which set, and its numbers.
+/// The set and its numbers.
 using CurveShape = std::variant<ZajacShape, ThelenShape, MillardShape>;
 
+/// "zajac", "thelen2003", "millard2013".
 const std::vector<std::string_view>& curve_set_names();
 
-/// As published. Throws Error naming `place`.
+/// The set as published. Throws Error that names `place` for an unknown name.
 CurveShape curve_set_named(const std::string& name, const std::string& place = "curves");
 
-/// A name, or an object. Throws Error for what make_curves would refuse.
+/// Reads a name or an object. Throws Error for everything that make_curves would reject.
 CurveShape read_curve_shape(const JsonCursor& json);
 
-/// Throws std::invalid_argument when numbers are outside their ranges or do not go together.
+/// Throws std::invalid_argument when numbers are outside their ranges or do not fit together.
 MuscleCurves make_curves(const CurveShape& shape);
 
 }  // namespace risorius::muscle

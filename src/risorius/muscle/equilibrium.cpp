@@ -11,7 +11,7 @@ Equilibrium equilibrium(const MuscleParameters& p, const MuscleCurves& curves, d
                         double length_m) {
     const double thickness =
         p.optimal_length_m * std::sin(p.pennation_deg * std::numbers::pi / 180);
-    // Ratio of F0 that the fibre pulls along the tendon with.
+    // Force of the fibre along the tendon, as a fraction of F0.
     const auto pull = [&](double span) {
         const double fibre = std::hypot(span, thickness);
         if (!(fibre > 0)) return 0.0;
@@ -23,7 +23,7 @@ Equilibrium equilibrium(const MuscleParameters& p, const MuscleCurves& curves, d
         return pull(span) - curves.tendon.value(strain);
     };
 
-    // With the tendon slack the fibre is at its longest; a fibre with force is shorter and has stretched the tendon.
+    // With a slack tendon the fibre has its maximum length. A fibre with force is shorter and has stretched the tendon.
     double span = std::max(0.0, length_m - p.tendon_slack_m);
     if (p.tendon == TendonModel::kElastic && p.tendon_slack_m > 0 && excess(span) > 0) {
         double shortest = 0, longest = span;

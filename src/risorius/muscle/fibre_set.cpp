@@ -17,11 +17,11 @@ using solve::Lanes;
 
 namespace {
 
-// Share of a fully active fibre's resistance to a change of length that the metric counts on. Most fibres are hardly
-// active: with all of it a step of the face takes half as many iterations again, with none it ends before it has converged.
+// Fraction of a fully active fibre's resistance to a change of length that the metric contains. Most fibres are hardly active.
+// With all of it, a step of the face takes half as many iterations again; with none, it ends before it has converged.
 constexpr double kFastFraction = 0.1;
 
-// Tables of steps: a corner of the velocity curve, at no speed, is the end of a cell, and forces are off by 1e-5 at most.
+// Tables for steps. The kink of the velocity curve, at zero speed, is at the end of a cell. Errors of force are at most 1e-5.
 constexpr double kMaxSpeed = 1.5, kMaxLength = 3;
 constexpr int kCells = 768;
 
@@ -160,7 +160,7 @@ inline FibreSet::Pulls FibreSet::in_step(const Fibre& fibre, double a, int first
     };
     const Lanes stretch = l * lanes(in_step_.inverse_optimal);
     const Lanes speed = (l - lanes(in_step_.start_m)) * lanes(in_step_.inverse_way);
-    // Slack is the begin of the passive curve, where it is zero
+    // Slack segments use the start of the passive curve, where it is zero.
     const CurveTable::Values passive = passive_table_.at(stretch > 1.0 ? stretch : Lanes{} + 1.0);
     Pulls pulls{fibre.f0_n * passive.value, lanes(in_step_.stiffness) * passive.integral};
     if (a != 0.0) {
@@ -182,20 +182,20 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
         const int begin = fibre.first_point, last = begin + fibre.point_count - 1;
         for (int p = begin; p <= last; ++p) position_[p] = place(static_cast<std::size_t>(p));
         bool pulls = false;
-        Lanes before{};  // what the segment before a point pulls it with
+        Lanes before{};  // force of the segment before a point on that point
         for (int p = begin; p < last; p += kTogether) {
             Lanes d[kTogether], dx, dy, dz;
             for (int k = 0; k < kTogether; ++k) d[k] = position_[p + k + 1] - position_[p + k];
             solve::rows_to_lanes(d, dx, dy, dz);
             const Lanes squared = dx * dx + dy * dy + dz * dz;
             const int count = std::min(kTogether, last - p);
-            // A relaxed, slack segment does nothing; most segments of most frames are that.
+            // A relaxed, slack segment does nothing. Most segments of most frames are like that.
             bool acts = a != 0.0;
             for (int k = 0; k < count && !acts; ++k) {
                 const double l0 = optimal_length_m_[static_cast<std::size_t>(p + k)];
                 acts = squared[k] > l0 * l0;
             }
-            Lanes fraction{};  // of a segment that it pulls with, N/m; none without a direction
+            Lanes fraction{};  // tension / length, N/m; zero for a segment without direction
             if (acts) {
                 const Lanes l = solve::sqrt_lanes(squared);
                 const Pulls pull =

@@ -2,15 +2,15 @@
 /// \file
 /// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
 ///
-///   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   greatest force, N
-///   at rest     E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
+///   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   maximum force, N
+///   static      E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
 ///   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
-///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths a second
+///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths per second
 ///
-/// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv Hill's as in muscle/muscle_curves.h, Ifl, Ifp and
-/// Ifv their integrals. A step's E is convex in l, and what comes to rest in steps (l = l_n, fv = 1) is at rest. fl is that
-/// of each segment, not of the whole fibre: segments on the falling limb, which would run apart in series, are held by the
-/// tissue they lie in.
+/// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv is Hill's curve as in muscle/muscle_curves.h,
+/// and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l, and a motion that comes to rest in steps (l = l_n,
+/// fv = 1) has reached a static equilibrium. fl is evaluated for each segment, not for the whole fibre. On the falling limb,
+/// segments in series would diverge in length, but the tissue around them prevents it.
 #pragma once
 
 #include <cstdint>
@@ -31,28 +31,30 @@ class HessianBuilder;
 
 namespace risorius::muscle {
 
+/// A point of a fibre: embedded in the tissue, or riding on a body.
 struct FibrePoint {
     int nodes[4] = {0, 0, 0, 0};
     double weights[4] = {0, 0, 0, 0};  ///< sum 1
-    int count = 0;                     ///< of nodes, 1..4; 0: the point rides on a body
-    int body = 0;                      ///< which, when count is 0
-    Vec3 body_rest = Vec3::Zero();     ///< its place when the body is at rest, m
+    int count = 0;                     ///< number of nodes, 1..4; 0: the point rides on a body
+    int body = 0;                      ///< index of the body when count is 0
+    Vec3 body_rest = Vec3::Zero();  ///< position of the point when the body is in its rest pose, m
 };
 
+/// A polyline through consecutive points.
 struct Fibre {
     int first_point = 0;
     int point_count = 0;       ///< consecutive points, 2 or more
-    int column = 0;            ///< of the activation vector
+    int column = 0;            ///< index in the activation vector
     double f0_n = 0;           ///< F0                                       [0, inf)
-    double rest_stretch = 1;   ///< lam at rest: l0 = rest length / this     (0, inf)
+    double rest_stretch = 1;   ///< lam in the rest pose: l0 = rest length / this     (0, inf)
     double max_speed_hz = 10;  ///< vmax                               (0, inf)
 };
 
-/// One object serves one thread at a time: it keeps scratch arrays.
+/// An object keeps scratch arrays, so only one thread at a time may use it.
 class FibreSet {
   public:
-    /// `rest` are the nodes at rest, n x 3, m; bodies are then at rest as well. Throws std::invalid_argument on a fibre with
-    /// fewer than two points or a segment without length, and on a point that two fibres want.
+    /// `rest`: nodes in the rest pose, n x 3, m; bodies are in their rest pose too. Throws std::invalid_argument for a fibre
+    /// with fewer than two points, a segment of zero length, or a point that belongs to two fibres.
     FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, const Points& rest,
              const HillShape& shape = {});
 
@@ -60,55 +62,54 @@ class FibreSet {
     const std::vector<Fibre>& fibres() const { return fibres_; }
     void set_f0(int fibre, double f0_n) { fibres_[static_cast<std::size_t>(fibre)].f0_n = f0_n; }
 
-    /// Moves the points that ride on bodies. `bodies` are motions from rest, indexed by
-    /// FibrePoint::body.
+    /// Moves the points that ride on bodies. `bodies` are motions from the rest pose, indexed by FibrePoint::body.
     void set_body_positions(std::span<const Rigid> bodies);
 
-    /// From here on E is that of a step of length h from x, bodies where they are now; until end_step(). Force goes with the
+    /// Until end_step(), E is that of a step of length h from x, with the bodies in their present places. fl is taken at the
     /// length at `expected`, the likely end of the step.
     void begin_step(const Points& x, const Points& expected, double h);
     void begin_step(const Points& x, double h) { begin_step(x, x, h); }
-    /// The same step as that of `whole`, which this set is a part of: its fibres and points by their numbers there.
+    /// Begins the same step as `whole`, of which this set is a part. `fibres` and `points` are the numbers of its fibres and
+    /// points in `whole`.
     void go_on(const FibreSet& whole, std::span<const int> fibres, std::span<const int> points);
-    /// From here on E is that at rest.
+    /// From here on E is the static one.
     void end_step() { step_s_ = 0; }
 
-    /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by
-    /// Fibre::column.
+    /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by Fibre::column.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
 
-    /// Adds the second derivative of E at rest (not in a step), slack segments named too; kPositive without its negative
-    /// part, segment by segment.
+    /// Adds the second derivative of the static E (not of a step). Slack segments are added too. kPositive: without the
+    /// negative part of each segment.
     void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// dE/d(place of a point) in the last call of add_energy, N: what a point on a body pulls it with is the negative of it.
+    /// dE/d(position of a point) in the last call of add_energy, N. The force of the point on its body is the negative of it.
     Vec3 point_gradient(int point) const {
         const solve::Lanes force = force_[point];
         return {force[0], force[1], force[2]};
     }
 
-    /// F0/(2 l0) per segment on the difference of its ends; in a step of length h, a tenth of F0 fv'(0) / (l0 vmax h)
-    /// more.
+    /// Adds F0/(2 l0) per segment on the difference of its ends. In a step of length h, it adds a tenth of F0 fv'(0) / (l0 vmax
+    /// h) to that.
     void add_metric(solve::MetricBuilder& builder, double h = 0) const;
 
-    /// lam of each fibre: its length over the sum of its optimal lengths.
+    /// lam of each fibre: its length divided by the sum of its optimal lengths.
     Eigen::VectorXd mean_stretch(const Points& x) const;
 
     struct State {
         double length_m = 0;  ///< of all segments
-        double stretch = 1;   ///< length over the sum of the optimal lengths
-        double force_n =
-            0;  ///< isometric tension F0 [a fl + fp], mean over the segments by their optimal length
+        double stretch = 1;   ///< length divided by the sum of the optimal lengths
+        /// Isometric tension F0 [a fl + fp], mean over the segments weighted by optimal length.
+        double force_n = 0;
     };
     /// One state per fibre. `activation` is indexed by Fibre::column.
     std::vector<State> states(const Points& x, const Eigen::VectorXd& activation) const;
 
-    /// Where the points are, P x 3, m: for drawing and measuring.
+    /// Positions of the points, P x 3, m, for drawing and measuring.
     Points positions(const Points& x) const;
 
   private:
-    /// What an inner loop reads of a point; beyond its count nodes have no weight.
+    /// A point as inner loops read it. Entries beyond `count` have weight zero.
     struct Embedding {
         std::int32_t nodes[4]{};
         std::int32_t count = 0;
@@ -125,13 +126,13 @@ class FibreSet {
     }
     void place_points(const Points& x) const;
     double length(int segment) const;
-    static constexpr int kTogether =
-        solve::LanesOf<double>::kWidth;  ///< segments worked out at once
-    /// What segments pull with and their energy, J.
+    /// Segments computed together.
+    static constexpr int kTogether = solve::LanesOf<double>::kWidth;
+    /// Tension and energy of segments.
     struct Pulls {
         solve::Lanes tension_n, energy_j;
     };
-    /// Those of the segments from `first` on, of lengths l; at rest only those before `last`.
+    /// Values of the segments from `first` on, with lengths l. at_rest() computes only those before `last`.
     Pulls at_rest(const Fibre& fibre, double a, int first, int last, const solve::Lanes& l) const;
     Pulls in_step(const Fibre& fibre, double a, int first, const solve::Lanes& l) const;
 
@@ -139,16 +140,17 @@ class FibreSet {
     std::vector<Fibre> fibres_;
     LengthCurves curves_;
     Curve velocity_;
-    CurveTable velocity_table_, passive_table_;  ///< of steps
-    std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at a point
-    double step_s_ = 0;                          ///< h, 0 at rest
-    /// Columns, one number per point: that of the segment that begins there; kTogether more, so that they are read together.
+    CurveTable velocity_table_, passive_table_;  ///< for steps
+    std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at each point
+    double step_s_ = 0;                          ///< h; 0 outside of steps
+    /// Arrays with one number per point, which belongs to the segment that begins there. They have kTogether extra entries, so
+    /// that several are read together.
     struct StepSegments {
         std::vector<double> inverse_optimal;  ///< 1 / l0
         std::vector<double> start_m;          ///< l_n
         std::vector<double> inverse_way;      ///< 1 / (h vmax l0)
         std::vector<double> force;            ///< F0 fl(lam_n)
-        std::vector<double> work;             ///< that times h vmax l0
+        std::vector<double> work;             ///< force times h vmax l0
         std::vector<double> stiffness;        ///< F0 l0
         static constexpr std::vector<double> StepSegments::*kColumns[] = {
             &StepSegments::inverse_optimal, &StepSegments::start_m, &StepSegments::inverse_way,
@@ -159,8 +161,8 @@ class FibreSet {
     };
     StepSegments in_step_;
     std::vector<Embedding> embedding_;
-    solve::PaddedPoints body_place_;            ///< of points that ride on bodies; the others: 0
-    mutable solve::PaddedPoints x_, gradient_;  ///< nodes
+    solve::PaddedPoints body_place_;  ///< of points that ride on bodies; zero for the others
+    mutable solve::PaddedPoints x_, gradient_;      ///< nodes
     mutable solve::PaddedPoints position_, force_;  ///< points
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The second derivative of FibreSet at rest. A segment of length l along u with tension T:
-//   by the difference of its ends   T/l (I - u u^T) + dT/dl u u^T,     dT/dl = F0 / l0 (a fl' + fp')
+// The second derivative of the static energy of FibreSet. For a segment of length l along u with tension T, by the difference
+// of its ends:
+//   T/l (I - u u^T) + dT/dl u u^T,     dT/dl = F0 / l0 (a fl' + fp')
 #include <algorithm>
 #include <cassert>
 
@@ -16,7 +17,7 @@ void FibreSet::add_hessian(const Points& x, const Eigen::VectorXd& activation,
     for (const Fibre& fibre : fibres_) {
         const double a = activation[fibre.column];
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
-            // Nodes of both ends; ends in tets that share nodes name those once
+            // Nodes of both ends. When the ends lie in tets with common nodes, those are listed once.
             int node[8];
             double c[8];
             int count = 0;

@@ -41,7 +41,7 @@ Curve active_curve(const std::vector<std::pair<double, double>>& points) {
     return Curve(std::move(pieces), 1.0);
 }
 
-/// 0, a toe up to (x1, height), and on along its last slope.
+/// 0, then a toe up to (x1, height), then straight on with its last slope.
 Curve toe_curve(double x0, double x1, double height, double k) {
     const double last_slope = height * k * std::expm1(k) / ((std::expm1(k) - k) * (x1 - x0));
     return Curve({line_piece(x0, 0, 0, x0), toe_piece(x0, x1, height, k),
@@ -57,7 +57,7 @@ Curve velocity_curve(double a, double max) {
 }
 
 Curve tendon_curve(double strain, double toe_force, double k) {
-    // The straight part has the slope of the toe's end and passes (strain, 1).
+    // The straight part has the slope of the toe's end and passes through (strain, 1).
     const double steepness = k * std::expm1(k) / (std::expm1(k) - k);
     const double toe_strain = strain / (1 + (1 - toe_force) / (toe_force * steepness));
     return toe_curve(0, toe_strain, toe_force, k);

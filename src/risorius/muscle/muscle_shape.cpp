@@ -42,7 +42,7 @@ void check_grid(const MuscleShape& shape, const GridShape& grid) {
 
 double square_coordinate(int i, int count) { return 2.0 * i / (count - 1) - 1; }
 
-/// How far a section reaches from its middle along the unit vector `to`, which lies in it.
+/// How far a section extends from its middle along the unit vector `to`, which lies in it.
 double reach(const PathFrame& frame, Section section, double width_m, double thickness_m,
              const Vec3& to) {
     const double y = width_m / 2 * std::abs(to.dot(frame.across));
@@ -50,7 +50,8 @@ double reach(const PathFrame& frame, Section section, double width_m, double thi
     return section == Section::kRound ? std::hypot(y, z) : y + z;
 }
 
-/// A path may not bend more sharply than its section is deep: beyond the centre of the bend sections cross.
+/// Checks that a path does not bend more sharply than its section is deep. Beyond the centre of the bend, sections would
+/// intersect.
 void check_bends(const FramedPath& path, const MuscleShape& shape, double scale) {
     constexpr int kPlaces = 400;
     for (int k = 0; k <= kPlaces; ++k) {
@@ -136,7 +137,7 @@ Points fan(const MuscleShape& shape, const GridShape& grid) {
     return swept(along, grid);
 }
 
-/// Cells have to be right-handed and thick at the eight points at which the solid is integrated.
+/// Checks that cells are right-handed and not flat at the eight points at which the solid is integrated.
 void check_cells(const std::string& place, const GridShape& grid, const Points& x) {
     const double low = 0.5 - 0.5 / std::sqrt(3.0);
     for (int i = 0; i < grid.cells(0); ++i)
@@ -161,7 +162,7 @@ void check_cells(const std::string& place, const GridShape& grid, const Points& 
                             }
                             t[axis] += weight * corner[c];
                         }
-                    constexpr double kFlat = 1e-4;  // of a box with the same edges
+                    constexpr double kFlat = 1e-4;  // fraction of a box with the same edges
                     const double box = t[0].norm() * t[1].norm() * t[2].norm();
                     const double determinant = t[0].dot(t[1].cross(t[2]));
                     if (!(determinant > kFlat * box))

@@ -27,7 +27,7 @@ void check_positive(double value, const std::string& place) {
     require(std::isfinite(value) && value > 0, place, "(0, inf)", value);
 }
 
-/// d2/dx2 of U(l(s)) as 3 x 3 block: `along` = d2U/ds2 on the direction, `across` = (dU/ds) / s off it.
+/// d2/dx2 of U(l(s)) as a 3 x 3 block: `along` = d2U/ds2 in the direction, `across` = (dU/ds) / s perpendicular to it.
 Mat3 line_block(const Vec3& direction, double along, double across, Curvature curvature) {
     if (curvature == Curvature::kPositive) {
         along = std::max(along, 0.0);
@@ -140,8 +140,8 @@ std::vector<int> Musculotendon::tied_nodes() const {
 
 void Musculotendon::place_tied(double t_s, Points& x, Points& v) const {
     if (parameters_.tendon == TendonModel::kElastic) return;
-    constexpr double kRateStep =
-        1e-6;  // s; error of the rate about 1e-9 of the motion's third derivative
+    // s; the error of the rate is about 1e-9 times the motion's third derivative.
+    constexpr double kRateStep = 1e-6;
     for (const End end : kEnds) {
         if (!anchored(end)) continue;
         const auto& motion = anchor(end).motion;
@@ -162,7 +162,7 @@ Musculotendon::Line Musculotendon::line(const Vec3& from, const Vec3& to, double
     Line line;
     const Vec3 d = to - from;
     line.span = d.norm();
-    // Two nodes in one place have no direction to pull along.
+    // Two nodes at the same place have no direction to pull along.
     if (line.span > 0) line.direction = d / line.span;
     line.length = line.span;
     line.slope = 1;
@@ -290,7 +290,7 @@ Musculotendon::Pull Musculotendon::fibre_pull(const ImplicitStep& step, const Li
               .tension = passive.value,
               .slope = passive.slope / s.optimal_m};
     if (step.rate_hz() == 0) {
-        pull.tension += active;  // its energy is the chain's
+        pull.tension += active;  // the energy of the active force belongs to the chain
     } else {
         const double max = parameters_.max_speed_hz * s.optimal_m * step.step_s;
         const double vt = (now.length - fibre(step.start, m, chain).length) / max;
@@ -365,7 +365,7 @@ void Musculotendon::add_chain_block(const Points& x, int chain, double stiffness
                                     solve::HessianBuilder& hessian) const {
     const int count = grid_.m;
     std::vector<int> rows(static_cast<std::size_t>(count));
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * count);  // of the chain's length
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * count);  // gradient of the chain's length
     for (int m = 0; m < count; ++m) {
         rows[static_cast<std::size_t>(m)] = node(m, chain);
         if (m == segments_along()) break;
@@ -384,7 +384,7 @@ void Musculotendon::add_metric(double step_s, solve::MetricBuilder& metric) cons
     for (int chain = 0; chain < chains(); ++chain) {
         for (int m = 0; m < segments_along(); ++m) {
             const int rows[2] = {node(m, chain), next_node(m, chain)};
-            // At full force a fibre resists turning with F0 / l0.
+            // At full force, a fibre resists rotation with F0 / l0.
             metric.add_outer(rows, c, 2, chain_force_n_ / segment(m, chain).optimal_m * (1 + rate));
         }
         const double stiffest = curves_.tendon.at(1).slope;  // far beyond its toe

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Muscle shapes from JSON.
+// Reads muscle shapes from JSON.
 #include <limits>
 
 #include "risorius/core/error.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A chart as described: curves over two axes, in the way journals print them. plot::write_chart draws it.
+/// The description of a chart: curves over two axes, in the style of journals. plot::write_chart draws it.
 #pragma once
 
 #include <optional>
@@ -10,30 +10,35 @@
 
 namespace risorius::plot {
 
+/// How a series is drawn.
 enum class Mark { kLine, kDashed, kPoints, kLinePoints };
 
+/// One curve. x and y have the same length.
 struct Series {
-    std::string label;  ///< in the key; empty leaves it out
+    std::string label;  ///< in the key; empty: not shown there
     std::vector<double> x = {}, y = {};
     Mark mark = Mark::kLine;
-    int colour = -1;  ///< of the palette, -1 = the next one; series of equal colour belong together
+    /// Index in the palette; -1: the next one; series of equal colour belong together.
+    int colour = -1;
 };
 
-/// A range drawn behind the curves: what was published.
+/// A range that is drawn behind the curves, for published values.
 struct Band {
     std::string label;
     double low = 0, high = 0;  ///< on the y axis
 };
 
+/// One axis of a chart.
 struct Axis {
     std::string label = {};  ///< quantity and unit: "time (s)"
     bool logarithmic = false;
-    std::optional<std::pair<double, double>> range = {};  ///< of the data when not given
+    std::optional<std::pair<double, double>> range = {};  ///< none: the range of the data
 };
 
+/// The whole chart.
 struct Chart {
-    std::string name;        ///< of its files
-    std::string title = {};  ///< one line above
+    std::string name;        ///< of its files; letters, digits, "_" and "-"
+    std::string title = {};  ///< one line above the chart
     Axis x = {}, y = {};
     std::vector<Series> series = {};
     std::vector<Band> bands = {};

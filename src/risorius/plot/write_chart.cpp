@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The name becomes part of a script and of paths.
+// Checks the name, which becomes part of a script and of paths.
 void check_name(const std::string& name) {
     const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -45,7 +45,7 @@ void check_bands(const Chart& chart, const std::string& place) {
     }
 }
 
-// Points that show: a gap in one coordinate takes the other with it.
+// Collects the points that are drawn. A gap in one coordinate is a gap in the other too.
 void gather(const Chart& chart, std::vector<double>& x, std::vector<double>& y) {
     for (const Series& series : chart.series)
         for (std::size_t k = 0; k < series.x.size(); ++k)
@@ -54,7 +54,7 @@ void gather(const Chart& chart, std::vector<double>& x, std::vector<double>& y) 
                 y.push_back(series.y[k]);
             }
     if (x.empty()) return;
-    // A published range shows whole, unless an end is open or the axis does not have it.
+    // A published range is shown completely, unless an end is infinite or the axis cannot show it.
     for (const Band& band : chart.bands)
         for (const double end : {band.low, band.high})
             if (std::isfinite(end) && (!chart.y.logarithmic || end > 0)) y.push_back(end);

@@ -42,7 +42,7 @@ std::vector<double> emg_envelope(std::vector<double> samples, double rate_hz,
     if (filters.rectify)
         for (double& value : samples) value = std::abs(value);
     if (filters.low_pass_hz) apply(low_pass(filters.order, *filters.low_pass_hz, rate_hz));
-    // A steep edge makes a low-pass filter swing a little below zero.
+    // A low-pass filter overshoots below zero at a steep edge.
     for (double& value : samples) value = std::max(value, 0.0);
     return samples;
 }

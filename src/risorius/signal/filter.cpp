@@ -13,22 +13,22 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What K is multiplied by for low-pass and divided by for high-pass filters, so that the passes together have the cut-off.
+/// Factor of K for low-pass filters, and divisor of K for high-pass filters, that gives all passes together the cut-off.
 double cutoff_correction(int order, int passes) {
     return std::pow(std::exp2(1.0 / passes) - 1, -0.5 / order);
 }
 
-/// Denominator of every kind: 1 + K/Q s + K^2.
+/// The common denominator of all filters: 1 + K/Q s + K^2.
 Section resonance(double k, double q) {
     const double norm = 1 / (1 + k / q + k * k);
     return {.b0 = norm, .a1 = 2 * (k * k - 1) * norm, .a2 = (1 - k / q + k * k) * norm};
 }
 
-/// Quality of the pair of poles i.
+/// Quality of pole pair i.
 double pole_quality(int i, int order) { return 0.5 / std::cos(kPi * (2 * i + 1) / (2 * order)); }
 
 void run_section(const Section& s, std::vector<double>& x) {
-    // Steady state of the first sample: the states of a direct form II transposed under constant input.
+    // Steady state for the first sample: the states of a direct form II transposed under constant input.
     const double steady = (s.b0 + s.b1 + s.b2) / (1 + s.a1 + s.a2) * x.front();
     double z1 = steady - s.b0 * x.front();
     double z2 = s.b2 * x.front() - s.a2 * steady;
@@ -80,7 +80,7 @@ Filter notch(double hz, double width_hz, double rate_hz) {
 }
 
 double gain(const Filter& filter, double hz, double rate_hz) {
-    const std::complex<double> z = std::polar(1.0, -2 * kPi * hz / rate_hz);  // one sample's delay
+    const std::complex<double> z = std::polar(1.0, -2 * kPi * hz / rate_hz);  // delay of one sample
     double product = 1;
     for (const Section& s : filter)
         product *= std::abs((s.b0 + z * (s.b1 + z * s.b2)) / (1.0 + z * (s.a1 + z * s.a2)));

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Butterworth and notch filters as second-order sections, run forwards and backwards so that they have no delay.
+/// Butterworth and notch filters as second-order sections. They run forwards and backwards, so that they have no delay.
 ///
-///   K   tan(pi f / rate): the bilinear transform, with which a cut-off stays where it was asked for
-///   n   order of one pass; both passes together attenuate like 2 n
+///   K   tan(pi f / rate): the bilinear transform, which keeps a cut-off at its frequency
+///   n   order of one pass; both passes together attenuate like order 2 n
 ///
-/// A cut-off is where the passes together have fallen to 1/sqrt(2), -3 dB; designed for two passes, one alone is at
-/// -1.5 dB there.
+/// At the cut-off, the passes together have an amplitude of 1/sqrt(2), -3 dB. A filter designed for two passes is at -1.5 dB
+/// there after one pass.
+///
 /// Sources: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing; D. A. Winter, Biomechanics and Motor Control of
-/// Human Movement, for the correction of the cut-off; F. Gustafsson 1996, IEEE Trans. Signal Process. 44(4), 988-992, for
-/// starting in the steady state.
+/// Human Movement, for the correction of the cut-off; F. Gustafsson 1996, IEEE Trans. Signal Process. 44(4), 988-992, for the
+/// start in the steady state.
 #pragma once
 
 #include <cstddef>
@@ -23,17 +24,17 @@ struct Section {
 };
 using Filter = std::vector<Section>;
 
-/// `order` even, 2 or more; 0 < cutoff_hz < rate_hz / 2. `passes`: how often the filter will be run.
+/// `order` is even and at least 2; 0 < cutoff_hz < rate_hz / 2. `passes`: how often the filter will run.
 Filter low_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
 Filter high_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
-/// Removes hz. At -3 dB of one pass the band is `width_hz` wide.
+/// Removes the frequency `hz`. The band is `width_hz` wide at -3 dB of one pass.
 Filter notch(double hz, double width_hz, double rate_hz);
 
 /// Amplitude of one pass at a frequency.
 double gain(const Filter& filter, double hz, double rate_hz);
 
-/// Runs forwards, then backwards. Both ends are extended by `padding` samples, reflected about the end's value; each pass starts in the
-/// steady state of its first sample. Needs more samples than `padding`.
+/// Runs forwards, then backwards. Both ends are extended by `padding` samples, reflected about the value at the end. Each pass
+/// starts in the steady state of its first sample. Needs more samples than `padding`.
 std::vector<double> filter_both_ways(const Filter& filter, const std::vector<double>& samples,
                                      std::size_t padding);
 

@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// The cells of a line, in order; returns how many there are.
+/// Calls `take` for the cells of a line, in order. Returns their number.
 template <typename Take>
 int for_each_cell(std::string_view line, char separator, Take take) {
     int column = 0;
@@ -46,7 +46,7 @@ Recording Recording::read_file(const std::filesystem::path& file) {
     recording.text_ = std::move(whole).str();
 
     const std::string_view text = recording.text_;
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write one
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some spreadsheets write one
     std::size_t number = 0;
     for (std::size_t begin = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
          begin < text.size();) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What acts on a body besides its weight: springs, force generators and obstacles, as experiment files write them.
+/// Loads on a body besides its weight: springs, force generators and obstacles, as experiment files describe them.
 ///
 ///   "springs": [{"at": [1, 1, 0], "tied_to_m": [4, 4, -1], "stiffness_n_per_m": 10, "rest_length_m": 0}]
 ///   "pulses": [{"at": [0.5, 0.5, 0], "direction": [0, 0, 1], "shape": "sine", "amplitude_n": 2, "frequency_hz": 3}]
@@ -8,7 +8,7 @@
 ///                 {"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
 ///                 {"capsule": {"start_m": [0, 0, 0], "end_m": [1, 0, 0], "radius_m": 0.2}}]
 ///
-/// "at" are material coordinates, so that the same point is meant at any resolution.
+/// "at" gives material coordinates, so that it names the same point at any resolution.
 #pragma once
 
 #include <memory>
@@ -22,27 +22,30 @@
 
 namespace risorius::softbody {
 
+/// An entry of "springs".
 struct SpringDescription {
     Vec3 at;                     ///< material coordinates
-    tissue::PointSpring spring;  ///< its own `at` is filled in on building
+    tissue::PointSpring spring;  ///< its own `at` is set when the body is built
 };
 
+/// An entry of "pulses".
 struct PulseDescription {
     Vec3 at;  ///< material coordinates
     tissue::ForceGenerator generator;
 };
 
+/// An entry of "obstacles".
 struct ObstacleDescription {
     std::shared_ptr<const contact::Obstacle> obstacle;
     contact::ContactMaterial contact;
 };
 
-/// `axes` of the body, 2 or 3.
+/// Reads lists of loads. `axes`: number of material axes of the body, 2 or 3. Throws Error.
 std::vector<SpringDescription> read_springs(const JsonCursor& json, int axes);
 std::vector<PulseDescription> read_pulses(const JsonCursor& json, int axes);
 ObstacleDescription read_obstacle(const JsonCursor& json);
 std::vector<ObstacleDescription> read_obstacles(const JsonCursor& json);
-/// Fields of ContactMaterial; what is left out has its default.
+/// Reads the fields of ContactMaterial. Fields that are left out have their defaults. Throws Error.
 contact::ContactMaterial read_contact(const JsonCursor& json);
 
 }  // namespace risorius::softbody

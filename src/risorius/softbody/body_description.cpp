@@ -52,7 +52,7 @@ tissue::GridShape read_grid(const JsonCursor& json, Kind kind) {
                             : std::string(axes == 3 ? "three" : "two") +
                                   " numbers of nodes, one per axis");
     const auto count = [&](std::size_t axis) {
-        // Round a tube two nodes would lie on one line.
+        // Around a tube, two nodes would lie on one line.
         const int min = kind == Kind::kCylinder && axis == 1 ? 3 : 2;
         return counts[axis].integer(min, kMaxNodesPerAxis);
     };
@@ -190,7 +190,7 @@ void change_tensor(tissue::Mat2& tensor, const MaterialChange& change, double fr
     tensor = changed(whole, change, fraction).topLeftCorner<2, 2>();
 }
 
-/// What all kinds have in common.
+/// Changes the quantities that all kinds have in common.
 template <typename Material>
 void change_shared(Material& material, const MaterialChange& change, double fraction) {
     if (change.quantity == "elastic") change_tensor(material.elastic_n_per_m3, change, fraction);
@@ -214,7 +214,7 @@ void change_own(tissue::CurveMaterial& material, const MaterialChange& change, d
     if (change.quantity == "bending") change_tensor(material.bending_n_per_m, change, fraction);
 }
 
-/// One material, or one per node where regions change it.
+/// One material, or one per node when regions change it.
 template <typename Material>
 std::vector<Material> material_field(const BodyDescription& description, const Material& whole) {
     if (description.regions.empty()) return {whole};
@@ -269,12 +269,12 @@ BodyDescription read_body(const JsonCursor& json) {
     if (const auto gravity = json.find("gravity_m_per_s2")) body.gravity_m_per_s2 = gravity->vec3();
     if (const auto springs = json.find("springs")) body.springs = read_springs(*springs, axes);
     if (const auto pulses = json.find("pulses")) body.pulses = read_pulses(*pulses, axes);
-    // Their places are found by the grid.
+    // Springs and pulses are located on the grid.
     for (const char* key : {"springs", "pulses"})
         if (body.irregular && json.has(key)) json.at(key).fail("none on irregular triangles");
     if (const auto obstacles = json.find("obstacles")) body.obstacles = read_obstacles(*obstacles);
 
-    // What only the whole shows: a folded rest shape, a plane the grid does not have.
+    // Some errors show only in the whole: a folded rest shape, or a plane that the grid does not have.
     if (body.kind == Kind::kSolid)
         tissue::check(grid_solid(body), body.place);
     else if (body.kind == Kind::kCurve)
@@ -331,7 +331,7 @@ tissue::GridCurve grid_curve(const BodyDescription& description) {
 std::vector<double> relative_stiffness(const BodyDescription& description) {
     std::vector<double> stiffness;
     if (description.regions.empty()) return stiffness;
-    constexpr double kMin = 1e-300;  // nothing at all
+    constexpr double kMin = 1e-300;  // stands for zero
     if (description.kind == Kind::kSolid) {
         for (const tissue::SolidMaterial& material : grid_solid(description).material)
             stiffness.push_back(std::log(std::max(material.elastic_n_per_m3.mean(), kMin)));

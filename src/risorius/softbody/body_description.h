@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A soft object as an experiment file describes it: its kind, grid, rest shape, material, what holds it and what acts on
-/// it. Field names are the keys; read_body checks every one.
+/// A soft object as an experiment file describes it: its kind, grid, rest shape, material, fixed nodes and loads. Field names
+/// are the keys; read_body checks every one.
 ///
 ///   {"kind": "solid", "discretisation": "differences", "grid": [7, 7, 7],
 ///    "rest": {"block_m": [3, 3, 3]},
@@ -9,12 +9,13 @@
 ///    "regions": [{"nodes": {"a1": "first"}, "factors": {"elastic": {"22": 0.1}}}],
 ///    "fixed": [{"a3": "last"}], "gravity_m_per_s2": [0, 0, -9.81]}
 ///
-/// Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers and "bending_n_per_m" in place of the
-/// incompressibility; their discretisations are "differences" and "triangles", which "irregular": {"share": 0.35, "seed": 1}
-/// moves off the grid by so much of its spacing. Curves ("curve") have one number of nodes, numbers for tensors and no
-/// discretisation. Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or
-/// {"young_pa", "poisson_ratio", ..} for a material. "parameters": "per-node" takes lambda and omega as they stand instead
-/// of by eq. (10), "bending_parameters" does so for the bending of surfaces.
+/// - Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers, and "bending_n_per_m" instead of the
+///   incompressibility. Their discretisations are "differences" and "triangles". "irregular": {"share": 0.35, "seed": 1} moves
+///   the nodes of triangles off the grid by up to that fraction of its spacing.
+/// - Curves ("curve") have one number of nodes, numbers instead of tensors, and no discretisation.
+/// - Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or {"young_pa", "poisson_ratio", ..} as material.
+/// - "parameters": "per-node" uses lambda and omega as they are, without eq. (10). "bending_parameters" does so for the bending
+///   of surfaces.
 #pragma once
 
 #include <optional>
@@ -34,42 +35,45 @@
 
 namespace risorius::softbody {
 
+/// How a body is discretised.
 enum class Discretisation {
     kDifferences,  ///< A, the thesis' finite differences
     kCells,        ///< B, trilinear cells with exact volume
-    kTriangles     ///< of surfaces
+    kTriangles     ///< for surfaces
 };
 
-/// A material by the moduli of engineering, isotropic; turned into lambda, omega and psi for the block it fills.
+/// An isotropic material given by its moduli. It is converted to lambda, omega and psi of the block it fills.
 struct ModuliDescription {
     tissue::IsotropicModuli elastic;
     double density_kg_per_m3 = 1000;  ///< (0, inf)
-    double viscosity_pa_s = 0;        ///< of shear, as mu is to strain           [0, inf)
-    double drag_ns_per_m = 0;         ///< c, of each node                       [0, inf)
+    /// Shear viscosity; resists strain rate as mu resists strain           [0, inf)
+    double viscosity_pa_s = 0;
+    double drag_ns_per_m = 0;  ///< c of each node                       [0, inf)
 };
 
-/// Triangles off the grid, tissue::irregularly_triangulated.
+/// Triangles that are moved off the grid; see tissue::irregularly_triangulated.
 struct IrregularDescription {
     double fraction = 0;  ///< of the spacing      [0, 0.45]
-    unsigned seed = 1;    ///< of the random places
+    unsigned seed = 1;    ///< of the random positions
 };
 
+/// The fields of a body in a file.
 struct BodyDescription {
-    std::string place;  ///< where it was written, for errors found on building
+    std::string place;  ///< the place in the file, for errors found when the body is built
     Kind kind = Kind::kSolid;
     Discretisation discretisation = Discretisation::kDifferences;
     std::optional<IrregularDescription> irregular;
-    tissue::GridShape grid;  ///< one layer thick for surfaces, one line of nodes for curves
+    tissue::GridShape grid;  ///< one layer for surfaces, one line of nodes for curves
     RestDescription rest;
 
-    /// Before the regions change it; a surface's is in `surface`.
+    /// The material before regions change it. That of a surface is in `surface`, that of a curve in `curve`.
     tissue::SolidMaterial material;
-    std::optional<ModuliDescription> moduli;  ///< takes the place of `material`
+    std::optional<ModuliDescription> moduli;  ///< replaces `material`
     tissue::SurfaceMaterial surface;
     tissue::CurveMaterial curve;
     tissue::Parameters parameters = tissue::Parameters::kResolutionIndependent;
     tissue::Parameters bending_parameters = tissue::Parameters::kResolutionIndependent;
-    std::vector<MaterialRegion> regions;  ///< applied in the order written
+    std::vector<MaterialRegion> regions;  ///< applied in the order of the file
 
     std::vector<NodeSelection> fixed;
     Vec3 gravity_m_per_s2{0, 0, -9.81};
@@ -78,21 +82,21 @@ struct BodyDescription {
     std::vector<ObstacleDescription> obstacles;
 };
 
-/// Throws Error with file and JSON pointer for whatever is not as described.
+/// Throws Error with file and JSON pointer for everything that does not fit the description above.
 BodyDescription read_body(const JsonCursor& json);
 
-/// The checked solid, surface or curve: rest shape placed, material per node. Throws Error below description.place (folded rest
-/// shape, an index the grid does not have).
+/// The checked solid, surface or curve, with its rest shape in place and a material per node. Throws Error below
+/// description.place, for instance for a folded rest shape or an index outside the grid.
 tissue::GridSolid grid_solid(const BodyDescription& description);
 tissue::GridSurface grid_surface(const BodyDescription& description);
 tissue::TriangleSurface triangle_surface(const BodyDescription& description);
 tissue::GridCurve grid_curve(const BodyDescription& description);
 
-/// Logarithm of the mean stiffness of each node, of bending where that is what regions change, for colour; empty where no
-/// region changes the material.
+/// Logarithm of the mean stiffness of each node, for colour. It is the bending stiffness when regions change that. Empty for
+/// curves, and when no region changes the material.
 std::vector<double> relative_stiffness(const BodyDescription& description);
 
-/// Selected by any of `fixed`, one flag per node.
+/// One flag per node; true when any entry of `fixed` selects it.
 std::vector<char> fixed_flags(const BodyDescription& description);
 
 }  // namespace risorius::softbody

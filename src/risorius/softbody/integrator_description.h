@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How an experiment file asks for an integrator: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
+/// The integrator as an experiment file describes it: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
 #pragma once
 
 #include "risorius/core/json_cursor.h"
@@ -8,8 +8,8 @@
 
 namespace risorius::softbody {
 
-/// Keys are the fields of solve::IntegratorOptions except length_scale_m, which the body gives; "method" is required.
-/// Throws Error on anything out of range.
+/// Keys are the fields of solve::IntegratorOptions, except length_scale_m, which comes from the body. "method" is required.
+/// Throws Error for values out of range.
 solve::IntegratorOptions read_integrator(const JsonCursor& json);
 
 }  // namespace risorius::softbody

@@ -73,7 +73,7 @@ muscle::Anchor anchor_of(const MuscleDescription& d, muscle::End end, const Poin
                                                 : muscle::planar_anchor(end, d.grid, rest, away_m);
 }
 
-/// Masses of the belly's cells on their corners.
+/// The belly as cells. The mass of each cell is on its corners.
 tissue::CellBody shaped_cells(const MuscleDescription& d, const muscle::Belly& belly) {
     tissue::CellMesh mesh = tissue::uniform_cells(belly.grid);
     const auto rest = [&](const Vec3& a) -> Vec3 {
@@ -95,7 +95,7 @@ Points belly_rest(const MuscleDescription& d) {
     return rest;
 }
 
-/// The belly in the thesis' differences: a block's parameters with the edges of a box of equal volume.
+/// The belly in the thesis' differences, with the parameters of a block whose edges give the same volume.
 tissue::GridSolid difference_belly(const MuscleDescription& d, const Points& rest) {
     const double volume = d.rest_volume_m3();
     const double shrink = std::sqrt(volume / (d.length_m * d.width_m * d.thickness_m));

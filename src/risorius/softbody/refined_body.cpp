@@ -12,9 +12,9 @@ namespace risorius::softbody {
 
 namespace {
 
-constexpr double kOnBorder = 1e-9;  // material coordinates are multiples of cell sizes
+constexpr double kOnBorder = 1e-9;  // tolerance; material coordinates are multiples of cell sizes
 
-/// A cell's face at one end of an axis, corners in turn and outward.
+/// The face of a cell at one end of an axis. Its corners are in order, facing outward.
 std::array<int, 4> face_of(const tissue::CellMesh::Cell& cell, int axis, bool last) {
     const auto corner = [&](int b, int c) {
         int bits[3];
@@ -39,7 +39,7 @@ std::vector<char> held_nodes(const std::vector<NodeSelection>& selections,
     std::vector<char> held(static_cast<std::size_t>(mesh.node_count()), 0);
     const tissue::CellMesh root = tissue::uniform_cells(mesh.root());
     for (const NodeSelection& selection : selections) {
-        // Interpolated, a mark of 1 on the picked nodes is 1 where all corners around are picked
+        // A field that is 1 on the picked nodes interpolates to 1 where all corners around are picked.
         Points mark = Points::Zero(root.node_count(), 3);
         for (const int node : select(selection, mesh.root())) mark(node, 0) = 1;
         for (int i = 0; i < mesh.node_count(); ++i)

@@ -21,7 +21,7 @@
 namespace risorius::softbody {
 namespace {
 
-/// What the kinds of bodies build in their own way.
+/// The parts that each kind of body builds in its own way.
 struct Matter {
     Points rest;
     Eigen::VectorXd mass_kg, drag_ns_per_m;
@@ -46,7 +46,7 @@ Matter matter_of_solid(const BodyDescription& description) {
     return matter;
 }
 
-/// What sheets and curves have alike; the wires are left.
+/// The common parts of sheets and curves, without wires.
 template <class Term, class Grid>
 Matter matter_of_grid(const Grid& grid, const std::string& place) {
     tissue::check(grid, place);
@@ -101,14 +101,14 @@ Matter matter_of(const BodyDescription& description) {
                : matter_of_surface(description);
 }
 
-/// Wires of the grid that lie on the border of all of its axes but one.
+/// Wires of the grid that lie on the border of all axes but one.
 std::vector<std::array<int, 2>> edges_of(const BodyDescription& description) {
     const tissue::GridShape& grid = description.grid;
     std::vector<std::array<int, 2>> edges;
     const auto add = [&](std::array<int, 3> at, int axis) {
         for (int other = 0; other < 3; ++other) {
             if (other == axis || grid.along(other) == 1) continue;
-            // A tube goes on from its last row to its first.
+            // A tube is periodic: its last row is next to its first.
             if (description.kind == Kind::kCylinder && other == 1) return;
             if (at[static_cast<std::size_t>(other)] != 0 &&
                 at[static_cast<std::size_t>(other)] != grid.along(other) - 1)
@@ -130,8 +130,8 @@ std::vector<std::array<int, 2>> edges_of(const BodyDescription& description) {
     return edges;
 }
 
-/// A point by its material coordinates. A grid of one layer has no third axis, and a tube goes on from its last row of
-/// nodes to the first.
+/// A point by its material coordinates. A grid of one layer has no third axis, and in a tube the last row of nodes is next to
+/// the first.
 solve::NodeBlend point_of(const BodyDescription& description, const Vec3& a) {
     if (description.kind == Kind::kSolid) return tissue::point_of_grid(description.grid, a);
     if (description.kind == Kind::kCurve) {

@@ -19,14 +19,15 @@ Place place_of(const BoxQuadratic& problem, const Eigen::VectorXd& x, long i) {
     return x[i] < 0 ? Place::kBelowZero : Place::kAboveZero;
 }
 
-// To the minimum over the unknowns that are free while the others stay; one that comes to a limit or to 0 on the way stays there.
+// Moves the free unknowns to their common minimum while the others stay. An unknown that reaches a bound or 0 on the way stays
+// there.
 void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::VectorXd& x,
           Eigen::VectorXd& slope) {
     std::vector<long> free;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i] == Place::kBelowZero || places[i] == Place::kAboveZero)
             free.push_back(static_cast<long>(i));
-    while (free.size() > 1) {  // of a single one a sweep does it
+    while (free.size() > 1) {  // a single free unknown is left to the sweeps
         const auto count = static_cast<long>(free.size());
         const auto unknown = [&](long k) { return free[static_cast<std::size_t>(k)]; };
         Eigen::MatrixXd A(count, count);
@@ -63,15 +64,15 @@ void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::
 
 int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance, int sweeps) {
     x = x.cwiseMax(problem.min).cwiseMin(problem.max);
-    Eigen::VectorXd slope = problem.A * x + problem.b;  // without the price
+    Eigen::VectorXd slope = problem.A * x + problem.b;  // without the L1 weight
     std::vector<Place> places(static_cast<std::size_t>(x.size())), before;
-    bool jumped = false;  // from these places
+    bool jumped = false;  // from the present places
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
         double max = 0;
         for (long i = 0; i < x.size(); ++i) {
             const double curvature = problem.A(i, i);
             if (!(curvature > 0)) continue;
-            // Without limits the minimum lies at `free`, drawn towards 0 by the price
+            // Without bounds, the minimum in this coordinate is at `free`, pulled towards 0 by the L1 weight.
             const double free = x[i] - slope[i] / curvature;
             const double drawn = std::max(0.0, std::abs(free) - problem.price[i] / curvature);
             const double next =

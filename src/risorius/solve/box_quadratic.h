@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Least squares with limits and a price on every unknown: what a search for muscle activations solves in each round.
+/// Least squares with bounds and an L1 weight (`price`) on every unknown. A search for muscle activations solves one such
+/// problem in each round.
 ///
-///   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  least_i <= x_i <= most_i
+///   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  min_i <= x_i <= max_i
 ///
-/// by coordinate descent (A symmetric, positive semidefinite), exact for one coordinate at a time; for lasso problems see
-/// Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). Once a sweep has left every unknown at its limit, at 0 or between them as
-/// it was, those between are solved for at once.
+/// A is symmetric and positive semidefinite. The method is coordinate descent, exact in one coordinate at a time; for lasso
+/// problems see Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). When a sweep has changed no unknown's status (at a
+/// bound, at 0, or free on either side of it), all free unknowns are solved for at once.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace risorius::solve {
 
+/// The problem: A is n x n, the others have n entries; price >= 0, min <= max.
 struct BoxQuadratic {
     Eigen::MatrixXd A;
     Eigen::VectorXd b, price, min, max;
 };
 
-/// From `x`, which is moved into the box first. Stops when a sweep changes no unknown by more than `tolerance`, or after
-/// `sweeps`; returns how many it took.
+/// Minimises from `x`, which is clamped to the bounds first. Stops when a sweep changes no unknown by more than `tolerance`, or
+/// after `sweeps` sweeps. Returns the number of sweeps.
 int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance = 1e-9,
              int sweeps = 2000);
 

@@ -13,9 +13,9 @@
 ///
 /// **How to add a force.** Derive a class from EnergyTerm in a file of its own. Three operations are required: add_potential
 /// (energy and gradient), add_hessian and add_metric. Override begin_step() when the term depends on where a step starts, and
-/// add_force() and energy() when it damps or depends on time. Then
-/// - of a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
-/// - of the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
+/// add_force() and energy() when it damps or depends on time. Then add it:
+/// - to a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
+/// - to the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
 ///
 /// Check the derivatives of the new class with tests/force_term_checks.h.
 #pragma once
@@ -28,6 +28,7 @@
 
 namespace risorius::solve {
 
+/// The step that an implicit integrator solves. With an infinite step_s it is an equilibrium.
 struct ImplicitStep {
     double end_s;         ///< t_n + h
     double step_s;        ///< h, may be infinite
@@ -36,30 +37,32 @@ struct ImplicitStep {
     double rate_hz() const { return 1.0 / step_s; }  ///< 0 for an equilibrium
 };
 
+/// Which second derivative add_hessian() adds.
 enum class Curvature {
     kExact,  ///< the second derivative, which may be indefinite
-    kPositive  ///< the second derivative without the negative part of each element: always a descent direction
+    /// The second derivative without the negative part of each element: it always gives a descent direction.
+    kPositive
 };
 
-/// A term may keep scratch arrays: one object serves one thread at a time.
+/// A term may keep scratch arrays, so only one thread at a time may use an object.
 class EnergyTerm {
   public:
     virtual ~EnergyTerm() = default;
 
-    /// The integrator calls this once at the start of each step, explicit or implicit. The term searches its contacts here and
-    /// stores what it freezes for the step. `v` may be empty where the caller knows no velocities.
+    /// The integrator calls this once at the start of each step, explicit or implicit. A term searches its contacts here and
+    /// stores everything that stays fixed during the step. `v` may be empty when the caller has no velocities.
     virtual void begin_step(double /*t_s*/, double /*step_s*/, const Points& /*x*/,
                             const Points& /*v*/) {}
 
-    /// Adds the force at time t on every node, n x 3, N, damping included. The default is the negative gradient of the stored
-    /// energy: correct for a term without damping.
+    /// Adds the force on every node at time t, n x 3, N, with damping. The default is the negative gradient of the stored
+    /// energy; it is correct for terms without damping.
     virtual void add_force(double t_s, const Points& x, const Points& /*v*/, Points& force) const {
         Points gradient = Points::Zero(x.rows(), 3);
         add_potential({t_s, std::numeric_limits<double>::infinity(), x}, x, gradient);
         force -= gradient;
     }
 
-    /// Returns the stored energy E at time t, J, without dissipation. A dead load f stores -f . x.
+    /// Returns the stored energy E at time t, J, without dissipation. A constant force f stores -f . x.
     virtual double energy(double t_s, const Points& x) const {
         Points unused = Points::Zero(x.rows(), 3);
         return add_potential({t_s, std::numeric_limits<double>::infinity(), x}, x, unused);
@@ -69,17 +72,17 @@ class EnergyTerm {
     virtual double add_potential(const ImplicitStep& step, const Points& x,
                                  Points& gradient) const = 0;
 
-    /// Adds the second derivative of what add_potential() returns, N/m.
+    /// Adds the second derivative of the value of add_potential(), N/m.
     virtual void add_hessian(const ImplicitStep& step, const Points& x, Curvature curvature,
                              HessianBuilder& hessian) const = 0;
 
-    /// Adds a constant scalar matrix, N/m, that bounds the second derivative near rest for steps of `step_s`. Quasi-Newton
-    /// methods factor the sum of these matrices once and use it as their preconditioner.
+    /// Adds a constant scalar matrix, N/m, that bounds the second derivative near the rest shape for steps of `step_s`.
+    /// Quasi-Newton methods factor the sum of these matrices once and use it as their preconditioner.
     virtual void add_metric(double step_s, MetricBuilder& metric) const = 0;
 
-    /// For Terzopoulos' semi-implicit step (Terzopoulos, Platt, Barr & Fleischer 1987). Adds to `K` the scalar matrix of the
-    /// term at x, so that its elastic force is - K(x) x, and to `damping` the scalar matrix of drag on single nodes. With
-    /// `lag_rate` the strain rate of (x, v) is part of K. A term without such matrices adds its force at x, v to `force`.
+    /// For Terzopoulos' semi-implicit step (Terzopoulos, Platt, Barr & Fleischer 1987). Adds the scalar matrix of the term
+    /// at x to `K`, so that its elastic force is - K(x) x, and the scalar matrix of drag on single nodes to `damping`. With
+    /// `lag_rate`, K contains the strain rate of (x, v). A term without such matrices adds its force at x, v to `force`.
     virtual void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                             MetricBuilder& K, MetricBuilder& damping, Points& force) const {
         (void)lag_rate, (void)K, (void)damping;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assembly of 3 x 3 blocks into a symmetric sparse matrix, with the places of the last assembly kept.
+// Assembly of 3 x 3 blocks into a symmetric sparse matrix. The places of the last assembly are kept.
 #include "risorius/solve/hessian_builder.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void HessianBuilder::add_dense(const int* nodes, int count, const double* matrix
                                                                  stride));
 }
 
-// The pattern of exactly the pairs named since clear(), and every diagonal block; values move along.
+// Builds the pattern of the pairs that were added since clear(), and of every diagonal block. Values move along.
 void HessianBuilder::renew_pattern() {
     places_.resize(used_);
     std::vector<int> count(static_cast<std::size_t>(nodes_) + 1, 0);
@@ -83,7 +83,7 @@ void HessianBuilder::renew_pattern() {
         blocks_.begin[j + 1] += blocks_.begin[j];
     blocks_.value.assign(pairs.size(), Mat3::Zero());
 
-    // Each old or new sum is moved once, by the first call that names it
+    // Each old or new sum is moved once, by the first call for its pair.
     std::vector<char> moved(pairs.size(), 0);
     for (Place& place : places_) {
         const int slot = find(place.row, place.column);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Collects the symmetric 3n x 3n second derivative of an energy over node positions from 3 x 3 blocks, N/m.
-/// Rows and columns of fixed nodes become those of the identity.
+/// Assembles the symmetric 3n x 3n second derivative of an energy over node positions from 3 x 3 blocks, N/m. Rows and columns
+/// of fixed nodes become those of the identity.
 ///
-/// A second derivative is asked for again and again over the same pairs of nodes in the same order: the builder remembers
-/// where each call's block went and looks a place up only where the order has changed.
+/// Second derivatives are assembled many times over the same pairs of nodes in the same order. So the builder remembers the
+/// place of each call's block, and searches only where the order has changed.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -14,15 +14,16 @@
 
 namespace risorius::solve {
 
-/// Lower triangle by columns of nodes; each column starts with its diagonal block, rows ascending.
+/// Lower triangle, column by column of nodes. Each column starts with its diagonal block; rows ascend.
 struct SymmetricBlocks {
-    std::vector<int> begin;  ///< of each column, and the end of the last
+    std::vector<int> begin;  ///< of each column, then the end of the last one
     std::vector<int> row;
     std::vector<Mat3> value;
 
     int nodes() const { return static_cast<int>(begin.size()) - 1; }
 };
 
+/// Assembles one second derivative after another.
 class HessianBuilder {
   public:
     /// `fixed` is empty or one flag per node.
@@ -31,34 +32,35 @@ class HessianBuilder {
     int nodes() const { return nodes_; }
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per node
 
-    /// Forgets the values and keeps the memory; the next build() may have another pattern.
+    /// Forgets the values and keeps the memory. The next build() may have another pattern.
     void clear();
 
-    /// Adds `block` at (i, j) and, when i != j, its transpose at (j, i): name each pair of nodes once.
+    /// Adds `block` at (i, j) and, when i != j, its transpose at (j, i). Each pair of nodes must be added in one order only.
     void add(int i, int j, const Mat3& block);
     void add_diagonal(int node, double w);  ///< w times the 3 x 3 identity
 
-    /// Adds a symmetric 3 count x 3 count matrix (row-major) over the listed nodes, which must differ.
+    /// Adds a symmetric 3 count x 3 count matrix (row-major) over the listed nodes, which must be distinct.
     void add_dense(const int* nodes, int count, const double* matrix);
 
-    /// Lower triangle, 3n x 3n; coordinate k of node i is row 3 i + k. Valid until the next clear().
+    /// The lower triangle, 3n x 3n. Coordinate k of node i is row 3 i + k. Valid until the next clear().
     const Eigen::SparseMatrix<double>& build();
 
-    /// The same matrix in blocks, without the copy. Valid until the next clear().
+    /// The same matrix in blocks, without a copy. Valid until the next clear().
     const SymmetricBlocks& build_blocks();
 
   private:
     struct Place {
         int row, column;
-        int slot;  ///< in blocks_.value; of pairs new to the pattern: -1 - index in new_blocks_
+        /// Index in blocks_.value; for pairs that are new to the pattern, -1 - index in new_blocks_.
+        int slot;
     };
-    int find(int row, int column) const;  ///< slot, -1 where the pattern has none
+    int find(int row, int column) const;  ///< slot, or -1 when the pattern does not have it
     void renew_pattern();
 
     int nodes_;
     std::vector<char> fixed_;
-    std::vector<Place>
-        places_;  ///< of the calls, in their order; those from used_ on are of the assembly before
+    /// Of the calls, in order; those from used_ on are from the previous assembly.
+    std::vector<Place> places_;
     std::size_t used_ = 0;
     std::vector<Mat3> new_blocks_;
     SymmetricBlocks blocks_;

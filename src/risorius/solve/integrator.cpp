@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of the methods, the check of their options, and the choice of the class behind each.
+// Names of the methods, the check of their options, and the choice of the class for each.
 #include "risorius/solve/integrator.h"
 
 #include <algorithm>

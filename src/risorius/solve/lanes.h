@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Four doubles, or eight floats, worked on together. GCC and Clang turn these into AVX2, SSE2, NEON or WASM
-/// instructions; but for fused() the arithmetic is the same in all of them, so the bits are too.
+/// Vectors of four doubles or eight floats. GCC and Clang compile them to AVX2, SSE2, NEON or WASM instructions. Except for
+/// fused(), the arithmetic and therefore the bits are the same in all of them.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ typedef double Lanes __attribute__((vector_size(32)));
 typedef float FloatLanes __attribute__((vector_size(32)));
 typedef float FloatPoint __attribute__((vector_size(16)));
 
-/// What steps of motion are worked out in: float halves the bytes and doubles the lanes; equilibria and slopes want double.
+/// Precision of steps of motion. Float halves the memory traffic and doubles the lanes; equilibria and derivatives need double.
 enum class Precision { kDouble, kSingle };
 
 template <class Real>
@@ -38,7 +38,7 @@ struct LanesOf<float> {
 /// Sum of the lanes, always in this order.
 inline double sum_lanes(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
-/// Sums of many groups are kept in double.
+/// Sums over many groups are kept in double.
 inline void add_lanes(Lanes& sum, const Lanes& a) { sum += a; }
 inline void add_lanes(Lanes& sum, const FloatLanes& a) {
     sum += __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1, 2, 3), Lanes);
@@ -64,7 +64,7 @@ inline FloatLanes sqrt_lanes(const FloatLanes& a) {
 #endif
 }
 
-/// a b + c, rounded once where the instruction set can.
+/// a b + c, rounded only once when the instruction set has such an instruction.
 inline Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
 #ifdef __FMA__
     return Lanes(__builtin_ia32_vfmaddpd256(a, b, c));
@@ -80,7 +80,7 @@ inline FloatLanes fused(const FloatLanes& a, const FloatLanes& b, const FloatLan
 #endif
 }
 
-/// Four rows to their columns.
+/// Transposes four rows to columns.
 inline void transpose(const Lanes (&r)[4], Lanes& c0, Lanes& c1, Lanes& c2, Lanes& c3) {
     const Lanes a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6);
     const Lanes b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
@@ -92,7 +92,7 @@ inline void transpose(const Lanes (&r)[4], Lanes& c0, Lanes& c1, Lanes& c2, Lane
     c3 = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// Rows (x y z -) of four points to their x, y and z lanes.
+/// Converts rows (x y z -) of four points to lanes of x, y and z.
 inline void rows_to_lanes(const Lanes& r0, const Lanes& r1, const Lanes& r2, const Lanes& r3,
                           Lanes& x, Lanes& y, Lanes& z) {
     const Lanes rows[4] = {r0, r1, r2, r3};
@@ -100,7 +100,7 @@ inline void rows_to_lanes(const Lanes& r0, const Lanes& r1, const Lanes& r2, con
     transpose(rows, x, y, z, rest);
 }
 
-/// The other way round; the fourth column is zero.
+/// The inverse of rows_to_lanes. The fourth column is zero.
 inline void lanes_to_rows(const Lanes& x, const Lanes& y, const Lanes& z, Lanes& r0, Lanes& r1,
                           Lanes& r2, Lanes& r3) {
     const Lanes zero{};
@@ -150,8 +150,7 @@ inline void lanes_to_rows(const FloatLanes& x, const FloatLanes& y, const FloatL
     }
 }
 
-/// One point per four numbers (x y z 0), so that a point is one aligned load. Kept between calls to
-/// save the allocation.
+/// Rows of four numbers (x y z 0), one for each point, so that a point is one aligned load. Memory is kept between calls.
 template <class Real>
 class PaddedRows {
   public:
@@ -168,7 +167,7 @@ class PaddedRows {
             from += 3;
         }
     }
-    /// x - y, rounded after the difference; the rows y has.
+    /// Sets the rows to x - y, rounded after the subtraction.
     void copy_difference(const Points& x, const Points& y) {
         rows_.resize(static_cast<std::size_t>(y.rows()));
         const double* from = x.data();
@@ -181,7 +180,7 @@ class PaddedRows {
             less += 3;
         }
     }
-    /// x(rows[i]) - y(i), of as many rows as y has.
+    /// Sets row i to x(rows[i]) - y(i), for all rows of y.
     void copy_difference(const Points& x, std::span<const int> rows, const Points& y) {
         rows_.resize(static_cast<std::size_t>(y.rows()));
         const double* less = y.data();
@@ -202,7 +201,7 @@ class PaddedRows {
             to += 3;
         }
     }
-    /// Row i to x(rows[i]).
+    /// Adds row i to x(rows[i]).
     void add_to(Points& x, std::span<const int> rows) const {
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             double* to = x.data() + 3 * static_cast<std::ptrdiff_t>(rows[i]);

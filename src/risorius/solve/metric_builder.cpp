@@ -20,8 +20,7 @@ void MetricBuilder::add_outer(const int* nodes, const double* coefficients, int 
     for (int a = 0; a < count; ++a) {
         for (int b = 0; b <= a; ++b) {
             const double value = w * coefficients[a] * coefficients[b];
-            // Off the diagonal (a, b) stands for (b, a) too; if both are the same node they meet on
-            // its diagonal.
+            // An off-diagonal (a, b) stands for (b, a) too. If both are the same node, both fall on its diagonal.
             const bool meets_itself = a != b && nodes[a] == nodes[b];
             add(nodes[a], nodes[b], meets_itself ? 2 * value : value);
         }

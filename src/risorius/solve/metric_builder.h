@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Collects a symmetric scalar n x n matrix over the nodes: the metric of the quasi-Newton solver or
-/// a Laplacian, N/m. One scalar matrix serves x, y and z alike.
+/// Assembles a symmetric scalar n x n matrix over the nodes, N/m: the metric of the quasi-Newton solver, or a Laplacian. One
+/// scalar matrix serves x, y and z.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -9,6 +9,7 @@
 
 namespace risorius::solve {
 
+/// Assembles the matrix; n is the number of nodes.
 class MetricBuilder {
   public:
     explicit MetricBuilder(int nodes);
@@ -16,15 +17,14 @@ class MetricBuilder {
     int nodes() const { return nodes_; }
     void add_diagonal(int node, double w);
 
-    /// Adds w c c^T on the listed nodes. A node may be listed twice: its coefficients then add.
+    /// Adds w c c^T on the listed nodes. When a node is listed twice, its coefficients add up.
     void add_outer(const int* nodes, const double* coefficients, int count, double w);
 
-    /// Adds a symmetric count x count block (row-major, only its lower triangle is read). The nodes
-    /// must differ.
+    /// Adds a symmetric count x count block (row-major; only its lower triangle is read). The nodes must be distinct.
     void add_block(const int* nodes, const double* block, int count);
 
-    /// Lower triangle. Rows and columns of fixed nodes are those of the identity. `fixed` is empty
-    /// or one flag per node.
+    /// The lower triangle. Rows and columns of fixed nodes are those of the identity. `fixed` is empty or has one flag per
+    /// node.
     Eigen::SparseMatrix<double> build(const std::vector<char>& fixed) const;
 
   private:

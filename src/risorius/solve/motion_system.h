@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Nodes with masses and the forces between them: what the integrators advance. It knows no faces.
+/// Nodes with masses and the forces between them, as the integrators advance them. Nothing here is specific to faces.
 ///
-///   m a = sum of the terms' forces       nodes that are fixed stand still or move as prescribed
+///   m a = sum of the terms' forces       fixed nodes stand still or have a prescribed motion
 #pragma once
 
 #include <functional>
@@ -14,15 +14,17 @@
 
 namespace risorius::solve {
 
+/// The state of all nodes at one time.
 struct MotionState {
     double t_s = 0;
     Points x;  ///< n x 3, m
     Points v;  ///< n x 3, m/s
 };
 
-/// Writes the rows of fixed nodes at time t: positions and velocities. Leaves the others alone.
+/// Writes the positions and velocities of fixed nodes at time t. Must leave all other rows unchanged.
 using PrescribedMotion = std::function<void(double t_s, Points& x, Points& v)>;
 
+/// The masses, the fixed nodes and the energy terms of a system.
 class MotionSystem {
   public:
     /// Throws std::invalid_argument unless every free node has a positive, finite mass.
@@ -36,19 +38,19 @@ class MotionSystem {
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per node
     const std::vector<std::shared_ptr<EnergyTerm>>& terms() const { return terms_; }
 
-    /// Puts fixed nodes where they belong at time t (as prescribed; otherwise v = 0).
+    /// Puts fixed nodes at their places at time t: as prescribed, or with v = 0.
     void place_fixed(double t_s, Points& x, Points& v) const;
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) const;
 
     void force(double t_s, const Points& x, const Points& v, Points& force) const;  ///< N
-    /// m/s^2, zero on fixed nodes.
+    /// m/s^2; zero on fixed nodes.
     void acceleration(double t_s, const Points& x, const Points& v, Points& a) const;
-    double energy(double t_s, const Points& x) const;  ///< stored, J
+    double energy(double t_s, const Points& x) const;  ///< stored energy, J
     double kinetic_energy(const Points& v) const;      ///< of free nodes, J
 
-    /// Sum of the terms without inertia; the gradient is overwritten and zero on fixed nodes.
+    /// Sum of the terms without inertia. The gradient is overwritten; it is zero on fixed nodes.
     double potential(const ImplicitStep& step, const Points& x, Points& gradient) const;
-    /// Sum of the terms without inertia, added.
+    /// Adds the terms, without inertia.
     void add_hessian(const ImplicitStep& step, const Points& x, Curvature curvature,
                      HessianBuilder& hessian) const;
     void add_metric(double step_s, MetricBuilder& metric) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Line-search Newton for implicit steps, mass-regularised Newton for equilibria.
+// Line-search Newton for implicit steps, and mass-regularised Newton for equilibria.
 #include "risorius/solve/newton.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kSufficientDecrease = 1e-4;  ///< Armijo
 constexpr int kHalvings = 60;
-/// A line search that ends below this share of Newton's move gives way to regularised moves
+/// When a line search ends below this fraction of Newton's move, regularised moves take over.
 constexpr double kShortestFraction = 1.0 / 64;
-/// Rounding of an energy, as a share of it: decreases below cannot be seen, the gradient must tell
+/// Rounding of an energy, as a fraction of it. Smaller decreases cannot be seen, so the gradient decides.
 constexpr double kEnergyRounding = 1e-13;
 constexpr int kPositiveIterations = 3;  ///< after an indefinite exact curvature
 constexpr int kConjugateIterations = 2000;
@@ -28,7 +28,7 @@ bool all_finite(const Points& x) {
     return poison == 0;
 }
 
-/// Of gradient / mass, m/s^2
+/// Maximum of |gradient / mass| over the free nodes, m/s^2.
 double max_acceleration(const MotionSystem& system, const Points& gradient) {
     double largest = 0;
     for (int i = 0; i < system.size(); ++i)
@@ -92,7 +92,7 @@ bool Newton::solve(const MotionSystem& system, const ImplicitStep& step, const P
         const SymmetricBlocks& A = hessian.build_blocks();
         const ConjugateGradientReport found =
             gradients_.solve(A, scratch_, tolerance, kConjugateIterations, direction_);
-        // A block below the diagonal counts twice; the diagonal and its inverse once each
+        // A block below the diagonal counts twice, the diagonal and its inverse once each.
         report.multiplications += 18.0 * static_cast<double>(A.row.size()) * found.iterations;
         return !found.negative_curvature && all_finite(direction_);
     }
@@ -103,7 +103,7 @@ bool Newton::solve(const MotionSystem& system, const ImplicitStep& step, const P
     factor_.solve(scratch_.data(), direction_.data(), 1);
     if (!all_finite(direction_)) return false;
     if (definite == Definiteness::kIndefinite) {
-        // Without pivoting a tiny pivot may have spoilt the factor
+        // Without pivoting, a tiny pivot may have spoilt the factor.
         multiply(hessian.build_blocks(), direction_, trial_gradient_);
         trial_gradient_ -= scratch_;
         constexpr double kResidual = 1e-6;
@@ -124,7 +124,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
     double energy_scale = std::abs(e);
     double move_before = std::numeric_limits<double>::infinity();
     Curvature curvature = options.curvature;
-    int hold = 0;  // iterations to go before the exact curvature is tried again
+    int hold = 0;  // iterations until the exact curvature is tried again
     report.potential_j = e;
     if (!std::isfinite(e) || !std::isfinite(first_slope)) {
         report.diverged = true;
@@ -132,7 +132,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
     }
 
     while (report.iterations < options.iterations) {
-        // Conjugate gradients are stopped early far from the minimum and late near it (Nocedal & Wright, 7.1)
+        // Conjugate gradients end early far from the minimum and late near it (Nocedal & Wright, 7.1).
         const double slope_fraction = std::sqrt(dot(gradient_, gradient_)) / first_slope;
         const double tolerance = std::clamp(0.1 * std::sqrt(slope_fraction), 1e-9, 1e-2);
         if (first_slope == 0) {
@@ -147,7 +147,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
             solved = solve(system, step, x, inertia, curvature, options.linear, tolerance,
                            /*any_sign=*/false, report);
         }
-        // Only a term whose positive curvature is not quite so gets here
+        // Reached only when the positive curvature of some term is not quite positive.
         for (double shift = 1; !solved && shift < 1e12; shift *= 100)
             solved = solve(system, step, x, inertia * (1 + shift), curvature, options.linear,
                            tolerance, /*any_sign=*/false, report);
@@ -156,8 +156,8 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
         const double move = longest_row(direction_);
         report.last_move_m = move;
 
-        // Armijo by halving; where rounding hides the decrease, the slope at the trial must not have turned round
-        // (Hager & Zhang 2005, approximate Wolfe conditions)
+        // Armijo's condition with halving. Where rounding hides the decrease, the slope at the trial must not have changed sign
+        // (approximate Wolfe conditions, Hager & Zhang 2005).
         const double rounding = kEnergyRounding * energy_scale;
         double t = 1, trial_e = 0;
         bool accepted = false;
@@ -187,7 +187,7 @@ NewtonReport Newton::minimise(const MotionSystem& system, const ImplicitStep& st
             return report;
         }
         if (t < kShortestFraction) {
-            // The mass weight whose move would have had about the length accepted
+            // The mass weight whose move would be about as long as the accepted one.
             const double added = max_acceleration(system, gradient_) / (t * move);
             regularised(system, step, target, options, e, added, x, report);
             return report;
@@ -218,8 +218,8 @@ NewtonReport Newton::solve_equilibrium(const MotionSystem& system, const Implici
     return report;
 }
 
-// Levenberg's regularisation with the mass matrix: the added weight a is 1 / (pseudo-time step)^2. It shrinks while the
-// quadratic model foretells the decrease and grows where it does not, or where H + a M is not positive definite.
+// Levenberg's regularisation with the mass matrix. The added weight a is 1 / (pseudo-time step)^2. It shrinks while the
+// quadratic model predicts the decrease, and grows where it does not or where H + a M is not positive definite.
 void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, const Points& target,
                          const NewtonOptions& options, double e, double added, Points& x,
                          NewtonReport& report) {
@@ -260,12 +260,12 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
         trial_ = x + direction_;
         const double trial_e = evaluate(system, step, target, trial_, trial_gradient_, report);
         const double rounding = kEnergyRounding * energy_scale;
-        // How well the model foretold it; where rounding hides that, the gradient must have become smaller
+        // Ratio of actual to predicted decrease. Where rounding hides it, the gradient must have become smaller.
         double gain = (e - trial_e) / predicted;
         if (std::abs(predicted) <= 10 * rounding && std::abs(e - trial_e) <= 20 * rounding)
             gain = dot(trial_gradient_, trial_gradient_) < dot(gradient_, gradient_) ? 1 : 0;
 
-        if (slope <= 0 && gain > kSufficientDecrease) {  // NaN is refused
+        if (slope <= 0 && gain > kSufficientDecrease) {  // NaN is rejected
             x.swap(trial_);
             gradient_.swap(trial_gradient_);
             e = trial_e;
@@ -287,7 +287,7 @@ void Newton::regularised(const MotionSystem& system, const ImplicitStep& step, c
         }
         if (!(gain > 0.25)) {
             added *= 4;
-            min = 0;  // that of another place
+            min = 0;  // it belonged to another position
         } else if (gain > 0.75) {
             added = std::max(added / 16, min);
         }

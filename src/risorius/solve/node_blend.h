@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. What acts on p acts on the nodes by
-/// the same weights, so that work and net force are kept.
+/// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. Forces on p act on the nodes with the
+/// same weights, so that work and net force are preserved.
 #pragma once
 
 #include <array>
@@ -14,9 +14,11 @@
 
 namespace risorius::solve {
 
+/// The nodes and weights of a point.
 class NodeBlend {
   public:
-    static constexpr int kMax = 12;  ///< two corners of cells and a triangle, with one to spare
+    /// Enough for a point of a cell and one of a triangle, with one to spare.
+    static constexpr int kMax = 12;
 
     NodeBlend() = default;
     explicit NodeBlend(int node) { add(node, 1.0); }
@@ -26,7 +28,7 @@ class NodeBlend {
         for (const int node : nodes) add(node, *w++);
     }
 
-    /// A node named again gets the sum of its weights; one of weight zero is left out.
+    /// A node that is added again gets the sum of its weights. A weight of zero is ignored.
     void add(int node, double weight) {
         if (weight == 0) return;
         for (int i = 0; i < count_; ++i)
@@ -48,19 +50,19 @@ class NodeBlend {
         return sum;
     }
 
-    /// The point itself, or its velocity when given velocities.
+    /// The position of the point, or its velocity when `x` are velocities.
     Vec3 of(const Points& x) const {
         Vec3 p = Vec3::Zero();
         for (int i = 0; i < count_; ++i) p += weights_[i] * x.row(nodes_[i]).transpose();
         return p;
     }
 
-    /// A force (or gradient) on the point, shared by its nodes.
+    /// Distributes a force (or gradient) on the point to its nodes.
     void scatter(const Vec3& force, Points& out) const {
         for (int i = 0; i < count_; ++i) out.row(nodes_[i]) += weights_[i] * force.transpose();
     }
 
-    /// The second derivative over the point, a symmetric matrix.
+    /// Distributes the second derivative by the point, a symmetric matrix, to its nodes.
     void scatter(const Mat3& block, HessianBuilder& out) const {
         for (int i = 0; i < count_; ++i)
             for (int j = 0; j <= i; ++j)

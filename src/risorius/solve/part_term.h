@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The energy term of one body in a system of several bodies: it sees only its own rows, numbered from 0.
+/// The energy term of one body in a system of several bodies. It sees only its own rows, numbered from 0.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,10 @@
 
 namespace risorius::solve {
 
+/// Passes rows of the system to a term that knows only its own body.
 class PartTerm : public EnergyTerm {
   public:
-    /// Rows [first, first + count) of the system are the term's.
+    /// Rows [first, first + count) of the system belong to the term.
     PartTerm(std::shared_ptr<EnergyTerm> term, int first, int count);
 
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;

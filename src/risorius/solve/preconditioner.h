@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Approximate inverse of the second derivative of an implicit step's potential: what a quasi-Newton method starts from.
+/// Approximate inverse of the second derivative of an implicit step's potential, the initial metric of a quasi-Newton method.
 ///
 ///   H  second derivative of Phi = sum m |x - y|^2 / (2 h^2) + E + h R, 3n x 3n, N/m
 #pragma once
@@ -10,18 +10,21 @@
 
 namespace risorius::solve {
 
+/// The interface of all preconditioners.
 class Preconditioner {
   public:
     virtual ~Preconditioner() = default;
 
-    /// Called before a step is solved, with the state it is solved from. A constant one ignores it.
+    /// Called before a step is solved, with the state it starts from. Constant preconditioners ignore it.
     virtual void refresh(const ImplicitStep& /*step*/, const Points& /*x*/) {}
 
-    /// x = B b with B near H^-1, symmetric and positive definite; rows of fixed nodes of b are zero. n x 3 each.
+    /// x = B b, where B approximates H^-1 and is symmetric and positive definite; n x 3 each. Rows of fixed nodes of b are
+    /// zero.
     virtual void apply(const Points& b, Points& x) const = 0;
 };
 
-/// The scalar matrix M/h^2 + what the terms' add_metric give, factored once for steps of one length. Works on any system.
+/// The scalar matrix M/h^2 plus the sum of the terms' add_metric, factored once for steps of one length. It works on any
+/// system.
 class PrefactoredMetric : public Preconditioner {
   public:
     PrefactoredMetric(const MotionSystem& system, double step_s);

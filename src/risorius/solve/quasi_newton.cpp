@@ -8,7 +8,7 @@
 
 namespace risorius::solve {
 
-// direction_ = -H gradient_, H the L-BFGS inverse with A^-1 at its core (Nocedal's two loops).
+// direction_ = -H gradient_, where H is the L-BFGS inverse with initial metric A^-1 (Nocedal's two loops).
 template <class Real>
 void QuasiNewton::direction(const InverseMetric& metric, Ring<Real>& pairs) {
     const int ring = static_cast<int>(pairs.size());
@@ -42,7 +42,7 @@ void QuasiNewton::direction(const InverseMetric& metric) {
         direction(metric, in_single_);
 }
 
-// The pair of a step from gradient_ to trial_gradient_, if it shows positive curvature.
+// Stores the pair of a step from gradient_ to trial_gradient_ if its curvature is positive.
 template <class Real>
 void QuasiNewton::remember(double step_length, const Points& step, Ring<Real>& pairs) {
     if (pairs.empty()) return;
@@ -59,7 +59,7 @@ void QuasiNewton::remember(double step_length, const Points& step, Ring<Real>& p
         newest_ = next;
         kept_ = std::min(kept_ + 1, ring);
     } else if (kept_ == ring) {
-        --kept_;  // the oldest pair has just been written over
+        --kept_;  // the oldest pair has just been overwritten
     }
 }
 
@@ -98,7 +98,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
         direction(metric);
         double slope = dot(gradient_, direction_);
-        if (!(slope < 0) && kept_ > 0) {  // the memory misleads: start it anew
+        if (!(slope < 0) && kept_ > 0) {  // the memory is misleading: clear it
             kept_ = 0;
             direction(metric);
             slope = dot(gradient_, direction_);
@@ -108,7 +108,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
             return report;
         }
 
-        // Armijo with halving, from the full step or the longest the cap allows
+        // Armijo's condition with halving, from the full step or the longest step the cap allows.
         const double longest = longest_row(direction_);
         double t = longest > options.step_cap_m ? options.step_cap_m / longest : 1.0;
         const auto rms_step_m = [&] {
@@ -129,7 +129,7 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
             trial_ = x + t * direction_;
             trial_energy = energy(trial_, trial_gradient_);
             ++report.evaluations;
-            // Written so that a NaN is refused
+            // Written so that NaN is rejected.
             if (trial_energy <= e + options.sufficient_decrease * t * slope) {
                 accepted = true;
                 break;
@@ -138,13 +138,12 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
             t *= 0.5;
         }
         if (!accepted) {
-            if (kept_ >
-                0) {  // once more along the plain metric's direction; it costs one iteration
+            if (kept_ > 0) {  // tries the plain metric's direction; it costs one iteration
                 kept_ = 0;
                 ++report.iterations;
                 continue;
             }
-            // No lower energy within rounding, and the step asked for is below the tolerance: this is the minimum.
+            // No lower energy within rounding, and the requested step is below the tolerance: this is the minimum.
             const double wanted =
                 std::sqrt(dot(direction_, direction_) / static_cast<double>(std::max(n, 1L)));
             report.converged = wanted < options.tolerance_rms_m;
@@ -176,7 +175,7 @@ void QuasiNewton::try_moves(const EnergyAndGradient& energy, std::span<const Poi
         const double trial_energy = energy(trial_, trial_gradient_);
         ++report.evaluations;
         remember(1.0, move);
-        if (trial_energy <= e) {  // written so that a NaN is refused
+        if (trial_energy <= e) {  // written so that NaN is rejected
             x.swap(trial_);
             gradient_.swap(trial_gradient_);
             report.energy_j = e = trial_energy;

@@ -22,24 +22,26 @@ namespace risorius::solve {
 /// Returns E(x) and writes dE/dx (n x 3). Rows of fixed nodes must be zero.
 using EnergyAndGradient = std::function<double(const Points& x, Points& gradient)>;
 
-/// x = B b with B symmetric, positive definite and near the inverse of the second derivative.
+/// x = B b, where B is symmetric, positive definite and approximates the inverse of the second derivative.
 using InverseMetric = std::function<void(const Points& b, Points& x)>;
 
+/// Limits and choices of a minimisation.
 struct QuasiNewtonOptions {
-    int iterations = 6;                    ///< at most
-    int min_iterations = 0;                ///< before the tolerance may stop it
-    int memory = 6;                        ///< pairs kept
-    Precision pairs = Precision::kDouble;  ///< what they are kept in
-    double step_cap_m = 6e-3;              ///< longest move of one node in one iteration
-    double tolerance_rms_m =
-        0;  ///< stop when an accepted step moves the nodes less than this RMS; 0 = never
+    int iterations = 6;                    ///< maximum
+    int min_iterations = 0;                ///< before the tolerance may end the iteration
+    int memory = 6;                        ///< number of pairs kept
+    Precision pairs = Precision::kDouble;  ///< precision of the stored pairs
+    double step_cap_m = 6e-3;              ///< maximum move of a node in one iteration
+    /// Stop when an accepted step moves the nodes by less than this RMS; 0: never.
+    double tolerance_rms_m = 0;
     double sufficient_decrease = 1e-4;
     int backtracks = 12;
-    /// The last of `iterations` is taken without an evaluation of E where all before it were accepted at their first trial:
-    /// the report's energy is then that before it.
+    /// When all iterations were accepted at their first trial, the last of `iterations` is taken without evaluating E. The
+    /// report's energy is then that of the iteration before.
     bool trust_last = false;
 };
 
+/// Cost and outcome of a minimisation.
 struct StepReport {
     int iterations = 0;
     int evaluations = 0;
@@ -50,20 +52,19 @@ struct StepReport {
     bool stalled = false;    ///< the line search found no lower energy
 };
 
-/// Keeps its buffers between calls, so that stepping a simulation allocates nothing after the first
-/// frame. Each call starts with an empty memory: frames do not depend on the ones before except
-/// through x.
+/// Keeps its buffers between calls, so that a simulation allocates nothing after the first frame. Each call starts with an
+/// empty memory, so the result depends on earlier calls only through x.
 class QuasiNewton {
   public:
     StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                         const QuasiNewtonOptions& options);
-    /// Tries the moves in `warm_start` first, one after the other, for example the move of the step before. Each costs an
-    /// evaluation but no solve, and its curvature is remembered even where it does not lead downhill.
+    /// Tries the moves in `warm_start` first, one after the other; an example is the move of the previous step. Each costs an
+    /// evaluation but no solve. Its curvature is remembered even when it does not lead downhill.
     StepReport minimise(const EnergyAndGradient& energy, const InverseMetric& metric, Points& x,
                         const QuasiNewtonOptions& options, std::span<const Points> warm_start = {});
 
   private:
-    /// Takes each of the moves that does not raise the energy `e`, and remembers the curvature of all.
+    /// Takes each of the moves that does not raise the energy `e`. The curvature of every move is remembered.
     void try_moves(const EnergyAndGradient& energy, std::span<const Points> moves, double& e,
                    Points& x, StepReport& report);
     template <class Real>
@@ -74,7 +75,7 @@ class QuasiNewton {
         double alpha;
     };
     template <class Real>
-    using Ring = std::vector<Pair<Real>>;  ///< of options.memory pairs, or empty
+    using Ring = std::vector<Pair<Real>>;  ///< options.memory pairs, or empty
     void direction(const InverseMetric& metric);
     template <class Real>
     void direction(const InverseMetric& metric, Ring<Real>& pairs);
@@ -89,8 +90,8 @@ class QuasiNewton {
     Points gradient_, trial_gradient_, trial_, work_, direction_;
 };
 
-/// Moves x downhill. Not converging is a result. No allocation that depends on the clock or the
-/// thread count.
+/// Moves x downhill. No convergence is a result, not an error. The result does not depend on the clock or on the number of
+/// threads.
 StepReport minimise(const EnergyAndGradient& energy, const SparseCholesky& metric, Points& x,
                     const QuasiNewtonOptions& options);
 

@@ -19,7 +19,6 @@ RealTimeStep::RealTimeStep(const MotionSystem& system,
         throw std::invalid_argument("RealTimeStep: an option is outside its range");
 }
 
-// Phi
 double RealTimeStep::potential(const ImplicitStep& step, const Points& x, Points& gradient) const {
     const double sum = system_.potential(step, x, gradient);
     const double rate_hz = step.rate_hz();
@@ -61,7 +60,7 @@ StepReport RealTimeStep::advance(MotionState& state) {
     if (follows) x_ += (h * h) * acceleration_;
     acceleration_ = -rate_hz * state.v;
 
-    // Fixed nodes go where they are led
+    // Fixed nodes go to their prescribed places.
     Points& v = state.v;
     system_.place_fixed(state.t_s + h, x_, v);
     for (int i = 0; i < n; ++i)
@@ -71,13 +70,14 @@ StepReport RealTimeStep::advance(MotionState& state) {
     const ImplicitStep step{state.t_s + h, h, start_};
     StepReport report = minimise(step, x_);
 
-    // Phi only falls from where the search began: if that was too far uphill, once more from rest
+    // Phi only falls from where the search began. If that start was too high, the search is repeated from the start of the
+    // step.
     left_x_ = start_;
     for (int i = 0; i < n; ++i)
         if (system_.fixed()[static_cast<std::size_t>(i)]) left_x_.row(i) = x_.row(i);
     const double at_rest = potential(step, left_x_, left_v_);
     ++report.evaluations;
-    // Written so that a NaN is refused
+    // Written so that NaN is rejected.
     if (!(report.energy_j <= at_rest)) {
         x_ = left_x_;
         const StepReport first = report;

@@ -11,13 +11,13 @@
 
 namespace risorius::solve {
 
-// L is copied out of CHOLMOD so that the three right-hand sides can be swept together: one point is one group of lanes,
-// and each entry of L is read once per sweep instead of three times. Neighbouring columns whose patterns nest are kept as one
-// panel, filled up with a few zeros, so that a point is fetched once for up to kWidest entries.
+// L is copied out of CHOLMOD so that the three right-hand sides are processed together: one point is one group of lanes, and
+// each entry of L is read once per sweep instead of three times. Neighbouring columns whose patterns nest are stored as one
+// panel, padded with a few zeros, so that a point is fetched once for up to kWidest entries.
 namespace {
 
 constexpr int kWidest = 4;
-constexpr double kZerosAllowed = 0.2;  ///< of a panel's entries
+constexpr double kZerosAllowed = 0.2;  ///< as a fraction of a panel's entries
 
 struct Panel {
     std::int32_t first = 0;      ///< column
@@ -52,7 +52,7 @@ struct SparseCholesky::Impl {
     std::vector<std::int32_t> row;
     Precision kept = Precision::kDouble;
     mutable Sweeps<double> in_double;
-    mutable Sweeps<float> in_single;  // empty, or the other is
+    mutable Sweeps<float> in_single;  // one of the two is empty
 
     void factorise(const Eigen::SparseMatrix<double>& A);
     void copy_panels(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& rows,
@@ -67,8 +67,8 @@ struct Cholmod {
 
     Cholmod() {
         cholmod_start(&common);
-        common.supernodal =
-            CHOLMOD_SIMPLICIAL;  // no BLAS: its bits depend on the library installed
+        // No BLAS: its bits depend on the installed library.
+        common.supernodal = CHOLMOD_SIMPLICIAL;
         common.final_ll = 1;
         common.nmethods = 1;
         common.method[0].ordering = CHOLMOD_NESDIS;
@@ -121,17 +121,17 @@ void SparseCholesky::Impl::factorise(const Eigen::SparseMatrix<double>& A) {
     copy_panels(packed_begin, packed_rows, packed_values);
 }
 
-// Columns [begin[j], begin[j + 1]) start with their diagonal, rows ascending.
+// Columns are [begin[j], begin[j + 1]). Each starts with its diagonal; rows ascend.
 void SparseCholesky::Impl::copy_panels(const std::vector<std::int32_t>& begin,
                                        const std::vector<std::int32_t>& rows,
                                        const std::vector<double>& values) {
     const auto entries = [&](int j) {
         return begin[static_cast<std::size_t>(j) + 1] - begin[static_cast<std::size_t>(j)];
     };
-    std::vector<std::int32_t> place(static_cast<std::size_t>(n), 0);  // of a row in its panel
+    std::vector<std::int32_t> place(static_cast<std::size_t>(n), 0);  // of a row within its panel
     std::vector<double>& value = in_double.value;
     for (int first = 0; first < n;) {
-        // If the first row below column j is j + 1, the rest of its pattern is part of that of column j + 1.
+        // If the first row below column j is j + 1, the rest of its pattern is part of the pattern of column j + 1.
         int last = first;
         long used = entries(first);
         while (last + 1 < n && last + 1 - first < kWidest && entries(last) > 1 &&
@@ -200,7 +200,7 @@ template <int W>
 void Sweeps<Real>::backward(const Panel& panel, const std::vector<std::int32_t>& row) {
     const Real* const block = value.data() + panel.value_begin;
     const Real* v = block + W * W;
-    // Two partial sums per column hide the latency of the additions
+    // Two partial sums per column hide the latency of additions.
     Point even[W], odd[W];
     for (int k = 0; k < W; ++k) {
         even[k] = y[panel.first + k];

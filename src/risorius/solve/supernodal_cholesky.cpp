@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Left-looking by supernodes (Ng & Peyton 1993; Chen, Davis, Hager & Rajamanickam 2008, CHOLMOD, whose ordering and symbolic
-// analysis are used).
+// Left-looking supernodal factorisation (Ng & Peyton 1993; Chen, Davis, Hager & Rajamanickam 2008). Ordering and symbolic
+// analysis come from CHOLMOD.
 #include "risorius/solve/supernodal_cholesky.h"
 
 #include <suitesparse/cholmod.h>
@@ -18,13 +18,13 @@ namespace risorius::solve {
 
 struct SupernodalCholesky::Impl {
     std::vector<int> outer, inner;  ///< pattern of the ordered matrix
-    std::vector<int> order;         ///< row of A at each place
-    std::vector<int> super;         ///< first column of each panel, and n
-    std::vector<int> row_begin;     ///< of each panel in row
-    std::vector<long> begin;        ///< of each panel in value, column-major
-    std::vector<int> row;           ///< of the panels, ascending; their own columns first
-    std::vector<int> owner;         ///< panel of each column
-    std::vector<long> target;       ///< where each number of A goes
+    std::vector<int> order;         ///< row of A at each position
+    std::vector<int> super;         ///< first column of each panel, then n
+    std::vector<int> row_begin;     ///< where each panel begins in `row`
+    std::vector<long> begin;        ///< where each panel begins in `value`, column-major
+    std::vector<int> row;      ///< rows of the panels, ascending; a panel's own columns come first
+    std::vector<int> owner;    ///< panel of each column
+    std::vector<long> target;  ///< index in `value` of each entry of A
     std::vector<double> value;
     std::size_t tallest = 0;
     long orderings = 0;
@@ -87,7 +87,8 @@ void SupernodalCholesky::Impl::analyse(const Eigen::SparseMatrix<double>& A, int
 bool SupernodalCholesky::Impl::factorise_panels() {
     const int count = panels();
     local.resize(owner.size());
-    head.assign(static_cast<std::size_t>(count), -1);  // panels that next update this one, a list
+    // Lists of the panels that update this one next.
+    head.assign(static_cast<std::size_t>(count), -1);
     next.assign(static_cast<std::size_t>(count), -1);
     from.assign(static_cast<std::size_t>(count), 0);  // rows of a panel that have been used
     for (int s = 0; s < count; ++s) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Sparse Cholesky factor whose columns of like pattern are kept together as dense panels (supernodes): the 3 x 3 blocks of
-/// nodes in space make such panels everywhere.
+/// Sparse Cholesky factor whose columns of similar pattern are stored together as dense panels (supernodes). The 3 x 3 blocks
+/// of nodes in space make such panels everywhere.
 ///
 ///   A   symmetric, given by its lower triangle, n x n     P^T L L^T P = A,  P a nested-dissection ordering
 ///
-/// The dense work is done by own kernels: the bits of a BLAS depend on the library installed.
+/// The dense operations are in this library, because the bits of a BLAS depend on which one is installed.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -13,6 +13,7 @@
 
 namespace risorius::solve {
 
+/// The factor of one matrix after another.
 class SupernodalCholesky {
   public:
     SupernodalCholesky();
@@ -20,15 +21,15 @@ class SupernodalCholesky {
     SupernodalCholesky(SupernodalCholesky&&) noexcept;
     SupernodalCholesky& operator=(SupernodalCholesky&&) noexcept;
 
-    /// Orders A anew only when its pattern differs from the last one's. `block` rows in a row belong to one node and are
-    /// ordered together. False when A is not positive definite or not finite: then there is no factor.
+    /// A is ordered again only when its pattern differs from the last one. Groups of `block` consecutive rows belong to one
+    /// node and are ordered together. Returns false when A is not positive definite or not finite; then there is no factor.
     bool factorise(const Eigen::SparseMatrix<double>& A, int block);
 
-    /// x = A^-1 b, n each; x may be b. One thread at a time: it keeps a scratch array.
+    /// x = A^-1 b, n each. x may be b. Keeps a scratch array, so only one thread at a time may call it.
     void solve(const double* b, double* x) const;
 
     long nonzeros() const;   ///< of the panels
-    long orderings() const;  ///< how often the pattern was new
+    long orderings() const;  ///< number of times the pattern was new
 
   private:
     struct Impl;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// L D L^T by CHOLMOD's simplicial code, which takes negative pivots and needs no BLAS.
+// L D L^T by CHOLMOD's simplicial code, which accepts negative pivots and needs no BLAS.
 #include "risorius/solve/symmetric_factor.h"
 
 #include <suitesparse/cholmod.h>
@@ -26,8 +26,8 @@ struct SymmetricFactor::Impl {
 
     Impl() {
         cholmod_start(&common);
-        common.supernodal =
-            CHOLMOD_SIMPLICIAL;  // no BLAS: its bits depend on the library installed
+        // No BLAS: its bits depend on the installed library.
+        common.supernodal = CHOLMOD_SIMPLICIAL;
         common.final_ll = 0;
         common.nmethods = 1;
         common.postorder = 1;
@@ -52,7 +52,7 @@ struct SymmetricFactor::Impl {
     void order(const Eigen::SparseMatrix<double>& A, int block);
 };
 
-// The nodes are ordered by nested dissection and their coordinates kept together.
+// Orders the nodes by nested dissection and keeps the coordinates of a node together.
 void SymmetricFactor::Impl::order(const Eigen::SparseMatrix<double>& A, int block) {
     cholmod_free_factor(&factor, &common);
     std::vector<int> order = detail::nested_dissection(A, block);
@@ -81,7 +81,7 @@ Definiteness SymmetricFactor::factorise(const Eigen::SparseMatrix<double>& A, in
     const cholmod_factor& L = *own.factor;
     if (own.common.status < CHOLMOD_OK || L.minor < L.n) return Definiteness::kSingular;
 
-    // D stands at the head of each column
+    // The entry of D is the first one of each column.
     const auto* begin = static_cast<const int*>(L.p);
     const auto* value = static_cast<const double*>(L.x);
     Definiteness found = Definiteness::kPositive;

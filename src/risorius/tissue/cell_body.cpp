@@ -9,7 +9,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// Per-node parameters of the original model, seen as eq. (10)'s.
+/// Converts per-node parameters of the original model to the resolution-independent ones of eq. (10).
 SolidMaterial resolution_independent(SolidMaterial material, const GridSolid& solid) {
     if (solid.parameters == Parameters::kResolutionIndependent) return material;
     const Mat3 per_node = per_node_tensor(Mat3::Ones(), solid.grid);
@@ -20,7 +20,7 @@ SolidMaterial resolution_independent(SolidMaterial material, const GridSolid& so
     return material;
 }
 
-/// Where a point lies in the description's grid: the lowest node of its cell, and the trilinear weights.
+/// A point's position in the description's grid: the eight nodes of its cell and their trilinear weights.
 struct GridPlace {
     int node[8];
     std::array<double, 8> weight;
@@ -73,7 +73,7 @@ Points rest_of_nodes(const CellMesh& mesh, const RestShape& rest) {
     return x;
 }
 
-/// Spreads `amount` of every cell over its corners, and from hanging corners on to their nodes.
+/// Spreads `amount` of a cell over its corners, and from hanging corners on to their nodes.
 void share_out(const CellMesh& mesh, std::size_t cell, double amount, Eigen::VectorXd& nodes) {
     const CellMesh::Support support = mesh.support(mesh.cells()[cell]);
     const Eigen::RowVectorXd fractions = support.weight.colwise().sum() * (amount / 8);
@@ -118,7 +118,7 @@ CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
                       body.drag_ns_per_m);
         }
     }
-    // What sampling changed of the totals is put right
+    // Corrects the totals, which sampling has changed.
     body.mass_kg *= node_mass(solid).sum() / body.mass_kg.sum();
     if (described_drag.sum() > 0 && body.drag_ns_per_m.sum() > 0)
         body.drag_ns_per_m *= described_drag.sum() / body.drag_ns_per_m.sum();
@@ -146,12 +146,13 @@ CellBody cell_body(CellMesh mesh, const RestShape& rest, const CellModuli& modul
 }
 
 double cell_volume(const CellMesh::Cell& cell, const Points& vertices) {
-    // Trilinear map r = sum over modes; the terms odd in a coordinate integrate to nothing.
+    // The map r is a sum of trilinear modes; terms that are odd in a coordinate integrate to zero.
     Vec3 mode[8];
     for (std::size_t m = 0; m < 8; ++m) {
         mode[m].setZero();
         for (std::size_t c = 0; c < 8; ++c) {
-            const int low = __builtin_popcount(static_cast<unsigned>(m & ~c));  // signs that are -1
+            // Number of signs that are -1.
+            const int low = __builtin_popcount(static_cast<unsigned>(m & ~c));
             mode[m] += (low % 2 ? -0.125 : 0.125) * vertices.row(cell.vertex[c]).transpose();
         }
     }

@@ -18,7 +18,7 @@ using detail::store8;
 
 namespace {
 
-/// Share of the metric's bound (cell_metric) that the diagonal of the shape's stiffness is, averaged over directions.
+/// Diagonal of the shape's stiffness as a fraction of the metric's bound (cell_metric), averaged over directions.
 constexpr double kShapeFraction = 2.0 / 3.0;
 
 /// Eight vectors.
@@ -45,7 +45,7 @@ void store_rows(Fields3& fields, int at, const Rows8& rows) {
 }
 Lanes8 dot(const Rows8& a, const Rows8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Derivative of 64 V by the corners, exact for trilinear cells: from the modes of their maps (cell_lanes.h).
+/// Derivative of 64 V by the corners, exact for trilinear cells. It is computed from the modes of their maps (cell_lanes.h).
 void volume_gradient(const Rows8 (&x)[8], Rows8 (&gradient)[8]) {
     const Rows8 s0 = x[1] + x[0], s1 = x[3] + x[2], s2 = x[5] + x[4], s3 = x[7] + x[6];
     const Rows8 d0 = x[1] - x[0], d1 = x[3] - x[2], d2 = x[5] - x[4], d3 = x[7] - x[6];
@@ -56,7 +56,7 @@ void volume_gradient(const Rows8 (&x)[8], Rows8 (&gradient)[8]) {
                 dc = cross(a, b) + third * cross(e, f);
     const Rows8 dd = third * (cross(e, a) + cross(b, f)), de = third * (cross(a, d) + cross(f, c)),
                 df = third * (cross(d, b) + cross(c, e));
-    // Opposite corners differ in the sign of the odd modes a b c and agree in that of the even ones d e f
+    // Opposite corners have opposite signs in the odd modes a, b, c and equal signs in the even modes d, e, f.
     const auto opposite = [&](int v, const Rows8& odd, const Rows8& even) {
         gradient[v] = even + odd;
         gradient[7 - v] = even - odd;
@@ -88,10 +88,10 @@ struct CellPreconditioner::Parts {
     CellPreconditionerOptions options;
     PaddedGrid grid;
     detail::PressureMultigrid pressure;
-    Field inverse;        ///< d^-1 per node, 0 on fixed nodes
-    Field exists;         ///< 1 per cell that resists changes of volume
-    Field compliance;     ///< D^-1 per cell, in the scale of 64 V
-    Fields3 gradient[8];  ///< C: per corner and cell
+    Field inverse;        ///< d^-1 of each node; 0 on fixed nodes
+    Field exists;         ///< 1 for each cell that resists changes of volume
+    Field compliance;     ///< D^-1 of each cell, in the scale of 64 V
+    Fields3 gradient[8];  ///< C, per corner and cell
     Fields3 positions, y;
     Field t, q;
 };
@@ -115,7 +115,7 @@ CellPreconditioner::CellPreconditioner(const solve::MotionSystem& system,
     Parts& p = *parts_;
     const double rate_hz = 1.0 / step_s;
 
-    // d: inertia, the other terms, and the shape's part of the solid
+    // d: inertia, the other terms, and the stiffness of the solid's shape
     solve::MetricBuilder others(system.size());
     for (const auto& term : system.terms())
         if (term.get() != solid.get()) term->add_metric(step_s, others);
@@ -147,14 +147,14 @@ CellPreconditioner::~CellPreconditioner() = default;
 void CellPreconditioner::refresh(const solve::ImplicitStep& /*step*/, const Points& x) {
     Parts& p = *parts_;
     const int nodes = static_cast<int>(x.rows()), size = p.grid.size();
-    // Relative to one node, as single precision is short
+    // Relative to one node, because single precision has few digits.
     for (int axis = 0; axis < 3; ++axis) {
         float* const to = p.positions[static_cast<std::size_t>(axis)].data();
         const double* const from = x.data() + axis;
         for (int i = 0; i < nodes; ++i) to[i] = static_cast<float>(from[3L * i] - from[0]);
     }
 
-    // C now
+    // C at the present positions
     int corner[8];
     for (int v = 0; v < 8; ++v) corner[v] = p.grid.corner(v);
     for (int c = 0; c < size; c += 8) {
@@ -165,7 +165,7 @@ void CellPreconditioner::refresh(const solve::ImplicitStep& /*step*/, const Poin
         for (int v = 0; v < 8; ++v) store_rows(p.gradient[v], c, exists * gradient[v]);
     }
 
-    // C d^-1 C^T: corner v of a cell is corner w of its neighbour
+    // C d^-1 C^T: corner v of a cell is corner w of its neighbour.
     const float* const inverse = p.inverse.data();
     for (int c = 0; c < size; c += 8) {
         Rows8 weighed[8];
@@ -196,7 +196,7 @@ void CellPreconditioner::apply(const Points& b, Points& x) const {
     Parts& p = *parts_;
     const int nodes = static_cast<int>(b.rows()), size = p.grid.size();
     x.resize(b.rows(), 3);
-    // Scaled so that single precision neither overflows nor underflows
+    // Scaled so that single precision neither overflows nor underflows.
     const double largest = b.cwiseAbs().maxCoeff();
     if (!(largest > 0)) {
         x.setZero();

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Preconditioner of an implicit step of a nearly incompressible solid of cells, in O(n): what keeps volume is eliminated
-/// exactly, by one pressure per cell; the rest is little more than each node's own stiffness.
+/// Preconditioner for implicit steps of a nearly incompressible solid of cells. It costs O(n): the volume term is eliminated
+/// exactly, with one pressure per cell, and all other terms are reduced to a diagonal.
 ///
-///   H = A + C^T D C     A   M/h^2, shape and the other terms     d  its diagonal, one number per node
-///                       C   volume gradients of cells now        D  stiffness of volumes, d2E/dV2
+///   H = A + C^T D C     A   inertia M/h^2, stiffness of shape and the other terms     d  diagonal of A, one number per node
+///                       C   gradients of the cells' volumes now                       D  stiffness of volumes, d2E/dV2
 ///   B = (d + C^T D C)^-1 = d^-1 - d^-1 C^T S^-1 C d^-1,   S = D^-1 + C d^-1 C^T        (Sherman, Morrison & Woodbury)
 ///
-/// Why: tissue is 20 to 1000 times stiffer in volume than in shape. Motions that keep volume involve whole neighbourhoods of
-/// nodes, so that smoothing H node by node fails, and the more the stiffer volume is; S acts like Poisson's equation, which
-/// multigrid is best at, and has one unknown per cell. Braess & Sarazin 1997, Appl. Numer. Math. 23.
+/// Tissue is 20 to 1000 times stiffer in volume than in shape. Motions that keep volume involve whole neighbourhoods of nodes,
+/// so a smoother that treats H node by node fails, the more so the stiffer the volume term is. S acts like Poisson's equation,
+/// for which multigrid works best, and has one unknown per cell. Source: Braess & Sarazin 1997, Appl. Numer. Math. 23.
 ///
-/// It is as good as d is near A: the condition number of B H grows with the stiffness of shape between neighbours over M/h^2,
-/// that is with resolution squared, and iterations with its root.
+/// B is as good as d approximates A. The condition number of B H grows with the ratio of shape stiffness between neighbours to
+/// M/h^2, that is, with the square of the resolution; the number of iterations grows with its square root.
 #pragma once
 
 #include <memory>
@@ -23,14 +23,16 @@
 namespace risorius::tissue {
 
 struct CellPreconditionerOptions {
-    int degree = 12;          ///< of the smoothing polynomials, before and after   [1, ...)
-    int coarsest_cells = 64;  ///< so few are solved directly
+    /// Degree of the smoothing polynomials, before and after the coarse correction   [1, ...)
+    int degree = 12;
+    int coarsest_cells = 64;  ///< a level with at most so many cells is solved directly
 };
 
+/// The preconditioner for one system, one solid and one length of step.
 class CellPreconditioner : public solve::Preconditioner {
   public:
-    /// `solid` is a term of `system`, whose nodes are the solid's. Steps are of `step_s`. Throws std::invalid_argument
-    /// unless the cells are a uniform grid.
+    /// `solid` is a term of `system`, and the nodes of the system are those of the solid. `step_s` is the length of a step.
+    /// Throws std::invalid_argument unless the cells form a uniform grid.
     CellPreconditioner(const solve::MotionSystem& system,
                        const std::shared_ptr<const CellSolid>& solid, double step_s,
                        const CellPreconditionerOptions& options = {});

@@ -140,7 +140,7 @@ void CellSolid::add_secant(double /*t_s*/, const Points& x, const Points& v, boo
                            solve::MetricBuilder& K, solve::MetricBuilder& /*damping*/,
                            Points& force) const {
     const Points now = vertices(x), speed = vertices(v);
-    Points left = Points::Zero(now.rows(), 3);  // what is not part of K, on vertices
+    Points left = Points::Zero(now.rows(), 3);  // forces on the vertices that are not part of K
     for (int c = 0; c < static_cast<int>(mesh().cells().size()); ++c) {
         const CellMesh::Cell& cell = mesh().cells()[static_cast<std::size_t>(c)];
         const detail::CellSecant secant =

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Volume-preserving soft solid of trilinear cells: the metric term at 2 x 2 x 2 Gauss points and one exact volume
-/// constraint per cell (mean dilatation), on uniform and refined meshes alike.
+/// Volume-preserving soft solid of trilinear cells, on uniform and refined meshes. It has a metric term at 2 x 2 x 2 Gauss
+/// points and one exact volume term per cell (mean dilatation).
 ///
 ///   E = sum over cells [ sum_8 (h1 h2 h3 / 8) 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c / (h1 h2 h3) (V_c - V_c0)^2 ]
 ///   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed
-///   damping: the same sum with omega_ij and the strain rate; over an implicit step the rate is (G - G_n) / h, so that a
-///   turn is not damped and the potential is one of x alone
+///
+/// Damping is the same metric sum with omega_ij and the strain rate. In an implicit step the rate is (G - G_n) / h, so rotation
+/// is not damped and the damping potential depends on x alone.
 ///
 /// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with C = G0^-1 at every Gauss point; see cell_body.h.
-/// Source of the continuum: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5. Mean dilatation:
-/// Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985.
+///
+/// Sources: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5 (the continuum); Nagtegaal, Parks & Rice
+/// 1974 and Simo, Taylor & Pister 1985 (mean dilatation).
 #pragma once
 
 #include <memory>
@@ -26,9 +28,10 @@ class CellKernel;
 struct CellMaterialLaw;
 }  // namespace detail
 
+/// Energy and forces of the solid. Weight and drag are terms of their own.
 class CellSolid : public solve::EnergyTerm {
   public:
-    /// Throws std::invalid_argument when a cell has no positive volume at rest or the arrays do not fit.
+    /// Throws std::invalid_argument when a cell has no positive rest volume or when the arrays of `body` have wrong sizes.
     explicit CellSolid(CellBody body);
     ~CellSolid() override;
 
@@ -42,21 +45,21 @@ class CellSolid : public solve::EnergyTerm {
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
-    /// The metric term is K(x); the volume term is a force.
+    /// The metric term is linearized as K(x). The volume term is added to `force`.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;
 
-    /// Positions of all vertices, hanging ones included, from those of the nodes.
+    /// Positions of all vertices, hanging ones included, from the positions `x` of the nodes; V x 3, m.
     Points vertices(const Points& x) const;
     Eigen::VectorXd cell_volumes(const Points& x) const;  ///< m^3
     double volume(const Points& x) const;                 ///< of the body, m^3
     double rest_volume() const { return rest_volume_.sum(); }
     int inverted_count(const Points& x) const;  ///< cells with V_c <= 0
 
-    /// Metric strain dG_ij = G_ij - G0_ij at the eight Gauss points of a cell, m^2; point g is corner g's.
+    /// Metric strain dG_ij = G_ij - G0_ij at the eight Gauss points of a cell, m^2. Point g is the one next to corner g.
     void metric_strain(const Points& vertices, int cell, Mat3 (&strain)[8]) const;
-    /// C = G0^-1 at the middle of a cell, 1/m^2: turns metric strain into strain proper, C dG / 2.
+    /// C = G0^-1 at the centre of a cell, 1/m^2. It turns metric strain into Green strain, C dG / 2.
     Mat3 inverse_rest_metric(int cell) const;
 
   private:

@@ -10,24 +10,26 @@ namespace risorius::tissue {
 
 namespace {
 
-// What cannot be pushed out is not pushed ever harder: letting go, it would leap. Lips that press as hard as they can need
-// 4 mm of it against each other (20 kPa at the stiffness of a face's contacts). Far from where it began it grows
-// slowly: lips held in what they cannot do would rattle. It shrinks as fast as ever, or lips that part would be pushed on.
+// Limit of the shift. A contact that cannot be resolved must not press ever harder, or it would leap when it is released. Lips
+// that press with full strength need 4 mm of shift (20 kPa at the contact stiffness of a face). A large shift grows slowly,
+// because lips that are held in an impossible position would oscillate. It shrinks at full speed, because lips that part would
+// be pushed on otherwise.
 constexpr double kMaxShift_m = 6e-3;
-constexpr double kQuickShift_m = 2e-3;  // at twice this it grows a fifth as fast
-// Of a penetration that the shift takes up per solve: with all of it, lips that meet in full motion leap apart by a
-// millimetre, sooner or later by how far the solve has come.
+constexpr double kQuickShift_m = 2e-3;  // at this shift, growth is half as fast
+// Fraction of the penetration that the shift takes up per solve. With 1, lips that meet in full motion leap apart by a
+// millimetre, at a time that depends on how far the solve has come.
 constexpr double kLearning = 0.5;
-constexpr double kFlow = 0.05;        // of its opening that a bridge gives way per solve
-constexpr double kForgetting = 0.25;  // of the shift that a contact without penetration loses
+constexpr double kFlow = 0.05;  // fraction of its opening by which adhesion yields per solve
+// Fraction of the open gap by which the shift shrinks per solve.
+constexpr double kForgetting = 0.25;
 
-// Of pairs that stick: share dc they have opened, 0 when they do not pull.
+// The fraction u of dc by which a contact with adhesion has opened; 0 when it does not pull.
 double opened(const Contacts::Contact& contact, double gap) {
     if (!contact.let_go_m || contact.stick_n <= 0) return 0;
     return std::clamp((gap - *contact.let_go_m) / contact.stick_m, 0.0, 1.0);
 }
 
-// E, dE/dd and d2E/dd2 of a contact d deep, d > 0.
+// E, dE/dd and d2E/dd2 of a contact with penetration d > 0.
 struct Pressed {
     double energy_j, force_n, stiffness_n_per_m;
 };
@@ -58,7 +60,7 @@ void Contacts::remember(const Points& x) {
     for (Contact& contact : contacts_) {
         if (contact.slot < 0) continue;
         const double now = gap(contact, x), beyond = now - contact.rest_gap_m;
-        // Falling back more slowly than it rises keeps contacts that come and go from rattling
+        // The shift falls more slowly than it rises, so that contacts that come and go do not oscillate.
         const double far = contact.shift_m / kQuickShift_m;
         const double change = beyond < 0 ? -kLearning * beyond / (1 + far * far)
                                          : -std::max(kForgetting * beyond, 1e-7);
@@ -69,9 +71,7 @@ void Contacts::remember(const Points& x) {
                 contact.let_go_m = now;
             else if (contact.let_go_m && now > *contact.let_go_m + contact.stick_m)
                 contact.let_go_m.reset();
-            else if (
-                contact
-                    .let_go_m)  // saliva flows: a bridge that is left alone does not pull for ever
+            else if (contact.let_go_m)  // saliva flows, so a bridge does not pull forever
                 *contact.let_go_m += kFlow * std::max(0.0, now - *contact.let_go_m);
         }
         if (contact.shift_m > 0 || contact.let_go_m)

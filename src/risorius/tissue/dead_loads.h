@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Forces on nodes that keep their size and direction while the tissue moves (weight, air pressure
-/// held in the cheeks), N.
+/// Constant forces on nodes, N: they keep size and direction while the tissue moves. Examples are weight and air pressure held
+/// in the cheeks.
 #pragma once
 
 #include <utility>
@@ -11,6 +11,7 @@
 
 namespace risorius::tissue {
 
+/// The list of loads and their energy.
 class DeadLoads {
   public:
     struct Load {

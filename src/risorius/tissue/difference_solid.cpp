@@ -49,11 +49,11 @@ Mat3 without_negative(const Mat3& symmetric) {
            eigen.eigenvectors().transpose();
 }
 
-/// Second derivative of a node's energy by its tangents: 3 x 3 blocks [i][j].
+/// Second derivative of a node's energy by its tangents, 3 x 3 blocks [i][j].
 struct TangentHessian {
     Mat3 block[3][3];
 
-    /// `alpha` is the stress, `k` what it grows with: k_ij dG_ij.
+    /// `alpha` is the stress. `k` is its stiffness: alpha_ij grows by k_ij dG_ij.
     TangentHessian(const Mat3& alpha, const Mat3& k, const Mat3& r) {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
@@ -69,7 +69,7 @@ struct TangentHessian {
             for (int j = 0; j < 3; ++j) block[i][j] += 2 * psi * c.col(i) * c.col(j).transpose();
     }
 
-    /// psi D times twice the second derivative of dV, D = dV - dV0.
+    /// Adds 2 psi D times the second derivative of dV, D = dV - dV0.
     void add_volume_curvature(double psi_d, const Mat3& r) {
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, l = (i + 2) % 3;
@@ -88,7 +88,7 @@ struct DifferenceSolid::Tangents {
     Lanes metric(int pair) const { return dot(r[kFirst[pair]], r[kSecond[pair]]); }
 };
 
-/// s_ij of four nodes, and 2 psi (dV - dV0) with what it multiplies.
+/// s_ij of four nodes, and the stress of the volume term.
 struct DifferenceSolid::Stress {
     Lanes s[6] = {};
     Lanes c[3][3] = {};  ///< r_2 x r_3 and so on, times 2 psi (dV - dV0)
@@ -153,7 +153,7 @@ DifferenceSolid::DifferenceSolid(const GridSolid& solid, const std::string& plac
         Group& group = groups_[static_cast<std::size_t>(g)];
         const Tangents t = tangents(x_, g);
         for (int pair = 0; pair < 6; ++pair) group.g0[pair] = t.metric(pair);
-        // By the same operations as in every later call, so that rest is exactly free of force
+        // Uses the same operations as every later call, so that the rest shape is exactly free of force.
         Lanes c[3];
         cross(t.r[1], t.r[2], c);
         group.dv0 = dot(t.r[0], c);
@@ -197,8 +197,8 @@ inline void DifferenceSolid::store(int group, const Tangents& t, const Stress& s
     }
 }
 
-/// Backward differences of what was stored. Before the first and behind the last node of an axis it is zero: behind,
-/// because 1/h is; before, because the row before ends there or the padding does.
+/// Adds backward differences of the stored values. The value before the first node of an axis is zero because the previous row
+/// ends there or the padding begins. The last value of an axis is zero because 1/h is.
 void DifferenceSolid::add_differences(double sign, Points& sum) const {
     assert(sum.rows() == grid_.size());
     double* to = sum.data();
@@ -351,7 +351,7 @@ void DifferenceSolid::add_hessian(const solve::ImplicitStep& step, const Points&
             if (exact) h.add_volume_curvature(node.psi * (r.determinant() - node.dv0), r);
         }
 
-        // By the nodes: r_i = (x[i + 1] - x[0]) / h_i
+        // Derivatives by the nodes: r_i = (x[i + 1] - x[0]) / h_i.
         Mat3 own = Mat3::Zero();
         for (int i = 0; i < 3; ++i) {
             if (node.inverse_h[i] == 0) continue;
@@ -377,7 +377,8 @@ void DifferenceSolid::add_metric(double step_s, solve::MetricBuilder& metric) co
         TangentHessian h(Mat3::Zero(), k, r);
         h.add_volume(node.psi, r);
 
-        // The pattern: what each tangent alone would meet, made large enough by the eigenvalue for all of them together.
+        // The pattern: what each tangent alone would need. It is scaled by an eigenvalue so that it bounds all tangents
+        // together.
         const Mat3 c = volume_gradient(r);
         Vec3 pattern = Vec3::Zero();
         for (int i = 0; i < 3; ++i) {
@@ -413,7 +414,7 @@ void DifferenceSolid::add_secant(double, const Points& x, const Points& v, bool 
             const Mat3 rate = node.tangents(v);
             s += node.phi.cwiseProduct(rate.transpose() * r + r.transpose() * rate);
         }
-        // Force on the nodes = - W s W^T x with the differences W
+        // Force on the nodes = - W s W^T x with the differences W.
         for (int i = 0; i < 3; ++i) {
             if (node.inverse_h[i] == 0) continue;
             for (int j = 0; j <= i; ++j) {
@@ -424,7 +425,7 @@ void DifferenceSolid::add_secant(double, const Points& x, const Points& v, bool 
                     const double block[4] = {w, -w, -w, w};
                     K.add_block(ends, block, 2);
                 } else {
-                    // (x_i - x_0)(x_j - x_0) with its mirror image
+                    // (x_i - x_0)(x_j - x_0) and its transpose
                     const double block[9] = {2 * w, -w, -w, -w, 0, w, -w, w, 0};
                     K.add_block(ends, block, 3);
                 }

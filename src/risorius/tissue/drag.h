@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Constant damping of single nodes, the c of the equation of motion (11) of any body: f = -c v.
+/// Constant damping of single nodes: the c of the equation of motion (11), f = -c v, for any body.
 ///
 /// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.2.
 #pragma once
@@ -9,6 +9,7 @@
 
 namespace risorius::tissue {
 
+/// The drag force of all nodes.
 class Drag : public solve::EnergyTerm {
   public:
     /// c of each node, N s/m   [0, inf)
@@ -22,7 +23,7 @@ class Drag : public solve::EnergyTerm {
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
-    /// All of it is `damping`.
+    /// The whole matrix is added to `damping`.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;

@@ -13,7 +13,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// Integral of the force from the pulse's start to `s` seconds later, s in [0, duration].
+/// Integral of the force over the first `s` seconds of the pulse, N s; s in [0, duration].
 double impulse_since_start(const Pulse& pulse, double s) {
     switch (pulse.shape) {
         case PulseShape::kBox:

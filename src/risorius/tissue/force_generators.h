@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Forces of given course in time on any point of a body: box, triangle and sine pulses along a direction.
+/// Time-dependent forces at any points of a body: box, triangle and sine pulses along a direction.
 ///
 ///   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p
 ///
@@ -18,9 +18,10 @@
 
 namespace risorius::tissue {
 
+/// The course of a pulse in time.
 enum class PulseShape {
-    kBox,       ///< the amplitude throughout
-    kTriangle,  ///< rises to the amplitude half-way and falls again
+    kBox,       ///< the amplitude during the whole pulse
+    kTriangle,  ///< rises to the amplitude at half time and falls again
     kSine       ///< amplitude sin(2 pi frequency (t - start) + phase)
 };
 
@@ -28,7 +29,7 @@ enum class PulseShape {
 const std::vector<std::string_view>& pulse_shape_names();
 PulseShape pulse_shape_named(std::string_view name);  ///< throws std::invalid_argument
 
-/// Acts in [start, start + duration).
+/// A pulse acts in [start, start + duration).
 struct Pulse {
     PulseShape shape = PulseShape::kBox;
     double amplitude_n = 1;
@@ -38,22 +39,23 @@ struct Pulse {
     double phase_rad = 0;                                         ///< of the sine
 };
 
+/// The force of the pulse at a time, N; 0 outside the pulse.
 double force_n(const Pulse& pulse, double t_s);
-/// Integral of the force from `from_s` to `to_s`, exact, N s.
+/// Exact integral of the force from `from_s` to `to_s`, N s.
 double impulse_ns(const Pulse& pulse, double from_s, double to_s);
 
+/// A pulse that acts at one point of a body.
 struct ForceGenerator {
     solve::NodeBlend at;
-    Vec3 direction = Vec3::UnitZ();  ///< of any length but zero
+    Vec3 direction = Vec3::UnitZ();  ///< of any length except zero
     Pulse pulse;
 };
 
-/// Throws Error with the field named below `place`.
+/// Throws Error that names the field below `place`.
 void check(const ForceGenerator& generator, const std::string& place);
 
-/// Explicit methods see the force at each time they ask for. An implicit step sees its mean over the step, so that the body
-/// receives the whole impulse however long the steps are and a short pulse is not stepped over; an equilibrium sees the
-/// force at its time.
+/// Explicit methods use the force at each time they ask for. An implicit step uses its mean over the step; so the body receives
+/// the whole impulse for any step length, and short pulses are not missed. An equilibrium uses the force at its time.
 class ForceGenerators : public solve::EnergyTerm {
   public:
     explicit ForceGenerators(std::vector<ForceGenerator> generators);

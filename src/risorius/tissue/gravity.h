@@ -9,9 +9,10 @@ namespace risorius::tissue {
 
 constexpr double kStandardGravity = 9.81;  ///< m/s^2, as the experiments of the thesis use it
 
+/// The weight of all nodes.
 class Gravity : public solve::EnergyTerm {
   public:
-    /// One mass per node, kg, those of fixed nodes included.
+    /// One mass per node, kg, fixed nodes included.
     explicit Gravity(Eigen::VectorXd mass_kg,
                      const Vec3& gravity_m_per_s2 = Vec3(0, 0, -kStandardGravity));
 
@@ -19,7 +20,7 @@ class Gravity : public solve::EnergyTerm {
     void set_gravity(const Vec3& gravity_m_per_s2) { gravity_ = gravity_m_per_s2; }
 
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
-    double energy(double t_s, const Points& x) const override;  ///< zero at the origin
+    double energy(double t_s, const Points& x) const override;  ///< J; zero at the origin
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,

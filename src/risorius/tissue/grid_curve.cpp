@@ -13,7 +13,7 @@ namespace risorius::tissue {
 
 namespace {
 
-constexpr double kRounding = 0.1;  ///< of the rest bend
+constexpr double kRounding = 0.1;  ///< fraction of the rest bend
 
 void check_material(const CurveMaterial& material, const std::string& place) {
     check_range(material.elastic_n_per_m3, /*zero_allowed=*/true, place + "/elastic_n_per_m3");
@@ -115,7 +115,7 @@ GridCurveTerm::GridCurveTerm(const GridCurve& curve) {
         const Vec3 tangent = (after - before) / (2 * h);
         const Vec3 second = (before - 2 * at + after) / (h * h);
         const double along = second.dot(tangent) / tangent.squaredNorm();
-        // Round-off of a straight line is no bend.
+        // Rounding errors of a straight line do not count as a bend.
         const double scale = (before.norm() + 2 * at.norm() + after.norm()) / (h * h);
         constexpr double kRoundOff = 1e-13;
         const double bent = (second - along * tangent).norm();
@@ -136,7 +136,7 @@ void GridCurveTerm::for_each_bend(const Points& x, const Visit& visit) const {
     for (const Bending& bend : bending_) {
         Vec3 second = Vec3::Zero();
         for (int k = 0; k < 3; ++k) second += bend.d[k] * x.row(bend.node[k]).transpose();
-        // Where S = 0 the quotient S / s is zero even at s = 0.
+        // Where S = 0, the quotient S / s is zero even at s = 0.
         const double s = std::max(std::sqrt(second.squaredNorm() + bend.squared_rounding),
                                   std::numeric_limits<double>::min());
         visit(bend, second, s);
@@ -179,7 +179,7 @@ void GridCurveTerm::add_hessian(const solve::ImplicitStep& step, const Points& x
                                 solve::Curvature curvature, solve::HessianBuilder& hessian) const {
     stretch_.add_hessian(step, x, curvature, hessian);
     for_each_bend(x, [&](const Bending& bend, const Vec3& second, double s) {
-        // Across the bend 1 - S/s, along it that and S |r''|^2 / s^3
+        // Across the bend: 1 - S/s. Along it: the same plus S |r''|^2 / s^3.
         const double length = second.norm();
         const Vec3 direction = length > 0 ? Vec3(second / length) : Vec3::Zero();
         double across = 1 - bend.rest / s;

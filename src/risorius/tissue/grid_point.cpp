@@ -8,7 +8,7 @@ namespace risorius::tissue {
 
 solve::NodeBlend point_of_grid(const GridShape& grid, const Vec3& a) {
     int cell[3];
-    double fraction[3];  // of the upper corner
+    double fraction[3];  // weight of the upper corner
     for (int axis = 0; axis < 3; ++axis) {
         const int cells = grid.along(axis) - 1;
         const double place = std::clamp(a(axis), 0.0, 1.0) * cells;

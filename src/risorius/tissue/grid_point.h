@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Any point of a grid body, named by its material coordinates and carried by the corners of the cell it lies in.
+/// Any point of a grid body, given by its material coordinates and interpolated from the corners of its cell.
 ///
 ///   a   material coordinates, each in [0, 1]     weights: trilinear
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace risorius::tissue {
 
-/// Coordinates outside [0, 1] are taken to the nearest face.
+/// Coordinates outside [0, 1] are clamped.
 solve::NodeBlend point_of_grid(const GridShape& grid, const Vec3& a);
 
 }  // namespace risorius::tissue

@@ -14,7 +14,7 @@ using Quad = std::array<int, 4>;
 template <class Visit>
 void for_each_surface_quad(const GridShape& grid, const Visit& visit) {
     for (int axis = grid.closed ? 1 : 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3, w = (axis + 2) % 3;  // u, w, axis right-handed
+        const int u = (axis + 1) % 3, w = (axis + 2) % 3;  // u, w, axis are right-handed
         for (const bool high : {false, true}) {
             int at[3];
             at[axis] = high ? grid.along(axis) - 1 : 0;
@@ -87,13 +87,14 @@ std::vector<std::array<int, 2>> grid_lines(const GridShape& grid) {
 
 double enclosed_volume(const GridShape& grid, const Points& x) {
     assert(x.rows() == grid.size());
-    // From a point of the body, so that far from the origin nothing cancels.
+    // Relative to a point of the body, to avoid cancellation far from the origin.
     const Eigen::RowVector3d origin = x.row(0);
     double twelve_volumes = 0;
     for_each_surface_quad(grid, [&](const Quad& quad) {
         Vec3 p[4];
         for (std::size_t c = 0; c < 4; ++c) p[c] = (x.row(quad[c]) - origin).transpose();
-        // A bilinear patch halves the tetrahedron between the two ways to split its quad into triangles.
+        // A bilinear patch divides the tetrahedron of its corners in half. That tetrahedron lies between the two triangulations
+        // of the quad.
         const auto six = [](const Vec3& a, const Vec3& b, const Vec3& c) {
             return a.dot(b.cross(c));
         };

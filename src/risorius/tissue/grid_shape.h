@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Shapes over a grid of nodes: the round body, planes of nodes to hold it by, its surface and lines for drawing, and the
-/// volume it really has.
+/// Shapes over a grid of nodes: the round body, planes of nodes to hold it by, its surface and lines for drawing, and its exact
+/// volume.
 ///
-/// Source of the disc from the square: (x, y) in [-1, 1]^2 goes to (x sqrt(1 - y^2/2), y sqrt(1 - x^2/2)), which takes the
-/// border of the square to the circle.
+/// The disc is made from the square: (x, y) in [-1, 1]^2 goes to (x sqrt(1 - y^2/2), y sqrt(1 - x^2/2)), which maps the border
+/// of the square to the circle.
 #pragma once
 
 #include <array>
@@ -14,22 +14,22 @@
 
 namespace risorius::tissue {
 
-/// A cylinder whose axis runs from the origin of `place` along its x axis, material axis a1 with it; a2 and a3 span the
+/// A cylinder, MNO x 3, m. Its axis starts at the origin of `place` and follows its x axis and a1. a2 and a3 span the
 /// cross-section.
 Points cylinder_rest(const GridShape& grid, double radius_m, double length_m,
                      const Rigid& place = Rigid::Identity());
 
-/// Nodes whose index along `axis` (0, 1 or 2) is `index`, in ascending order.
+/// Nodes with the index `index` along `axis` (0, 1 or 2), ascending.
 std::vector<int> plane_nodes(const GridShape& grid, int axis, int index);
 
-/// The six faces (of a closed grid the four along it), two triangles per quad, seen counter-clockwise from outside.
+/// The six faces of the grid (four for a closed grid), two triangles per quad, counter-clockwise from outside.
 Triangles surface_triangles(const GridShape& grid);
 
-/// Every pair of neighbouring nodes, inner ones too, as the thesis draws its solids.
+/// Every pair of neighbouring nodes, inner ones included, as the thesis draws its solids.
 std::vector<std::array<int, 2>> grid_lines(const GridShape& grid);
 
-/// Signed volume within those faces, m^3. Each quad is the bilinear patch through its corners, so that the volume is
-/// that of the trilinear cells exactly.
+/// Signed volume inside the surface, m^3. Each quad is the bilinear patch of its corners, so this is exactly the volume of the
+/// trilinear cells.
 double enclosed_volume(const GridShape& grid, const Points& x);
 
 }  // namespace risorius::tissue

@@ -15,7 +15,7 @@ namespace {
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
-/// A difference of the rows of x.
+/// Sum of coefficients times rows of x.
 template <int kMax>
 Vec3 difference(const int (&node)[kMax], const double (&coefficient)[kMax], int count,
                 const Points& x) {
@@ -24,7 +24,7 @@ Vec3 difference(const int (&node)[kMax], const double (&coefficient)[kMax], int 
     return sum;
 }
 
-/// The unit normal and what its change with the tangents needs.
+/// The unit normal and its derivatives by the tangents.
 struct Normal {
     double length;  ///< |N|, N = t_1 x t_2
     Vec3 n;
@@ -47,7 +47,7 @@ struct NormalCurvature {
     NormalCurvature(const Tangents& t, const Normal& normal, const Vec3& e) {
         const Vec3& n = normal.n;
         const double en = e.dot(n), length = normal.length;
-        const Vec3 slope = (e - en * n) / length;  // by N
+        const Vec3 slope = (e - en * n) / length;  // derivative by N
         const Mat3 by_product = (3 * en * n * n.transpose() - en * Mat3::Identity() -
                                  e * n.transpose() - n * e.transpose()) /
                                 (length * length);
@@ -93,7 +93,7 @@ void GridSurfaceTerm::add_metric_elements(const GridSurface& surface) {
 void GridSurfaceTerm::add_bending_elements(const GridSurface& surface) {
     const SurfaceGrid& grid = surface.grid;
     const Mat2 weights = bending_weights(grid, surface.bending);
-    // A node beside (i, j) along an axis, or -1 beyond the border.
+    // The node beside (i, j) along an axis; -1 beyond the border.
     const auto beside = [&](int i, int j, int axis, int step) {
         if (axis == 0) return i + step >= 0 && i + step < grid.m ? grid.index(i + step, j) : -1;
         if (grid.closed) return grid.index(i, (j + step + grid.n) % grid.n);
@@ -116,7 +116,7 @@ void GridSurfaceTerm::add_bending_elements(const GridSurface& surface) {
                     element.second[k] = (k == 1 ? -2 : 1) / (h * h);
                     element.t[axis][k] = (k - 1) / (2 * h);
                 }
-                // The other tangent, one-sided at a border
+                // The other tangent: one-sided at a border.
                 const int other = 1 - axis;
                 const int low = beside(i, j, other, -1), high = beside(i, j, other, 1);
                 const double span = (low < 0 || high < 0 ? 1 : 2) * grid.spacing(other);
@@ -158,7 +158,7 @@ void GridSurfaceTerm::add_bending(const Points& rest, Bending element) {
     frame << t, t.col(0).cross(t.col(1)).normalized();
     const Vec3 c = frame.inverse() * second;
 
-    // Round-off of an evenly spaced flat shape is no curvature.
+    // Rounding errors of an evenly spaced flat shape do not count as curvature.
     double scale = 0;
     for (int k = 0; k < element.count; ++k)
         scale += std::abs(element.second[k]) * rest.row(element.node[k]).norm();
@@ -278,7 +278,7 @@ void GridSurfaceTerm::add_secant(double, const Points& x, const Points& v, bool 
     for (const Bending& element : bending_) {
         K.add_outer(element.node, element.second, element.count, element.zeta);
         if (element.normal == 0) continue;
-        // The force is - zeta (second - c^n dn)^T (second x - c^n n); all but second^T second x is explicit.
+        // The force is - zeta (second - c^n dn)^T (second x - c^n n). All of it except second^T second x is explicit.
         Tangents t;
         for (int k = 0; k < 2; ++k)
             t.col(k) = difference(element.node, element.t[k], element.count, x);

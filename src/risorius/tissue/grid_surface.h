@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Forces of a deformable surface by the thesis' finite differences over its grid; a tube by periodic ones along n.
+/// Forces of a deformable surface by the thesis' finite differences over its grid. For a tube the differences along n are
+/// periodic.
 ///
 ///   D_i r   forward difference along a_i, absent at the upper border         G_ij = D_i r . D_j r
 ///   D_11, D_22   central second difference, absent at borders     D_12   cross difference of a cell
@@ -9,11 +10,12 @@
 ///   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
 ///   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
 ///
-/// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference
-/// with the rest shape's as carried along by the surface: every rest shape is free of force, rigid motion costs nothing,
-/// and where the rest shape is flat and evenly spaced (c = 0) what is left is the plain 1/2 zeta |D_ij r|^2. The other
-/// forms tried on paper fall short: |D_ij r|^2 alone flattens a tube; |D_ij r - D_ij r0| resists rotation; Terzopoulos'
-/// xi (n . D_ij r - B0_ij)^2 in the constitutive form of the 1987 paper has no linear stiffness where B0 = 0.
+/// c^k and c^n are the coordinates of D_ij r0 in the rest shape's own t_k, n. So bending compares the second difference with
+/// that of the rest shape, carried along by the surface. Every rest shape is free of force, and rigid motion costs nothing.
+/// Where the rest shape is flat and evenly spaced, c = 0 and the plain 1/2 zeta |D_ij r|^2 is left.
+///
+/// Other forms have defects: |D_ij r|^2 alone flattens a tube; |D_ij r - D_ij r0| resists rotation; the form of the 1987 paper,
+/// xi (n . D_ij r - B0_ij)^2, has no linear stiffness where B0 = 0.
 #pragma once
 
 #include <vector>
@@ -24,10 +26,10 @@
 
 namespace risorius::tissue {
 
-/// Weight and drag are terms of their own.
+/// Energy and forces of the surface. Weight and drag are terms of their own.
 class GridSurfaceTerm : public solve::EnergyTerm {
   public:
-    /// `surface` has passed check().
+    /// `surface` must have passed check().
     explicit GridSurfaceTerm(const GridSurface& surface);
 
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
@@ -37,21 +39,21 @@ class GridSurfaceTerm : public solve::EnergyTerm {
     }
     double metric_energy(const Points& x) const { return metric_.energy(x); }  ///< J
     double bending_energy(const Points& x) const;                              ///< J
-    /// With h R = sum 1/4 phi_ij ((G_ij - G_ij(x_n)) / h)^2 h.
+    /// Uses h R = sum 1/4 phi_ij ((G_ij - G_ij(x_n)) / h)^2 h.
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
-    /// kPositive: stresses keep their positive part, and bending the square of its first derivative.
+    /// kPositive: of stresses the positive part is used, and of bending the square of the first derivative.
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
-    /// K has stresses and bending; what a curved rest shape adds to bending goes to `force`, and so does the damping
-    /// when its rate is not lagged.
+    /// K contains stresses and bending. What a curved rest shape adds to bending goes to `force`; so does the damping unless
+    /// its rate is lagged.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;
 
   private:
-    /// One second difference, over at most three nodes along one axis and two beside, or a cell.
+    /// One second difference: over at most three nodes along one axis and two beside, or over the four nodes of a cell.
     struct Bending {
         int count = 0;
         int node[5] = {};

@@ -12,7 +12,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// Length and direction from the tie to the point; any direction serves when they meet.
+/// Length and direction from the fixed end to the point. The direction is arbitrary where they coincide.
 struct Line {
     double length;
     Vec3 direction;
@@ -24,10 +24,10 @@ Line line_of(const PointSpring& spring, const Points& x) {
     return {length, length > 0 ? Vec3(d / length) : Vec3::UnitZ()};
 }
 
-/// Second derivative of k/2 (l - l0)^2 over the point.
+/// Second derivative of k/2 (l - l0)^2 by the point.
 Mat3 curvature_of(const Line& line, double k, double l0, solve::Curvature curvature) {
     if (l0 == 0) return k * Mat3::Identity();
-    constexpr double kMin_m = 1e-12;  // where the point meets its tie the energy has a tip
+    constexpr double kMin_m = 1e-12;  // the energy has a cusp where the point meets the fixed end
     double across = k * (1 - l0 / std::max(line.length, kMin_m));
     if (curvature == solve::Curvature::kPositive) across = std::max(across, 0.0);
     const Mat3 along = line.direction * line.direction.transpose();
@@ -102,7 +102,7 @@ void PointSprings::add_hessian(const solve::ImplicitStep& step, const Points& x,
         const Line line = line_of(spring, x);
         Mat3 block = curvature_of(line, spring.stiffness_n_per_m, spring.rest_length_m, curvature);
         const double c = spring.damping_ns_per_m * step.rate_hz();
-        // The damper's potential is that of a spring at rest in its length at the step's start.
+        // The damper's potential is that of a spring whose rest length is its length at the start of the step.
         if (c > 0)
             block += spring.rest_length_m == 0
                          ? Mat3(c * Mat3::Identity())
@@ -128,7 +128,7 @@ void PointSprings::add_secant(double, const Points& x, const Points& v, bool,
         if (k >= 0) {
             spring.at.scatter(k, K);
             spring.at.scatter(Vec3(k * spring.tied_to), force);
-        } else {  // pressed together: a negative matrix would spoil the solve
+        } else {  // compressed: a negative matrix would spoil the solve
             spring.at.scatter(Vec3(spring.stiffness_n_per_m * (spring.rest_length_m - line.length) *
                                    line.direction),
                               force);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Hookean springs from any point of a body to a fixed point in space, with a damper beside each, and the one spring a
-/// person pulls at.
+/// Hookean springs with dampers from any points of a body to fixed points in space, and the one spring that a person pulls
+/// interactively.
 ///
-///   p  the point, m    o  where it is tied, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
+///   p  the point, m    o  the fixed end, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
 ///   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which resists in all directions
 ///
 /// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
@@ -19,6 +19,7 @@
 
 namespace risorius::tissue {
 
+/// A spring with its damper.
 struct PointSpring {
     solve::NodeBlend at;           ///< p
     Vec3 tied_to = Vec3::Zero();   ///< o, m
@@ -27,14 +28,15 @@ struct PointSpring {
     double damping_ns_per_m = 0;   ///< [0, inf)
 };
 
-/// Throws Error with the field named below `place`.
+/// Throws Error that names the field below `place`.
 void check(const PointSpring& spring, const std::string& place);
 
+/// The forces of a list of springs.
 class PointSprings : public solve::EnergyTerm {
   public:
     explicit PointSprings(std::vector<PointSpring> springs);
 
-    /// May be changed between steps.
+    /// The springs may be changed between steps.
     std::vector<PointSpring>& list() { return springs_; }
     const std::vector<PointSpring>& list() const { return springs_; }
 
@@ -55,12 +57,12 @@ class PointSprings : public solve::EnergyTerm {
 
 /// A spring of rest length zero whose free end a caller moves while the simulation runs.
 ///
-/// attach, move and release may be called from any thread at any time; they wait for the next begin_step, so that within a
-/// step nothing changes and the same calls between the same steps give the same motion. All else belongs to the thread
-/// that steps the system.
+/// attach(), move() and release() may be called from any thread at any time. They take effect at the next begin_step(): nothing
+/// changes within a step, and the same calls between the same steps give the same motion. All other members belong to the
+/// thread that steps the system.
 class InteractiveSpring : public solve::EnergyTerm {
   public:
-    /// Throws std::invalid_argument unless both are finite and not negative.
+    /// Throws std::invalid_argument unless both values are finite and not negative.
     explicit InteractiveSpring(double stiffness_n_per_m, double damping_ns_per_m = 0);
 
     void attach(const solve::NodeBlend& at, const Vec3& free_end);
@@ -83,7 +85,8 @@ class InteractiveSpring : public solve::EnergyTerm {
                      solve::HessianBuilder& hessian) const override {
         now_.add_hessian(step, x, curvature, hessian);
     }
-    /// Of the spring as attached when asked: a metric built before attaching does not know it.
+    /// Metric of the spring that is attached at the time of the call. A metric that was built before attaching does not contain
+    /// the spring.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override {
         now_.add_metric(step_s, metric);
     }

@@ -30,7 +30,7 @@ void check(const RefineOptions& options) {
             options.deepest_level);
 }
 
-/// Strains below this share of one are rounding, and refining would only chase it.
+/// Strains below this fraction of one are rounding errors, and refining would only follow those.
 constexpr double kMinStrain = 1e-12;
 
 }  // namespace
@@ -90,7 +90,7 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
     const Eigen::VectorXd squared = squared_error(*solid_, state.x);
     const auto& cells = solid_->mesh().cells();
     const double energy = solid_->energy(state.t_s, state.x);
-    // Collapsed to a point, the body has strains of the order of one
+    // Collapsed to a point, the body has strains of order one.
     const double one = solid_->energy(state.t_s, Points::Zero(state.x.rows(), 3));
     error_ = 0;
     if (!(energy > kMinStrain * kMinStrain * one)) return false;
@@ -128,7 +128,7 @@ bool AdaptiveSolid::refine(solve::MotionState& state) {
 RefineRounds refine_rounds(int rounds, const std::function<bool(SolveStage stage)>& solve,
                            const std::function<bool()>& refine) {
     RefineRounds done;
-    // The last round's answer is not refined any more: it would no longer be an equilibrium
+    // The result of the last round is not refined any more: it would no longer be an equilibrium.
     while (done.meshes + 1 < rounds) {
         if (!solve(SolveStage::kIntermediate)) return done;
         ++done.meshes;

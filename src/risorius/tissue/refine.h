@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Adaptive resolution: cells are split where the strain asks for it and merged again where it no longer does, with the
-/// material, which does not depend on the resolution, unchanged.
+/// Adaptive resolution of solids: cells are split where the strain requires it and merged where it no longer does. The material
+/// does not depend on the resolution and does not change.
 ///
 ///   eta_c^2   estimated squared error of a cell in the energy norm, J (strain_error.h)      E   energy of the deformation, J
-///   a cell's due is tolerance^2 E / number of cells: with every cell at its due, the whole body is at the tolerance
+///   budget of a cell: tolerance^2 E / number of cells. When every cell meets its budget, the whole body meets the tolerance
 #pragma once
 
 #include <functional>
@@ -17,41 +17,44 @@
 
 namespace risorius::tissue {
 
+/// When cells are split and merged.
 struct RefineOptions {
-    /// Estimated error in the energy norm, as a share of that of the deformation: the whole body's target. A cell is split
-    /// when its squared error is more than its due.    (0, 1)
+    /// Target for the whole body: estimated error in the energy norm, as a fraction of the norm of the deformation. A cell is
+    /// split when its squared error exceeds its budget.    (0, 1)
     double tolerance = 0.1;
-    /// Eight cells are merged when all of them together have less than this share of one cell's due; 0 = never   [0, 1)
+    /// Eight cells are merged when their summed squared error is below this fraction of one cell's budget; 0: never   [0, 1)
     double merge_below = 0.02;
-    int deepest_level = 2;  ///< splits of a root cell at most    [0, 8]
+    int deepest_level = 2;  ///< maximum number of splits of a root cell    [0, 8]
 };
 
-/// The body on any mesh of its root grid.
+/// Makes the body on a mesh of its root grid.
 using BodyOnMesh = std::function<CellBody(CellMesh mesh)>;
 
+/// A solid whose mesh adapts to its strain. It makes a new CellSolid for each mesh.
 class AdaptiveSolid {
   public:
     /// Begins with the root grid. Throws std::invalid_argument for options outside their ranges.
     AdaptiveSolid(const GridShape& root, BodyOnMesh body, const RefineOptions& options);
-    /// On the description's grid, a cell's mass on its corners.
+    /// Begins with the description's grid. Each cell spreads its mass over its corners.
     AdaptiveSolid(const GridSolid& solid, const RefineOptions& options);
 
     const std::shared_ptr<CellSolid>& solid() const { return solid_; }
     const CellTree& tree() const { return tree_; }
 
-    /// At rest on the present mesh.
+    /// The rest state on the present mesh.
     solve::MotionState start() const;
 
-    /// Splits every leaf for which `wanted` until none is left or all are at the deepest level: patches that are pushed or
-    /// held must be seen. They are not merged again. True when anything changed; a state given is carried over.
+    /// Splits every leaf for which `wanted` is true, until none is left or all are at the deepest level. It is meant for
+    /// patches that are pushed or held, which the mesh must resolve. These splits are never merged. `state` is carried over to
+    /// the new mesh. Returns true when anything changed.
     bool refine_where(const std::function<bool(const CellMesh::Cell& cell)>& wanted,
                       solve::MotionState* state = nullptr);
 
-    /// Splits and merges as the strain of `state` asks, and carries positions and velocities over by trilinear
-    /// interpolation. Systems and terms made from the former solid must be made anew when it returns true.
+    /// Splits and merges cells according to the strain of `state`. Positions and velocities are carried over by trilinear
+    /// interpolation. When it returns true, systems and terms of the old solid must be made anew.
     bool refine(solve::MotionState& state);
 
-    /// Of the last refine(), before it changed anything: the root of sum eta_c^2 / E.
+    /// Estimate at the last refine(), before it changed anything: sqrt(sum eta_c^2 / E).
     double estimated_error() const { return error_; }
 
   private:
@@ -65,26 +68,27 @@ class AdaptiveSolid {
     double error_ = 0;
 };
 
-/// How well an equilibrium is needed: to see where the strain is, or to be the answer.
+/// What an equilibrium is for: to estimate where the strain is, or as the result.
 enum class SolveStage { kIntermediate, kFinal };
 
-/// Moves `state` to equilibrium under what acts on the solid; false where that fails. Systems, which differ from mesh to
-/// mesh, and the solver are of the caller's choice.
+/// Moves `state` to equilibrium under the loads on the solid. Returns false when that fails. The caller chooses the system,
+/// which differs from mesh to mesh, and the solver.
 using SolveSolid = std::function<bool(const std::shared_ptr<CellSolid>& solid, SolveStage stage,
                                       solve::MotionState& state)>;
 
+/// The outcome of solving and refining.
 struct RefineRounds {
-    int meshes = 0;          ///< on which an equilibrium was found
-    bool converged = false;  ///< every one was found, the final one too
-    bool satisfied = false;  ///< nothing is left to refine; false when the rounds were over before
+    int meshes = 0;          ///< meshes on which an equilibrium was found
+    bool converged = false;  ///< an equilibrium was found on every mesh, the last one included
+    bool satisfied = false;  ///< nothing is left to refine; false when the rounds ended before that
 };
 
-/// The rounds of settling and refining, of whatever body.
+/// Alternates between solving and refining, for any kind of body.
 RefineRounds refine_rounds(int rounds, const std::function<bool(SolveStage stage)>& solve,
                            const std::function<bool()>& refine);
 
-/// Settles and refines in turn until nothing is refined any more, or `rounds` are over. The state left is the equilibrium
-/// of the last mesh.
+/// Solves for equilibrium and refines in turn, until nothing is left to refine or `rounds` are over. `state` ends as the
+/// equilibrium on the last mesh.
 RefineRounds solve_and_refine(AdaptiveSolid& solid, const SolveSolid& solve, int rounds,
                               solve::MotionState& state);
 

@@ -17,7 +17,7 @@ using solve::Lanes;
 
 namespace {
 
-constexpr double kHingeRounding = 0.1;  ///< of a hinge's rest length
+constexpr double kHingeRounding = 0.1;  ///< fraction of a hinge's rest length
 
 using detail::EdgeSide;
 using detail::point;
@@ -39,7 +39,7 @@ SkinSheet::SkinSheet(const Triangles& all_triangles, const Points& all_rest,
                      const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m)
     : triangle_count_(static_cast<int>(all_triangles.rows())) {
     assert(membrane_n_per_m.size() == triangle_count_ && bending_n_m.size() == triangle_count_);
-    // A sheet has some of the nodes of what it lies on
+    // The sheet has only some of the nodes of the body it lies on.
     std::vector<int> place(static_cast<std::size_t>(all_rest.rows()), -1);
     for (int node : all_triangles.reshaped()) place[static_cast<std::size_t>(node)] = 0;
     for (std::size_t node = 0; node < place.size(); ++node)
@@ -102,7 +102,7 @@ std::vector<SkinSheet::Hinge> SkinSheet::hinges_of(const Triangles& triangles,
     return out;
 }
 
-// The last groups are filled up with copies of the last element that have no stiffness.
+// The last groups are filled with copies of the last element that have no stiffness.
 template <class Real>
 void SkinSheet::fill(const std::vector<Triangle>& triangles, const std::vector<Hinge>& hinges,
                      Work<Real>& work) {
@@ -136,7 +136,7 @@ void SkinSheet::fill(const std::vector<Triangle>& triangles, const std::vector<H
             group.node[k][lane] = from.node[k];
         }
     }
-    // With the rounding of the energy, so that rest is exact
+    // Rounded like the energy, so that the rest shape is exact.
     for (HingeGroup<Real>& g : work.hinges)
         g.rest_length = solve::sqrt_lanes(g.rest[0] * g.rest[0] + g.rest[1] * g.rest[1] +
                                           g.rest[2] * g.rest[2] + g.squared_rounding);
@@ -205,7 +205,7 @@ double SkinSheet::bending_energy(Work<Real>& work) {
     const Lane min = Lane{} + std::numeric_limits<Real>::min();
     Lanes energy{};
     for (const HingeGroup<Real>& g : work.hinges) {
-        // l = sum c_i x_i: the c_i add up to zero, so that three differences of displacement do
+        // l = sum c_i x_i. The c_i add up to zero, so three differences of displacements are enough.
         Lane l[3] = {g.rest[0], g.rest[1], g.rest[2]};
         for (int k = 0; k < 3; ++k) {
             Point r[kWidth];
@@ -220,7 +220,7 @@ double SkinSheet::bending_energy(Work<Real>& work) {
         const Lane stretch = s - g.rest_length;
         solve::add_lanes(energy, g.w * Real(0.5) * stretch * stretch);
 
-        // w (s - S) / s; where S = 0 nothing pulls at s = 0
+        // w (s - S) / s; where S = 0 there is no force at s = 0
         const Lane pull = g.w * (stretch / (s > min ? s : min));
         for (int i = 0; i < 3; ++i) l[i] *= pull;
         Point sum[kWidth] = {};

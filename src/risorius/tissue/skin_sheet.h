@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The skin: a membrane of triangles with bending at the edges between them.
+/// The skin: a membrane of triangles that bends at the edges between them.
 ///
 ///     membrane   E = A k/4 |F^T F - I|^2
-///     bending    E = w/2 (s - S)^2,   s = |sum c_i x_i|,   S = s at rest,   w = 3 kB / (A_1 + A_2)
+///     bending    E = w/2 (s - S)^2,   s = |sum c_i x_i|,   S = s in the rest shape,   w = 3 kB / (A_1 + A_2)
 ///
 /// - F: 3 x 2 deformation gradient
 /// - A: rest area, m^2
@@ -13,7 +13,7 @@
 ///   surfaces")
 ///
 /// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2) with l = sum c_i x_i, so that its gradient exists
-/// everywhere. At a flat rest shape S = 0 and the term is the plain quadratic w/2 |l|^2.
+/// everywhere. For a flat rest shape S = 0, and the term is the plain quadratic w/2 |l|^2.
 #pragma once
 
 #include <cstdint>
@@ -30,44 +30,43 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
-/// One object serves one thread at a time: it keeps scratch arrays.
+/// An object keeps scratch arrays, so only one thread at a time may use it.
 class SkinSheet {
   public:
-    /// Stiffnesses are one per triangle; a hinge takes the mean of its two. Edges with one
-    /// triangle, or more than two, do not bend. Throws std::invalid_argument when a triangle has no
-    /// area at rest.
+    /// Stiffnesses are given per triangle; a hinge takes the mean of its two triangles. Edges that do not have exactly two
+    /// triangles do not bend. Throws std::invalid_argument when a triangle has no rest area.
     SkinSheet(const Triangles& triangles, const Points& rest,
               const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m);
 
-    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
-    /// order.
-    /// From displacements, so that rest is exact in float too: forces are then good to some 1e-6 of the stress.
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed order. The energy is computed
+    /// from displacements, so that the rest shape is exact in float too. In float, forces have an error of about 1e-6 of the
+    /// stress.
     double add_energy(const Points& x, Points& gradient,
                       solve::Precision precision = solve::Precision::kDouble) const;
 
-    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
-    /// part, triangle by triangle and hinge by hinge.
+    /// Adds the second derivative at x. All pairs of nodes are always added, in the same order. kPositive: the negative part of
+    /// each triangle and each hinge is removed.
     void add_hessian(const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// sum 2 A k G G^T + w c c^T
+    /// Adds the metric sum 2 A k G G^T + w c c^T.
     void add_metric(solve::MetricBuilder& builder) const;
 
     int triangle_count() const { return triangle_count_; }
     int hinge_count() const { return hinge_count_; }
 
   private:
-    /// As many triangles as there are lanes. The rest edges in the triangle's plane are (l, 0) and (ex, ey).
+    /// As many triangles as there are lanes. The two rest edges in the triangle's plane are (l, 0) and (ex, ey).
     template <class Real>
     struct alignas(64) TriangleGroup {
         using Lane = typename solve::LanesOf<Real>::Lane;
         static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
-        Lane b00, b01, b11;            ///< their inverse, upper triangular
+        Lane b00, b01, b11;            ///< inverse of the matrix of rest edges, upper triangular
         Lane t[2][3];                  ///< axes of the plane
         Lane stiffness;                ///< A k
         std::int32_t node[3][kWidth];  ///< [corner][lane]
     };
-    /// Hinges: the edge's ends, then the opposite corners.
+    /// Hinges. Nodes are the ends of the edge, then the opposite corners.
     template <class Real>
     struct alignas(64) HingeGroup {
         using Lane = typename solve::LanesOf<Real>::Lane;
@@ -112,8 +111,8 @@ class SkinSheet {
     template <class Real>
     static double bending_energy(Work<Real>& work);
 
-    std::vector<int> rows_;  ///< nodes of the sheet; groups name them by their place here
-    Points rest_;            ///< of those
+    std::vector<int> rows_;  ///< nodes of the sheet; groups use indices into this list
+    Points rest_;            ///< rest positions of the nodes in rows_
     int triangle_count_ = 0;
     int hinge_count_ = 0;
     mutable Work<double> double_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The second derivative of SkinSheet. A triangle in the frame of its principal stretches, as a solid of which the third
-// direction carries nothing: psi_i = k s_i (s_i^2 - 1), across the triangle psi_i / s_i. A hinge by the vector l:
+// The second derivative of SkinSheet.
+//
+// Triangles are treated in the frame of their principal stretches, like a solid whose third direction carries no load:
+// psi_i = k s_i (s_i^2 - 1), and psi_i / s_i across the triangle. A hinge contributes, by its vector l,
 //   w (1 - S/s) I + w S / s^3 l l^T
 #include <algorithm>
 #include <cmath>
@@ -26,7 +28,7 @@ void SkinSheet::add_hessian(const Points& x, solve::Curvature curvature,
         f.col(0) = e1 * group.b00[lane];
         f.col(1) = e1 * group.b01[lane] + e2 * group.b11[lane];
         f.col(2).setZero();
-        // The frame in the plane turns the first two axes only: the third column of F is at right angles to all
+        // The frame in the plane rotates only the first two axes, because the third column of F is perpendicular to both.
         const detail::PrincipalStretches stretches = detail::principal_stretches(f);
         const double k = group.stiffness[lane];
         const Vec3& s = stretches.sigma;

@@ -20,7 +20,7 @@ void check_material(const SolidMaterial& material, const std::string& place) {
     check_range(material.drag_ns_per_m, /*zero_allowed=*/true, place + "/drag_ns_per_m");
 }
 
-/// Volume spanned by the three grid edges that meet in a corner of a cell, oriented as the axes are.
+/// Volume spanned by the three grid edges that meet in a corner of a cell, oriented like the axes.
 double corner_volume(const GridSolid& solid, const int cell[3], int corner) {
     const GridShape& grid = solid.grid;
     int at[3];
@@ -110,7 +110,7 @@ void check(const GridSolid& solid, const std::string& place) {
 }
 
 Mat3 per_node_tensor(const Mat3& tensor, const GridShape& grid) {
-    // 1 / number of forward differences along the axis in the whole grid
+    // Inverse number of forward differences along the axis in the whole grid.
     Vec3 w;
     for (int axis = 0; axis < 3; ++axis)
         w[axis] = grid.along(axis) / (static_cast<double>(grid.size()) * (grid.along(axis) - 1));

@@ -7,7 +7,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// What is recovered: the metric strain, and the dilatation as the volume energy measures it.
+/// The recovered quantities: metric strain, and dilatation as in the volume energy.
 struct Strain {
     Mat3 metric = Mat3::Zero();
     double dilatation = 0;  ///< (V_c - V_c0) / (h1 h2 h3), m^3; with moduli V_c / V_c0 - 1
@@ -41,7 +41,7 @@ std::vector<CellStrain> strain_of_cells(const CellSolid& solid, const Points& ve
     return strain;
 }
 
-/// Means over the cells round each vertex, weighed by size.
+/// Means over the cells around each vertex, weighted by size.
 std::vector<Strain> strain_of_vertices(const CellMesh& mesh, const std::vector<CellStrain>& cells) {
     std::vector<Strain> mean(static_cast<std::size_t>(mesh.vertex_count()));
     std::vector<double> whole(mean.size(), 0.0);
@@ -56,7 +56,7 @@ std::vector<Strain> strain_of_vertices(const CellMesh& mesh, const std::vector<C
         mean[v].metric /= whole[v];
         mean[v].dilatation /= whole[v];
     }
-    // What hangs follows its nodes, or E* would have gaps towards the big cell beside it
+    // Hanging vertices follow their nodes. Otherwise E* would jump towards the larger cell beside them.
     for (std::size_t h = 0; h < mesh.hanging().size(); ++h) {
         const CellMesh::Hanging& hanging = mesh.hanging()[h];
         Strain sum;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How far the strain of a solid of cells is from a smooth one: an estimate of its discretisation error, cell by cell.
+/// The difference between the strain of a solid of cells and a smoothed strain: an estimate of the discretisation error, cell
+/// by cell.
 ///
 ///   E_h   strain dG of the cells and their mean dilatation, discontinuous
-///   E*    continuous: means over the cells round a vertex, interpolated
-///   eta_c^2 = energy of the strain E_h - E* in cell c, J      sum over cells = squared error in the energy norm, about
+///   E*    continuous: means over the cells around a vertex, interpolated
+///   eta_c^2 = energy of the strain E_h - E* in cell c, J      the sum over cells is about the squared error in the energy norm
 ///
-/// The variation of strain within a cell and its jumps to the neighbours both show in E_h - E*, and both shrink with size.
-/// Where the material jumps, so does the strain of the true solution, and the estimate is too high there.
-/// Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2).
+/// E_h - E* contains the variation of strain within a cell and its jumps to the neighbours. Both shrink with the size of cells.
+/// Where the material jumps, the strain of the true solution jumps too, and the estimate is too high.
+///
+/// Source: Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2).
 #pragma once
 
 #include <vector>

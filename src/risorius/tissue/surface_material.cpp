@@ -13,7 +13,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// Four nodes of a cell, counter-clockwise in a.
+/// The four nodes of a cell, counter-clockwise in a.
 std::array<int, 4> cell_nodes(const SurfaceGrid& grid, int i, int j) {
     const int next = (j + 1) % grid.n;
     return {grid.index(i, j), grid.index(i + 1, j), grid.index(i + 1, next), grid.index(i, next)};
@@ -50,7 +50,8 @@ void check_not_folded(const GridSurface& surface, const std::string& place) {
         }
         normals.push_back(normal.normalized());
     });
-    // Lying flat on its neighbour. A tube of three nodes around turns by 120 degrees, which is fine.
+    // Cosine at which a cell counts as lying flat on its neighbour. A tube of three nodes turns by 120 degrees, which is
+    // allowed.
     constexpr double kFlatFold = -0.99;
     const int columns = grid.links(1);
     const auto normal_at = [&](int i, int j) {
@@ -109,7 +110,7 @@ Triangles surface_triangles(const SurfaceGrid& grid) {
     Triangles triangles(2 * grid.links(0) * grid.links(1), 3);
     Eigen::Index t = 0;
     for_each_cell(grid, [&](int i, int j) {
-        // a1 x a2 points out of a sheet's upper side, and into a tube.
+        // a1 x a2 points out of the upper side of a sheet, but into a tube.
         const auto [a, b, c, d] = cell_nodes(grid, i, j);
         if (grid.closed) {
             triangles.row(t++) << a, c, b;

@@ -54,7 +54,7 @@ void TetSolid::fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans
     groups.list.resize(static_cast<std::size_t>((count + kWidth - 1) / kWidth));
     groups.start.resize(groups.list.size());
     for (int slot = 0; slot < kWidth * static_cast<int>(groups.list.size()); ++slot) {
-        // The last group is filled up with copies of the last fan that have no stiffness.
+        // The last group is filled with copies of the last fan that have no stiffness.
         const TetFan& fan = fans[static_cast<std::size_t>(std::min(slot, count - 1))];
         Group<Real, kTets>& group = groups.list[static_cast<std::size_t>(slot / kWidth)];
         const int lane = slot % kWidth;
@@ -78,7 +78,7 @@ void TetSolid::fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans
 
 namespace {
 
-// Coordinates of edges of displacement from node a: [node but a][coordinate]
+// Coordinates of the edges of displacement from node a: [other node][coordinate].
 template <class Real, class Group, int kEdges>
 [[gnu::always_inline]] inline void gather(const solve::PaddedRows<Real>& u, const Group& g,
                                           typename Group::Lane (&edge)[kEdges][3]) {
@@ -92,7 +92,7 @@ template <class Real, class Group, int kEdges>
     }
 }
 
-// Forces on the ends of the edges; a bears the opposite of all of them
+// Adds forces on the ends of the edges. Node a gets the negative sum of all of them.
 template <class Real, class Group, int kEdges>
 [[gnu::always_inline]] inline void scatter(const typename Group::Lane (&force)[kEdges][3],
                                            const Group& g, solve::PaddedRows<Real>& out) {
@@ -114,7 +114,7 @@ Lane dot(const Lane& a0, const Lane& b0, const Lane& a1, const Lane& b1, const L
     return solve::fused(a2, b2, solve::fused(a1, b1, a0 * b0));
 }
 
-// H = D B, D the edges of displacement as columns
+// H = D B; the columns of D are the edges of displacement.
 template <class Lane>
 [[gnu::always_inline]] inline void gradient_of(const Lane (&d0)[3], const Lane (&d1)[3],
                                                const Lane (&d2)[3], const Lane (&b)[9],
@@ -125,7 +125,7 @@ template <class Lane>
 
 // Energy of a tet, and its first Piola-Kirchhoff stress P, both times V:
 //   P = mu F C + K (J - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
-// F - I, C and J - 1 are worked out from H = F - I, so that they are exact near rest.
+// C, cof F and J - 1 are computed from H = F - I, so that they are accurate near the rest shape.
 template <class Real, class Lane>
 [[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& shear,
                                              const Lane& bulk, Lane (&p)[3][3]) {
@@ -251,7 +251,7 @@ double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradie
                     }
                     of_fan = solve::fused(Real(0.5) * damping, squares, of_fan);
                 }
-                // P B^T: a column per edge
+                // P B^T: a column for each edge
                 Lane* const ends[3] = {force[0], force[1 + t], force[2 + t]};
                 for (int k = 0; k < 3; ++k)
                     for (int i = 0; i < 3; ++i)

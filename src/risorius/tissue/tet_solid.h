@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Soft tissue as tetrahedra: the metric-tensor and volume functional of a nearly incompressible solid.
+/// Soft tissue as tetrahedra: the metric and volume energy of a nearly incompressible solid.
 ///
 ///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
 ///
 /// - F: deformation gradient; J = det F
 /// - V: rest volume, m^3
-/// - mu, K: shear and bulk modulus, Pa
+/// - mu, K: shear modulus and modulus of the volume term, Pa
 ///
-/// J is signed, so that an inverted element is not a second zero of the energy. Below J_c tissue counts as crushed and hardens:
-/// what presses on it runs out of force before an element inverts.
+/// J is signed, so that an inverted element is not a second zero of the energy. Below J_c tissue counts as crushed and hardens,
+/// so that contact forces are balanced before an element inverts.
 #pragma once
 
 #include <array>
@@ -28,64 +28,64 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
-/// One object serves one thread at a time: it keeps scratch arrays.
+/// An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
     static constexpr double kCrushed = 0.2;  ///< J_c
     static constexpr double kHardens = 4;    ///< c
 
-    /// Moduli are one per tet. Throws std::invalid_argument when a tet has no positive volume at
-    /// rest.
+    /// Moduli are given per tet. Throws std::invalid_argument when a tet has no positive rest volume.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
              const Eigen::VectorXd& bulk_pa);
 
-    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed
-    /// order.
-    /// In float from displacements, so that rest is exact: forces are good to some 1e-6 of the stress in the tet.
+    /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed order. The energy is computed
+    /// from displacements, so that the rest shape is exact in float too. In float, forces have an error of about 1e-6 of the
+    /// stress in the tet.
     double add_energy(const Points& x, Points& gradient,
                       solve::Precision precision = solve::Precision::kDouble) const;
 
-    /// From here on steps from `start`: add_step_energy() adds to the energy that of damping in proportion to the shear modulus,
-    ///   c/2 sum V mu |F - F_start|^2,   c = `viscosity`: the time constant of the damping over the step's length.
+    /// Begins a step at the positions `start`. From then on add_step_energy() adds damping that is proportional to the shear
+    /// modulus:
+    ///   c/2 sum V mu |F - F_start|^2,   c = `viscosity`: the time constant of damping divided by the length of the step.
     void begin_step(const Points& start, double viscosity, solve::Precision precision);
     double add_step_energy(const Points& x, Points& gradient, solve::Precision precision) const;
 
-    /// Adds the second derivative at x, all pairs of nodes always named in the same order; kPositive without its negative
-    /// part, tet by tet.
+    /// Adds the second derivative at x. All pairs of nodes are always added, in the same order. kPositive: the negative part of
+    /// each tet is removed.
     void add_hessian(const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// sum V (2 mu + K) G G^T: the stiffness at rest seen by one coordinate, a bound good enough to
-    /// precondition with.
+    /// Adds sum V (2 mu + K) G G^T, the stiffness at the rest shape for one coordinate. It is a good enough bound for a
+    /// preconditioner.
     void add_metric(solve::MetricBuilder& builder) const;
 
-    /// scale * sum V mu G G^T: the second derivative of that damping.
+    /// Adds scale * sum V mu G G^T, the second derivative of the damping.
     void add_laplacian(solve::MetricBuilder& builder, double scale) const;
 
     const Tets& tets() const { return tets_; }
     const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< per tet
-    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< likewise
+    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< per tet
     int size() const { return static_cast<int>(tets_.rows()); }
     int inverted_count(const Points& x) const;          ///< tets with J <= 0
     double volume(const Points& x) const;               ///< signed, m^3
-    double min_relative_volume(const Points& x) const;  ///< the least J, 1 when there are no tets
+    double min_relative_volume(const Points& x) const;  ///< minimum J; 1 without tets
     Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
 
   private:
-    /// As many fans of tets (tet_fans.h) as there are lanes; a fan of one is a tet.
+    /// As many fans of tets (tet_fans.h) as there are lanes. A single tet is a fan of one.
     template <class Real, int kTets>
     struct alignas(64) Group {
         using Lane = typename solve::LanesOf<Real>::Lane;
         static constexpr int kWidth = solve::LanesOf<Real>::kWidth;
         struct Tet {
-            Lane b[9];   ///< inverse of the rest edges a-b, a-r_i, a-r_i+1, a row each
+            Lane b[9];   ///< inverse of the matrix of rest edges a-b, a-r_i, a-r_i+1; a row each
             Lane shear;  ///< V mu
             Lane bulk;   ///< V K
         };
         Tet tet[kTets];
         std::int32_t node[kTets + 3][kWidth];  ///< a, b, r_0 .. ; [corner][lane]
     };
-    /// Gradient of the displacement where a step began, per tet of a group.
+    /// Displacement gradient at the start of a step, for each tet of a group.
     template <class Real, int kTets>
     using Gradients = std::array<std::array<typename solve::LanesOf<Real>::Lane, 9>, kTets>;
     template <class Real, int kTets>
@@ -113,8 +113,8 @@ class TetSolid {
     Tets tets_;
     Points rest_;
     Eigen::VectorXd rest_volume_, mu_, bulk_;
-    std::vector<Mat3> inverse_;  ///< of the rest edges x_k+1 - x_0, rows
-    double viscosity_ = 0;       ///< of the step, as begin_step() was told
+    std::vector<Mat3> inverse_;  ///< of the matrix of rest edges x_k+1 - x_0; rows
+    double viscosity_ = 0;       ///< of the current step, from begin_step()
     mutable Work<double> double_;
     mutable Work<float> single_;
 };

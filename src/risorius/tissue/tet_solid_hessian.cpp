@@ -43,7 +43,7 @@ void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
             modes_of(stretches.sigma, rest_volume_[tet] * mu_[tet], rest_volume_[tet] * bulk_[tet]);
         if (curvature == solve::Curvature::kPositive) detail::clamp(modes);
 
-        // Row k of the inverse is the gradient of the shape function of corner k + 1; the four add up to nothing
+        // Row k of the inverse is the gradient of the shape function of corner k + 1. The four gradients add up to zero.
         const Mat3 g = inverse * stretches.v;
         Vec3 gradient[4];
         for (int k = 0; k < 3; ++k) gradient[k + 1] = g.row(k).transpose();

@@ -15,7 +15,7 @@ double ZeroLengthSprings::add_energy(const Points& x, Points& gradient) const {
     for (const Tether& tether : tethers_) {
         const Vec3 d = x.row(tether.node).transpose() - tether.target;
         const double along = d.dot(tether.normal);
-        // kn along^2 + kt (|d|^2 - along^2), without the difference of squares
+        // kn along^2 + kt (|d|^2 - along^2), without a difference of squares.
         const Vec3 across = d - along * tether.normal;
         energy +=
             0.5 * (tether.kn_n_per_m * along * along + tether.kt_n_per_m * across.squaredNorm());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Attachment of tissue to what lies under it: single nodes held to targets, firmly along a normal
-/// and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may
-/// be moved between steps.
+/// Attachment of tissue to what lies beneath it, by zero-length springs: single nodes are held at targets, firmly along a
+/// normal and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may be moved between
+/// steps.
 ///
 ///   E = 1/2 [ kn ((x - t).n)^2 + kt |x - t - ((x - t).n) n|^2 ]
 #pragma once
@@ -18,6 +18,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
+/// The list of springs and their energy.
 class ZeroLengthSprings {
   public:
     struct Tether {
@@ -36,10 +37,10 @@ class ZeroLengthSprings {
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
     double add_energy(const Points& x, Points& gradient) const;
 
-    /// Adds the second derivative, which has no negative part.
+    /// Adds the second derivative. It has no negative part.
     void add_hessian(solve::HessianBuilder& hessian) const;
 
-    /// max(kn, kt) on the diagonal: a bound whichever way the normal turns.
+    /// Adds max(kn, kt) to the diagonal: a bound for any direction of the normal.
     void add_metric(solve::MetricBuilder& builder) const;
 
   private:

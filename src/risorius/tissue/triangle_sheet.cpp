@@ -16,7 +16,7 @@ namespace risorius::tissue {
 
 namespace {
 
-using Flat = Eigen::Matrix<double, 2, 3>;  ///< three points of a plane, one per column
+using Flat = Eigen::Matrix<double, 2, 3>;  ///< three points in a plane, one per column
 
 using detail::EdgeSide;
 using detail::point;
@@ -25,7 +25,7 @@ HingeCorners corners_of(const int (&node)[4], const Points& x) {
     return {point(x, node[0]), point(x, node[1]), point(x, node[2]), point(x, node[3])};
 }
 
-/// A triangle of the rest shape in its own plane, first edge along x.
+/// A triangle of the rest shape in its own plane, with the first edge along x.
 Flat flattened(const Vec3& p, const Vec3& q, const Vec3& r) {
     const Vec3 e1 = q - p, e2 = r - p;
     const double length = e1.norm();
@@ -36,12 +36,12 @@ Flat flattened(const Vec3& p, const Vec3& q, const Vec3& r) {
     return flat;
 }
 
-/// Values of 1/2 x . b x at a point, by (b_11, b_22, sqrt2 b_12).
+/// Coefficients of 1/2 x . b x at a point, by (b_11, b_22, sqrt2 b_12).
 Vec3 height_by_curvature(const Vec2& x) {
     return {0.5 * x[0] * x[0], 0.5 * x[1] * x[1], x[0] * x[1] / std::numbers::sqrt2};
 }
 
-/// Takes (b_11, b_22, sqrt2 b_12) by x to the same by a, where x = J a: b_a = J^T b_x J.
+/// Converts (b_11, b_22, sqrt2 b_12) by x to the same by a, where x = J a: b_a = J^T b_x J.
 Mat3 curvature_change(const Mat2& J) {
     Mat3 P;
     for (int k = 0; k < 3; ++k) {
@@ -79,7 +79,7 @@ TriangleSheetTerm::TriangleSheetTerm(const TriangleSurface& surface) {
     add_bends(surface);
 }
 
-// The hinges of the inner edges, and which of them the edges of each triangle are.
+// Makes the hinges of the inner edges. Returns the hinge of each edge of each triangle.
 auto TriangleSheetTerm::find_hinges(const TriangleSurface& surface)
     -> std::vector<std::array<EdgeOf, 3>> {
     const Triangles& triangles = surface.triangles;
@@ -94,7 +94,7 @@ auto TriangleSheetTerm::find_hinges(const TriangleSurface& surface)
         hinge.node[3] = triangles(second.triangle, (second.edge + 2) % 3);
         const HingeCorners x = corners_of(hinge.node, surface.rest);
         hinge.rest = hinge_angle(x);
-        // Over the flattened pair: each opposite corner folds by its height over its distance from the edge.
+        // On the flattened pair, each opposite corner folds by its height divided by its distance from the edge.
         const Vec3 e = x[1] - x[0];
         for (int side = 0; side < 2; ++side) {
             const Vec3 d = x[static_cast<std::size_t>(2 + side)] - x[0];
@@ -104,7 +104,7 @@ auto TriangleSheetTerm::find_hinges(const TriangleSurface& surface)
             hinge.height[0] += (1 - along) / distance;
             hinge.height[1] += along / distance;
         }
-        // The second triangle runs along the edge the other way, unless the mesh changes its orientation here.
+        // The second triangle runs along the edge in the other direction, unless the orientation of the mesh changes here.
         const bool turned = triangles(second.triangle, second.edge) == hinge.node[0];
         const int index = static_cast<int>(hinges_.size());
         edges_of[static_cast<std::size_t>(first.triangle)][static_cast<std::size_t>(first.edge)] = {
@@ -132,7 +132,7 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
         a_edges << a.col(1) - a.col(0), a.col(2) - a.col(0);
         const Mat3 P = curvature_change(x_edges * a_edges.inverse());
         const Vec3 stiffness(zeta(0, 0), zeta(1, 1), zeta(0, 1));
-        // A direction without stiffness of its own gets next to none, so that the matrix can be inverted.
+        // A direction without stiffness gets a very small one, so that the matrix can be inverted.
         constexpr double kMinStiffness = 1e-6;
         const Mat3 C = area_of(a) * P.transpose() *
                        stiffness.cwiseMax(kMinStiffness * stiffness.maxCoeff()).asDiagonal() * P;
@@ -145,7 +145,7 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
             const EdgeOf& edge = edges_of[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
             if (edge.hinge < 0) continue;
             const Hinge& hinge = hinges_[static_cast<std::size_t>(edge.hinge)];
-            // The neighbour's corner, unfolded into this triangle's plane
+            // The neighbour's corner, unfolded into this triangle's plane.
             const int opposite =
                 hinge.node[2] == triangles(t, (k + 2) % 3) ? hinge.node[3] : hinge.node[2];
             const Vec2 from = x.col(k), along = (x.col((k + 1) % 3) - x.col(k)).normalized();
@@ -169,8 +169,8 @@ void TriangleSheetTerm::add_bends(const TriangleSurface& surface) {
             bend.hinge[bend.count++] = edge.hinge;
         }
         if (bend.count == 0) continue;
-        // Least energy 1/2 kappa C kappa with B kappa = theta: 1/2 theta (B C^-1 B^T)^-1 theta. Folds that nearly depend
-        // on each other (six corners near one conic) would make it stiff without bound.
+        // Minimum energy 1/2 kappa C kappa with B kappa = theta: 1/2 theta (B C^-1 B^T)^-1 theta. The eigenvalues get a lower
+        // bound, because folds that are nearly dependent (six corners near one conic) would make it infinitely stiff.
         constexpr double kMinFraction = 1e-3;
         using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
         const Small compliance = B * C.inverse() * B.transpose();
@@ -265,7 +265,7 @@ void TriangleSheetTerm::add_hessian(const solve::ImplicitStep& step, const Point
         slope.push_back(hinge_angle_gradient(corners_of(hinge.node, x)));
 
     for (const Bend& bend : bends_) {
-        // Folds share corners: gather them first, then name each pair of nodes once.
+        // Folds share corners: gather them first, then add each pair of nodes once.
         std::array<int, 12> node{};
         std::array<std::array<Vec3, 3>, 12> by_node;
         std::size_t count = 0;

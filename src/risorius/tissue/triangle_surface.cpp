@@ -17,8 +17,8 @@ using Flat = Eigen::Matrix<double, 2, 3>;
 
 using detail::point;
 
-using Coordinates =
-    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< a of each node, MN x 2
+/// a of each node, MN x 2.
+using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 Coordinates grid_coordinates(const SurfaceGrid& grid) {
     Coordinates a(grid.size(), 2);
@@ -28,7 +28,7 @@ Coordinates grid_coordinates(const SurfaceGrid& grid) {
     return a;
 }
 
-/// The grid's material on `triangles` over its nodes, wherever those lie now.
+/// The grid's material on `triangles` over its nodes, at their present positions.
 TriangleSurface with_material(const GridSurface& surface, const Triangles& triangles,
                               const Points& rest, const Coordinates& a) {
     const SurfaceGrid& grid = surface.grid;
@@ -43,7 +43,7 @@ TriangleSurface with_material(const GridSurface& surface, const Triangles& trian
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
         SurfaceMaterial mean;
         mean.mass_kg = 0;
-        // Across the seam of a tube a2 goes on beyond 1.
+        // Across the seam of a tube, a2 continues beyond 1.
         int max = 0;
         for (int k = 0; k < 3; ++k) max = std::max(max, triangles(t, k) % grid.n);
         for (int k = 0; k < 3; ++k) {
@@ -63,12 +63,12 @@ TriangleSurface with_material(const GridSurface& surface, const Triangles& trian
     return out;
 }
 
-/// Moves inner nodes by up to `share` of the spacing, over the cell that they move into.
+/// Moves inner nodes by up to `fraction` of the spacing, inside the cell that they move into.
 void shake(const GridSurface& surface, double fraction, unsigned seed, Points& rest,
            Coordinates& a) {
     const SurfaceGrid& grid = surface.grid;
     std::mt19937 random(seed);
-    // Not std::uniform_real_distribution, whose numbers are the library's own affair
+    // std::uniform_real_distribution is not used, because its numbers differ between libraries.
     const auto part = [&] { return fraction * (2 * (random() / 4294967295.0) - 1); };
     const auto at = [&](int i, int j) {
         return point(surface.rest, grid.index(i, (j + grid.n) % grid.n));
@@ -90,10 +90,10 @@ double angle_at(const Vec3& p, const Vec3& q, const Vec3& r) {
     return std::atan2(e.cross(f).norm(), e.dot(f));
 }
 
-/// The two triangles of each cell over its other diagonal, where the angles opposite to that are smaller together.
+/// Cuts a cell along its other diagonal when the angles opposite to that diagonal have the smaller sum.
 void cut_by_angles(const Points& rest, Triangles& triangles) {
     for (Eigen::Index t = 0; t + 1 < triangles.rows(); t += 2) {
-        // The cell's corners in turn: (w, x, y) and (w, y, z), in either order
+        // The cell's corners in turn: triangles (w, x, y) and (w, y, z), in either order.
         const bool in_order = triangles(t, 2) == triangles(t + 1, 1);
         const Eigen::Index first = in_order ? t : t + 1, second = in_order ? t + 1 : t;
         const int w = triangles(first, 0), x = triangles(first, 1), y = triangles(first, 2),
@@ -177,7 +177,7 @@ void check(const TriangleSurface& surface, const std::string& place) {
         const Vec3 p = point(surface.rest, surface.triangles(t, 0));
         const Vec3 e1 = point(surface.rest, surface.triangles(t, 1)) - p;
         const Vec3 e2 = point(surface.rest, surface.triangles(t, 2)) - p;
-        constexpr double kMinShape = 1e-9;  // area over squared edges
+        constexpr double kMinShape = 1e-9;  // area over sum of squared edges
         if (!(e1.cross(e2).norm() > kMinShape * (e1.squaredNorm() + e2.squaredNorm())))
             throw Error(triangle, "an area at rest", "none");
         const Flat a = coordinates_of(surface, t);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The 52 blend shapes of ARKit face tracking, by name and in the order in which face captures list them.
-/// Source: Apple, ARFaceAnchor.BlendShapeLocation; the order is that of Live Link Face's tables.
+/// The 52 blend shapes of ARKit face tracking, by name, in the order of face captures.
+/// Source: Apple, ARFaceAnchor.BlendShapeLocation; the order is that of the tables of Live Link Face.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace risorius::track {
 
+/// "eyeBlinkLeft" and so on, in the order above.
 const std::vector<std::string>& arkit_names();
 
 }  // namespace risorius::track

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The channels that a script may drive: the muscles of a rig, action units, and kinematic channels; and their values at one moment.
+/// The channels that a script may drive, and their values at one moment. Channels are the muscles of a rig, action units and
+/// kinematic channels.
 ///
-/// Muscles come as columns: a paired muscle has a left and a right column, an unpaired one a single column.
+/// Muscles are stored as columns: a paired muscle has a left and a right column, an unpaired one has a single column.
 #pragma once
 
 #include <array>
@@ -15,43 +16,44 @@
 
 namespace risorius::track {
 
+/// A muscle as a channel.
 struct MuscleChannel {
-    std::string id;  ///< as in the rig's muscle table
+    std::string id;  ///< name in the rig's muscle table
     bool paired = true;
-    double min = 0.0;  ///< -1 for muscles with tonic drive that can be removed (levator palpebrae)
+    double min = 0.0;  ///< -1 for muscles with resting tone that can be reduced (levator palpebrae)
 };
 
-/// Channels that no muscle drives. The order is the order of Drive::kinematic.
+/// Channels that place something directly, without muscles. Drive::kinematic has the same order.
 enum class Kinematic {
-    // Ratio of the rig's range; side > 0 is the subject's left
+    // Fraction of the rig's range; side > 0 is the subject's left.
     kJawOpen,
     kJawForward,
     kJawSide,
-    // deg; yaw > 0 looks to the subject's left, pitch > 0 up
+    // deg; yaw > 0 looks to the subject's left, pitch > 0 up.
     kGazeYawLeft,
     kGazeYawRight,
     kGazePitchLeft,
     kGazePitchRight,
-    // deg; yaw > 0 turns to the subject's left, pitch > 0 up, roll > 0 tilts to the subject's left shoulder
+    // deg; yaw > 0 turns to the subject's left, pitch > 0 up, roll > 0 tilts to the subject's left shoulder.
     kHeadYaw,
     kHeadPitch,
     kHeadRoll,
-    // mm; side > 0 is the subject's left
+    // mm; side > 0 is the subject's left.
     kHeadForward,
     kHeadUp,
     kHeadSide,
-    // Pa in the oral cavity, > 0 puffs the cheeks
+    // Pressure in the oral cavity, Pa; > 0 puffs the cheeks.
     kMouthPressure,
-    // Ratio of the rig's protrusion range
+    // Fraction of the rig's protrusion range.
     kTongueOut,
-    // Ratio of the curl of its tip, up or down
+    // Curl of the tip, [-1, 1]: > 0 up, < 0 down.
     kTongueUp,
     kCount
 };
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
 using KinematicValues = std::array<double, kKinematicCount>;
 
-/// Name of a kinematic channel in scripts, and its limits. Limits of gaze and head are adult norms.
+/// Name of a kinematic channel in scripts, and its limits. The limits of gaze and head are adult norms.
 struct KinematicChannel {
     std::string_view name;  ///< with its side, "gaze_yaw_deg.l"
     double min;
@@ -61,21 +63,23 @@ struct KinematicChannel {
 /// In the order of Kinematic.
 const std::array<KinematicChannel, kKinematicCount>& kinematic_channels();
 
-/// The channels for a name in a script: one, or both eyes when a gaze channel has no side; empty when unknown.
+/// The channels of a name in a script: one channel, or those of both eyes when a gaze channel has no side. Empty when the name
+/// is unknown.
 std::vector<Kinematic> kinematic_named(std::string_view name);
 
-/// "zygomaticus_major.l" -> "zygomaticus_major" and left; without suffix no side.
+/// "zygomaticus_major.l" is "zygomaticus_major" and left. A name without suffix has no side.
 struct SidedName {
     std::string id;
     std::optional<Side> side;
 };
 SidedName split_side(std::string_view name);
 
+/// The muscles of a rig as columns. The order is that of `muscles`, left before right.
 struct ChannelTable {
     std::vector<MuscleChannel> muscles;
 
     int column_count() const;
-    /// Column of a muscle, -1 when unknown. For an unpaired muscle both sides give its one column.
+    /// Column of a muscle; -1 when unknown. For an unpaired muscle, both sides give its one column.
     int column(const std::string& id, Side side) const;
     /// Null when unknown.
     const MuscleChannel* find(const std::string& id) const;
@@ -85,7 +89,8 @@ struct ChannelTable {
     std::vector<std::string> column_names() const;
 };
 
-/// What moves the jaw: the channels jaw_open, jaw_forward and jaw_side directly, or muscles, which these channels then excite.
+/// What moves the jaw. kChannels: jaw_open, jaw_forward and jaw_side place it directly. kMuscles: these channels excite the
+/// muscles of the jaw.
 enum class JawDrive { kChannels, kMuscles };
 
 /// Everything that drives a face at one moment.

@@ -67,7 +67,7 @@ void read_eyes(const JsonCursor& json, KinematicValues& values) {
     if (const auto v = json.find("pitch_deg")) pitch = read_within(*v, Kinematic::kGazePitchLeft);
     if (const auto v = json.find("converge_deg")) vergence += v->number({0, 60});
     if (const auto v = json.find("diverge_deg")) vergence -= v->number({0, 20});
-    // Vergence is the angle between the two lines of sight; the left eye turns to the subject's right.
+    // Vergence is the angle between the two lines of sight. Converging, the left eye turns to the subject's right.
     value(values, Kinematic::kGazeYawLeft) = yaw - vergence / 2;
     value(values, Kinematic::kGazeYawRight) = yaw + vergence / 2;
     value(values, Kinematic::kGazePitchLeft) = pitch;
@@ -178,10 +178,10 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
         side = sided.side;
     }
     if (!unit) {
-        // "AU30" alone: the units that name their side are the nearest thing to what was meant.
+        // "AU30" alone: the message names the units with a side, which were probably meant.
         if (facs.find(name + ".l") && facs.find(name + ".r"))
             place.fail(in_quotes(name + ".l") + " or " + in_quotes(name + ".r"), in_quotes(name));
-        // A number near another number is no likely slip.
+        // One unit number is not likely to be a misspelling of another.
         std::vector<std::string_view> known;
         if (!is_unit_number(split_side(name).id))
             for (const ActionUnit& u : facs.units) known.push_back(u.id);
@@ -238,7 +238,7 @@ Expressions read_expressions(const JsonCursor& json, const FacsTable& facs) {
             part.allow_keys({"value", "delay"});
             ExpressionUnit use{unit_named(part, unit, facs), 0};
             use.use.value = part.at("value").number({0, 1});
-            // A delay of the whole onset would leave no time to move.
+            // A delay as long as the onset would leave no time to move.
             if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
             expression.units.push_back(std::move(use));
         }
@@ -300,7 +300,7 @@ Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTa
         value(expansion.kinematic, Kinematic::kTongueOut) =
             *shape.tongue_out_mm / facs.ranges.tongue_out_mm;
     if (shape.tongue_up) value(expansion.kinematic, Kinematic::kTongueUp) = *shape.tongue_up;
-    // Units that overlap add up to more than a muscle can do.
+    // Overlapping units may add up to more than a muscle can do.
     expansion.excitation = expansion.excitation.cwiseMax(channels.column_min()).cwiseMin(1.0);
     return expansion;
 }

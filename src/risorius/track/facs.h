@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Action units of the Facial Action Coding System and expressions made of them: the muscles, jaw, eye and head movements of each. Tables:
-/// rigs/standard/facs.json and expressions.json.
+/// Action units of the Facial Action Coding System, and expressions made of them: the muscles, jaw, eye and head movements of
+/// each. The tables are rigs/standard/facs.json and expressions.json.
 ///
-/// A unit restricted to one side keeps the muscles and eye of that side and half of everything that has no sides. Left and right together
-/// are the whole unit.
+/// A unit that is restricted to one side keeps the muscles and the eye of that side, and half of everything that has no sides.
+/// The left and the right unit add up to the whole unit.
 #pragma once
 
 #include <optional>
@@ -18,72 +18,77 @@
 
 namespace risorius::track {
 
+/// The part of a muscle in a unit.
 struct MuscleShare {
     std::string muscle;
-    std::optional<Side> side;  ///< none: both
-    double weight = 0;         ///< excitation at full intensity, ratio
+    std::optional<Side> side;  ///< none: both sides
+    double weight = 0;         ///< excitation at full intensity
 };
 
-/// Movement of the jaw at full intensity; unset where the table does not give it.
+/// Movement of the jaw at full intensity. Fields are unset where the table does not give them.
 struct JawShare {
-    std::optional<double> open;  ///< ratio of the opening range
+    std::optional<double> open;  ///< fraction of the opening range
     std::optional<double> protrude_mm;
     std::optional<double> lateral_mm;  ///< > 0 to the subject's left
 };
 
+/// A row of the table of units.
 struct ActionUnit {
     std::string id;      ///< "AU12", "AU30.l"
     std::string name;    ///< "Lip corner puller"
-    bool sided = false;  ///< may be restricted with .l or .r
+    bool sided = false;  ///< may be restricted to a side with .l or .r
     std::vector<MuscleShare> muscles;
     KinematicValues kinematic{};
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
-    std::vector<std::pair<std::string, Vec3>>
-        landmark_targets_mm;  ///< left or midline landmark -> displacement
+    /// Left or midline landmark, and its displacement.
+    std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
 };
 
-/// A unit in a list, with its intensity.
+/// A unit with its intensity, as an entry of a list.
 struct UnitUse {
     std::string unit;  ///< id in FacsTable::units
     std::optional<Side> side;
     double value = 1;  ///< intensity, [0, 1]
 };
 
-/// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace those of the
-/// units.
+/// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace
+/// those of the units.
 struct ArkitShape {
     std::string name;
     std::vector<UnitUse> units;
     std::vector<MuscleShare> muscles;
     JawShare jaw;
-    std::optional<double> tongue_out_mm, tongue_up;  ///< up: ratio, [-1, 1]
+    std::optional<double> tongue_out_mm, tongue_up;  ///< tongue_up: curl of the tip, [-1, 1]
 };
 
-/// Converts the lengths of the tables, mm, to the ratios of the kinematic channels.
+/// Ranges that convert lengths in the tables, mm, to fractions of the kinematic channels.
 struct FacsRanges {
     double jaw_forward_mm = 9;
     double jaw_side_mm = 8;
     double tongue_out_mm = 45;
 };
 
+/// Everything that facs.json defines.
 struct FacsTable {
     FacsRanges ranges;
     std::vector<ActionUnit> units;
     std::vector<ArkitShape> arkit;
-    std::vector<ArkitShape> visemes;                      ///< empty in rigs of earlier versions
+    std::vector<ArkitShape> visemes;                      ///< empty in rigs of older versions
     const ActionUnit* find(const std::string& id) const;  ///< null when unknown
     const ArkitShape* find_arkit(const std::string& name) const;  ///< null when unknown
 };
 
-/// Throws Error on muscles the rig does not have, units it does not know and weights outside the muscle's range.
+/// Throws Error for muscles that the rig does not have, unknown units, and weights outside the muscle's range.
 FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels);
 
+/// A unit of an expression, with its delay.
 struct ExpressionUnit {
     UnitUse use;
-    double delay =
-        0;  ///< start of the unit after the first one, as a fraction of the onset, [0, 0.9]
+    /// Start of the unit after that of the first one, as a fraction of the onset, [0, 0.9]
+    double delay = 0;
 };
 
+/// A named set of units with usual times.
 struct Expression {
     std::string name;
     double onset_s = 0.5;  ///< usual durations, for scripts that give none
@@ -97,9 +102,10 @@ struct Expressions {
     const Expression* find(const std::string& name) const;  ///< null when unknown
 };
 
+/// Reads expressions.json. Throws Error for unknown units and values outside their ranges.
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
 
-/// What a source of value 1 adds to the drive.
+/// Contribution of a source with value 1 to the drive.
 struct Expansion {
     Eigen::VectorXd excitation;  ///< per column
     KinematicValues kinematic{};
@@ -112,14 +118,15 @@ Expansion expand(const MuscleShare& fraction, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);
 Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels);
 
-/// "zygomaticus_major.l" with weight 1. Throws Error at `place` for an unknown muscle or a side that it does not have.
+/// "zygomaticus_major.l" with weight 1. Throws Error at `place` for an unknown muscle, or for a side it does not have.
 MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
                          const ChannelTable& channels);
 
-/// Whether a name is "AU" and a number, in a table or not.
+/// True for "AU" and a number, whether a table has the unit or not.
 bool is_unit_number(std::string_view name);
 
-/// "AU12.l" as a use of value 1. Throws at `place` for a unit that is unknown, has no sides, or cannot be moved by a rig.
+/// "AU12.l" as a use with value 1. Throws Error at `place` for a unit that is unknown, that has no sides, or that the rig
+/// cannot show.
 UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsTable& facs);
 
 }  // namespace risorius::track

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How a face goes from one drive to the next.
+/// How a face moves from one drive to the next.
 #pragma once
 
 namespace risorius::track {
 
-/// kDynamic: with inertia, damping and time for muscles to act. kQuasiStatic: every frame is in equilibrium with its drive, and
-/// excitation is taken as activation.
+/// kDynamic: with inertia, damping and activation dynamics. kQuasiStatic: every frame is an equilibrium under its drive, and
+/// excitation is used as activation.
 enum class Motion { kDynamic, kQuasiStatic };
 
 }  // namespace risorius::track

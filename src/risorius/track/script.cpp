@@ -18,9 +18,9 @@ namespace {
 constexpr double kLongest_s = 3600;
 constexpr double kMaxGravity_m_s2 = 50;
 constexpr double kMaxAsymmetry = 0.5;
-constexpr double kLatestSide_s =
-    0.040;  // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart
-constexpr double kBlinkApart_s = 0.3;  // of idle blinks from those a script writes
+// Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart.
+constexpr double kLatestSide_s = 0.040;
+constexpr double kBlinkApart_s = 0.3;  // minimum distance of idle blinks from blinks in the script
 
 ScriptLight read_light(const JsonCursor& json) {
     ScriptLight light;
@@ -116,7 +116,7 @@ ScriptHeader read_header(const JsonCursor& json) {
     return header;
 }
 
-/// Resolves the names of one script against one rig.
+/// Resolves the names in a script against a rig.
 class Reader {
   public:
     Reader(const ChannelTable& channels, const FacsTable& facs, const Expressions& expressions)
@@ -172,14 +172,14 @@ class Reader {
         event.offset_s = optional_number(json, "offset_s", usual->offset_s, {0, 60});
         event.side = read_side(json);
         event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMaxAsymmetry});
-        // Chance is drawn the same way by every standard library
+        // Random numbers are drawn in a way that is the same for every standard library.
         std::seed_seq seed{header.seed, number};
         std::mt19937 random(seed);
         const Side weaker = random() % 2 ? Side::kLeft : Side::kRight;
         const double chance = (random() >> 8) * 0x1p-24;
         const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
         for (const ExpressionUnit& part : usual->units) {
-            // A unit that is one-sided in the table moves over to the side the event asks for.
+            // A unit that is one-sided in the table moves to the side that the event asks for.
             const std::optional<Side> side = event.side ? event.side : part.use.side;
             const ActionUnit& unit = *facs_.find(part.use.unit);
             const auto add = [&](std::optional<Side> on, double fraction, double delay) {
@@ -232,7 +232,7 @@ class Reader {
         return event;
     }
 
-    /// Of an idle face, but for those that fall together with what a script writes.
+    /// Adds the blinks of an idle face, except those that coincide with blinks in the script.
     void add_idle_blinks(const JsonCursor& json, const IdleEvent& idle,
                          std::vector<BlinkEvent>& blinks) const {
         const std::vector<BlinkEvent> written = blinks;
@@ -259,7 +259,7 @@ class Reader {
         event.drives.add(expand(*unit, event.side, channels_), event.intensity);
     }
 
-    /// Also gives the range of the channel's values and whether it is a muscle.
+    /// Also returns the range of the channel's values, and whether it is a muscle.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
                       bool& is_muscle) const {
         const std::vector<Kinematic> kinematic = kinematic_named(name);
@@ -355,7 +355,7 @@ namespace {
 
 constexpr const char* kSideNames[] = {"left", "right"};
 
-// "left", "right", or a muscle with or without a side
+// Reads the weakness of "left", "right", or a muscle with or without a side.
 void read_weakness(const JsonCursor& json, const std::string& name, const ChannelTable& channels,
                    Eigen::VectorXd& weakness) {
     const double value = json.number({0, 1});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A script as read: the rig, the duration, all channels over time, expressions and blinks, and the view.
-/// JSON format "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
+/// A script as read: the rig, the duration, all channels over time, expressions, blinks and the view. The JSON format is
+/// "risorius-script", version 1; field names are its keys. Channels are already resolved against a rig.
 #pragma once
 
 #include <array>
@@ -21,12 +21,13 @@ namespace risorius::track {
 /// "light" of a view; see render::LightOptions.
 struct ScriptLight {
     std::string preset = "studio";
-    std::filesystem::path
-        file;  ///< Radiance .hdr of the surroundings, in place of the preset; empty: none
+    /// Radiance .hdr of the surroundings, instead of the preset; empty: none.
+    std::filesystem::path file;
     double turn_deg = 0;     ///< [-360, 360]
     double exposure_ev = 0;  ///< [-10, 10]
 };
 
+/// The "view" of a script.
 struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
@@ -35,8 +36,9 @@ struct ScriptView {
     bool orthographic = false;                         ///< "projection"
     std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
     double aperture_mm = 0;
-    double shutter_deg = 0;  ///< 0..360 of a frame that the shutter is open, around its time
-    int antialiasing = 2;    ///< 1..4 samples per pixel and side
+    /// Time that the shutter is open, centred at the frame's time; 360 is the whole frame, [0, 360].
+    double shutter_deg = 0;
+    int antialiasing = 2;  ///< 1..4 samples per pixel and side
     ScriptLight light;
     bool transparent = false;  ///< background "transparent"
     std::array<double, 3> background_rgb{0x80 / 255.0, 0x80 / 255.0, 0x80 / 255.0};  ///< sRGB 0..1
@@ -51,7 +53,7 @@ struct ScriptHeader {
     int seed = 1;
     JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
     Motion motion = Motion::kDynamic;    ///< "dynamic" or "quasi_static"
-    /// true: 9.81 m/s^2 downwards; false, none here: however the head is held it hangs as upright; or a vector
+    /// true: 9.81 m/s^2 downwards. false: none; the face hangs as when upright, whatever the pose of the head. Or a vector.
     std::optional<Vec3> gravity_m_s2{Vec3(0, -9.81, 0)};
     ScriptView view;
 
@@ -61,30 +63,32 @@ struct ScriptHeader {
 /// Frame n shows time n / fps.
 int frame_count(double duration_s, int fps);
 
+/// The course of one channel over time.
 struct ChannelTrack {
     std::string name;  ///< "AU6.l"
     std::vector<Key> keys;
     Interpolation interpolation = Interpolation::kSmooth;
-    bool activation = false;  ///< sets activation directly, without activation dynamics
-    Expansion drives;         ///< what the channel at 1 adds
+    bool activation = false;  ///< sets activation directly, bypassing activation dynamics
+    Expansion drives;         ///< contribution of the channel at value 1
 };
 
-/// Rises along a minimum-jerk curve, is held, and falls again. Every unit has its own delay within the onset.
+/// An expression rises along a minimum-jerk curve, is held and falls again. Every unit has its own delay within the onset.
 struct ExpressionEvent {
     struct Part {
         Expansion drives;  ///< at the intensity of the event
-        double delay = 0;  ///< ratio of the onset
-        UnitUse use;       ///< the same as a unit, its value that in the event
+        double delay = 0;  ///< fraction of the onset
+        UnitUse use;       ///< the part as a unit, with its value in the event
     };
     std::string expression;
-    std::optional<Side> side;  ///< none: as the table says
+    std::optional<Side> side;  ///< none: as in the table
     double intensity = 1;      ///< [0, 1]
-    double asymmetry =
-        0;  ///< largest random reduction of one side, which also starts up to 40 ms late, [0, 0.5]
+    /// Maximum random reduction of one side, which also starts up to 40 ms late, [0, 0.5]
+    double asymmetry = 0;
     double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
     std::vector<Part> parts;
 };
 
+/// A blink; see timeline.h for its course.
 struct BlinkEvent {
     double start_s = 0;
     double duration_s = 0.22;  ///< from the start of the drive until the lids are open again
@@ -97,31 +101,34 @@ struct BlinkEvent {
 struct EmgTrack {
     std::string muscle;  ///< "zygomaticus_major.l"
     SampledCurve excitation;
-    Expansion drives;  ///< what a value of 1 adds
+    Expansion drives;  ///< contribution of a value of 1
 };
 
+/// A whole script, resolved against a rig.
 struct ScriptDescription {
     ScriptHeader header;
     std::vector<ChannelTrack> channels;
     std::vector<EmgTrack> emg;
     std::vector<ExpressionEvent> expressions;
-    std::vector<BlinkEvent> blinks;  ///< those of idle events too
+    std::vector<BlinkEvent> blinks;  ///< includes those of idle events
     std::vector<IdleEvent> idle;
-    Eigen::VectorXd
-        weakness;  ///< per column, fraction of a muscle's strength that is missing, [0, 1]; empty: none
-    std::array<double, 2> late_s{0, 0};             ///< delay of all muscles of a side, [0, 10]
-    std::vector<std::filesystem::path> recordings;  ///< files read besides the script's own
+    /// Per column; fraction of a muscle's strength that is missing, [0, 1]; empty: none.
+    Eigen::VectorXd weakness;
+    std::array<double, 2> late_s{0, 0};  ///< delay of all muscles of a side, [0, 10]
+    /// Files that were read besides the script itself.
+    std::vector<std::filesystem::path> recordings;
 };
 
-/// Reads the header and leaves channels and events for later. Throws Error.
+/// Reads only the header, without channels and events. Throws Error.
 ScriptHeader read_script_header(const std::filesystem::path& file);
 ScriptHeader read_script_header(const JsonCursor& script);
 
-/// Reads everything and checks it against the rig. Throws Error that names file, place, the expected and the found value.
+/// Reads everything and checks it against the rig. Throws Error that names the file, the place, and the expected and the found
+/// value.
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions);
 
-/// For scripts already in memory.
+/// For scripts that are in memory.
 ScriptDescription read_script(const JsonCursor& script, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions);
 

@@ -11,12 +11,12 @@ namespace risorius::track {
 
 namespace {
 
-constexpr double kRate_hz = 240;  // every usual frame rate divides it
+constexpr double kRate_hz = 240;  // a multiple of every usual frame rate
 constexpr double kLowPass_hz = 6;
 constexpr int kOrder = 2;
-constexpr long kReach = 120;  // samples to either side, beyond which the kernel is below 1e-7
+constexpr long kReach = 120;  // samples to either side; beyond them the kernel is below 1e-7
 
-/// What both passes of the filter make of one sample, cut at kReach and made to sum up to 1.
+/// Response of both passes of the filter to one sample, cut at kReach and normalised to sum 1.
 std::vector<double> two_sided_kernel() {
     std::vector<double> impulse(static_cast<std::size_t>(4 * kReach + 1), 0.0);
     impulse[static_cast<std::size_t>(2 * kReach)] = 1;
@@ -55,12 +55,12 @@ Eigen::VectorXd SimulatedEmg::envelope(long sample) {
 
 Eigen::VectorXd SimulatedEmg::at(double t_s) {
     const double place = t_s * kRate_hz;
-    // A frame's time is a multiple of 1 / fps only up to rounding.
+    // The time of a frame is a multiple of 1 / fps only up to rounding.
     const double near = std::round(place);
     const bool is_sample = std::abs(place - near) < 1e-6;
     const long sample = static_cast<long>(is_sample ? near : std::floor(place));
 
-    // Forget what is behind, or begin anew after a step back or a leap.
+    // Drops old samples, or starts anew after a step back or a large step forward.
     const long begin = sample - kReach;
     if (begin < first_ || begin > first_ + static_cast<long>(activity_.size())) {
         activity_.clear();

@@ -67,7 +67,7 @@ Drive Timeline::together_at(double t_s) const {
     Expansion sum;
     sum.excitation = Eigen::VectorXd::Zero(column_min_.size());
 
-    // What adds up
+    // Sources that are added.
     for (const Source& source : sources_) sum.add(source.drives, source.curve.at(t_s));
     for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
@@ -78,7 +78,7 @@ Drive Timeline::together_at(double t_s) const {
         const double end_s = blink.start_s + blink.duration_s - kBlinkReopening_s;
         if (t_s < blink.start_s || t_s >= end_s) continue;
         const bool fires = t_s >= blink.start_s + kBlinkLead_s;
-        // Drive taken away (the levator) leads drive given (orbicularis).
+        // The loss of drive (levator) precedes the new drive (orbicularis).
         sum.excitation += fires ? blink.drives.excitation
                                 : Eigen::VectorXd(blink.drives.excitation.cwiseMin(0.0));
     }
@@ -88,14 +88,14 @@ Drive Timeline::together_at(double t_s) const {
         for (std::size_t k = 0; k < values.size(); ++k) sum.kinematic[k] += values[k];
     }
 
-    // What a face can do
+    // Limits to what a face can do.
     Drive drive;
     drive.excitation = sum.excitation.cwiseMax(column_min_).cwiseMin(1.0);
     for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
         drive.kinematic[k] =
             std::clamp(sum.kinematic[k], kinematic_channels()[k].min, kinematic_channels()[k].max);
 
-    // Activation set directly: two tracks of one muscle add up as well
+    // Activation that is set directly: several tracks of one muscle are added, too.
     constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
     drive.activation = Eigen::VectorXd::Constant(column_min_.size(), kUnset);
     for (const DirectActivation& direct : activations_)

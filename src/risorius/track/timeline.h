@@ -2,10 +2,12 @@
 /// \file
 /// A script at any moment: the drive of every muscle, the jaw, the eyes and the head.
 ///
-/// Sources of one muscle or channel are added and clamped to its range. A blink is two pulses of AU45: the levator of the lid falls silent,
-/// 10 ms later orbicularis oculi fires, and both end together. Through activation dynamics the lids meet after 70 to 80 ms and are open
-/// again at the end of the blink. Muscles of a side may be delayed and any muscle may be weak; both also apply to activation set directly.
-/// Source of the blink: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
+/// The sources of a muscle or channel are added, and the sum is clamped to its range. A blink is two pulses of AU45: the
+/// levator of the lid becomes silent, 10 ms later orbicularis oculi fires, and both pulses end together. With activation
+/// dynamics, the lids meet after 70 to 80 ms and are open again at the end of the blink. The muscles of a side may be delayed,
+/// and any muscle may be weak. Both also apply to activation that is set directly.
+///
+/// Source for blinks: VanderWerf et al. 2003, J. Neurophysiol. 89, 2784-2796 (down phase 66-78 ms, up phase 120-200 ms).
 #pragma once
 
 #include <array>
@@ -16,18 +18,19 @@
 
 namespace risorius::track {
 
-/// Orbicularis starts this long after the levator has fallen silent.
+/// Time from the silence of the levator to the start of orbicularis.
 inline constexpr double kBlinkLead_s = 0.010;
 /// Time from the end of the pulses until the lids are open again.
 inline constexpr double kBlinkReopening_s = 0.140;
 /// A shorter blink would end before orbicularis fires.
 inline constexpr double kShortestBlink_s = 0.160;
 
+/// Evaluates a script.
 class Timeline {
   public:
     Timeline(const ScriptDescription& script, const ChannelTable& channels);
 
-    /// Takes microseconds. Call it at every simulation step: a blink is short, and steps above 5 ms smear it.
+    /// Takes microseconds. It should be called at every simulation step: a blink is short, and steps above 5 ms blur it.
     Drive at(double t_s) const;
 
   private:
@@ -49,12 +52,12 @@ class Timeline {
     std::vector<BlinkEvent> blinks_;
     std::vector<IdleMotion> idle_;
     Eigen::VectorXd column_min_;
-    Eigen::VectorXd strength_;  ///< per column, or empty: all have their own
+    Eigen::VectorXd strength_;  ///< per column; empty: all muscles have full strength
     std::array<double, 2> late_s_;
-    std::array<std::vector<int>, 2> side_columns_;  ///< of paired muscles
+    std::array<std::vector<int>, 2> side_columns_;  ///< columns of paired muscles
 };
 
-/// Fraction of an expression's unit at t: 0 before its delayed onset, 1 while held, 0 after the offset.
+/// Fraction of an expression's unit at t: 0 before its delayed onset, 1 while it is held, 0 after the offset.
 double expression_profile(const ExpressionEvent& event, double delay, double t_s);
 
 }  // namespace risorius::track

@@ -2,8 +2,8 @@
 /// \file
 /// Intensity of every action unit of a script at any moment, left and right, as a FACS coder would rate it.
 ///
-/// From channels of units, expressions and blinks only; muscles and recordings do not name a unit. The sum of sources is limited to 1. A
-/// blink is AU45 from the start of its drive until the lids are released.
+/// Only channels of units, expressions and blinks count, because muscles and recordings do not name a unit. The sum of the
+/// sources is limited to 1. A blink is AU45 from the start of its drive until the lids are released.
 #pragma once
 
 #include <string>
@@ -13,13 +13,14 @@
 
 namespace risorius::track {
 
+/// Evaluates the units of a script.
 class UnitIntensity {
   public:
     UnitIntensity(const ScriptDescription& script, const FacsTable& facs);
 
-    /// "AU1.l", "AU1.r", "AU25", ...: two names for every unit with sides; without units that no face can show.
+    /// "AU1.l", "AU1.r", "AU25", ...: two names for every unit with sides. Units that no face can show are left out.
     const std::vector<std::string>& names() const { return names_; }
-    /// In that order, [0, 1].
+    /// Intensities in the order of names(), [0, 1].
     std::vector<double> at(double t_s) const;
 
   private:
@@ -31,7 +32,7 @@ class UnitIntensity {
     };
     struct Unit {
         std::string id;
-        int first = 0;  ///< of its one or two names
+        int first = 0;  ///< index of its first name; a unit has one or two
         bool sided = false;
     };
     std::vector<Unit> units_;

@@ -7,10 +7,10 @@ namespace risorius::contact {
 
 namespace {
 
-/// How b - a depends on corner i.
+/// Derivative of b - a by corner i.
 constexpr double kAlong[3] = {-1, 1, 0};
 
-/// How the side that corner i's turn runs along depends on corner j: b - c, c - a, a - b.
+/// Derivative by corner j of the side that belongs to the rotation by corner i: b - c, c - a, a - b.
 double side_fraction(int i, int j) { return j == i ? 0.0 : (j == (i + 1) % 3 ? 1.0 : -1.0); }
 
 }  // namespace
@@ -27,7 +27,7 @@ CarriedFrame::CarriedFrame(const Vec3& p, const std::array<Vec3, 3>& corners, co
     offset_ = p - weights(0) * corners[0] - weights(1) * corners[1] - weights(2) * corners[2];
     place_ = axes_.transpose() * offset_;
 
-    // The normal tips as corners leave the plane; the first side carries the rest of the turn with it
+    // The normal tilts when corners leave the plane. The first side determines the rest of the rotation.
     const Vec3 e2 = axes_.col(1), e3 = axes_.col(2);
     const Mat3 d_cross = cross_matrix(offset_), back = axes_.transpose();
     spin_[0].setZero();
@@ -40,7 +40,7 @@ CarriedFrame::CarriedFrame(const Vec3& p, const std::array<Vec3, 3>& corners, co
 }
 
 Mat3 CarriedFrame::second_slope(const Vec3& y, int first, int second) const {
-    // The first derivative by p is Y = R y; by corner i it is -w_i Y + spin_i^T m with m = Y x d
+    // The first derivative by p is Y = R y; by corner i it is -w_i Y + spin_i^T m with m = Y x d.
     const Vec3 Y = axes_ * y, m = Y.cross(offset_);
     const Mat3& spin = spin_[second];
     const Mat3 dY = -cross_matrix(Y) * spin;
@@ -52,10 +52,10 @@ Mat3 CarriedFrame::second_slope(const Vec3& y, int first, int second) const {
     Mat3 sum = -weights_(i) * dY + spin_[first].transpose() * dm;
     if (second == 0) return sum;
 
-    // ... and what changes in spin_i itself
+    // The change of spin_i itself.
     const Mat3 de3 = -cross_matrix(e3) * spin, de2 = -cross_matrix(e2) * spin;
-    const Vec3 area_fraction =
-        -e3.cross(turn_[j]);  // gradient of the area by corner j, over the area
+    // Gradient of the area by corner j, divided by the area.
+    const Vec3 area_fraction = -e3.cross(turn_[j]);
     const double k = kAlong[i] / length_, tip = e3.dot(m);
     sum -= turn_[i].dot(m) * de3;
     sum -=

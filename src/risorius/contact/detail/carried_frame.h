@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Place of a point as a triangle sees it, with derivatives. Whatever depends on it alone neither pushes nor turns the two
-/// together: its forces and torques cancel exactly.
+/// Coordinates of a point in the frame of a triangle, with derivatives. An energy that depends only on them neither translates
+/// nor rotates the pair of point and triangle: its forces and torques cancel exactly.
 ///
 ///   a, b, c   corners     e1 along b - a, e3 normal, e2 = e3 x e1     R = (e1 e2 e3)
-///   d = p - (w_a a + w_b b + w_c c), w frozen      xi = R^T d
+///   d = p - (w_a a + w_b b + w_c c), w constant      xi = R^T d
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@
 
 namespace risorius::contact {
 
-/// Order of the four points everywhere: p, a, b, c.
+/// The four points are always in the order p, a, b, c.
 class CarriedFrame {
   public:
-    /// `weights` of the corners, sum 1. The triangle must have an area.
+    /// `weights` of the corners have the sum 1. The triangle must have an area.
     CarriedFrame(const Vec3& p, const std::array<Vec3, 3>& corners, const Vec3& weights);
 
     const Vec3& place() const { return place_; }  ///< xi
     const Mat3& axes() const { return axes_; }    ///< R
-    /// d xi / d point.
+    /// d xi / d point, 3 x 3.
     const Mat3& slope(int point) const { return slope_[point]; }
-    /// Second derivative of y . xi over two of the points, rows those of the first.
+    /// Second derivative of y . xi by two of the points; its rows belong to the first.
     Mat3 second_slope(const Vec3& y, int first, int second) const;
 
   private:
     Vec3 weights_, offset_, place_;  // offset_: d
     Mat3 axes_;
-    double length_;             // of b - a
+    double length_;             // length of b - a
     std::array<Vec3, 3> turn_;  // e3 x gradient of each barycentric coordinate, 1/m
     double twice_area_;
-    std::array<Mat3, 4> spin_;  // rotation of the frame by motion of each point; zero for p
+    std::array<Mat3, 4> spin_;  // rotation of the frame per motion of each point; zero for p
     std::array<Mat3, 4> slope_;
 };
 

@@ -102,7 +102,7 @@ std::optional<Nearest> ClosedSurface::nearest(const Vec3& p, double max_distance
     Nearest nearest;
     static_cast<geom::SurfacePoint&>(nearest) = *found;
 
-    // On a corner, a side or the face itself
+    // On a corner, on a side, or inside the face.
     constexpr double kOnSide = 1e-12;
     int corner = -1, off_corner = -1, zeros = 0;
     for (int k = 0; k < 3; ++k) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A closed triangle surface that tells inside from outside and may be deformed: exact signed distances.
+/// A closed triangle surface that distinguishes inside from outside and may be deformed: exact signed distances.
 ///
-/// The sign is that of the distance along the angle-weighted normal of the nearest face, edge or vertex, which is right at
-/// corners too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
+/// The sign comes from the distance along the angle-weighted normal of the nearest face, edge or vertex. It is right at corners
+/// too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
 #pragma once
 
 #include <limits>
@@ -16,23 +16,23 @@
 
 namespace risorius::contact {
 
-/// Nearest point of the surface, seen from p.
+/// The point of the surface that is nearest to p.
 struct Nearest : geom::SurfacePoint {
-    double gap_m = 0;             ///< signed distance of p
-    Vec3 normal = Vec3::UnitZ();  ///< angle-weighted, out of the surface, length 1
+    double gap_m = 0;             ///< signed distance of p, negative inside
+    Vec3 normal = Vec3::UnitZ();  ///< angle-weighted normal out of the surface, length 1
 };
 
 class ClosedSurface {
   public:
-    /// Throws Error unless every edge joins exactly two triangles that run along it in opposite ways, the volume is
-    /// positive and all is finite.
+    /// Throws Error unless every edge joins exactly two triangles that run along it in opposite directions, the volume is
+    /// positive, and all positions are finite.
     ClosedSurface(const Points& positions, const Triangles& triangles,
                   const std::string& place = "mesh");
 
-    /// Same triangles, moved.
+    /// Moves the surface. The triangles stay the same.
     void refit(const Points& positions);
 
-    /// Empty when nothing is within `max_distance_m`. Queries may run in parallel.
+    /// Empty when nothing lies within `max_distance_m`. Queries may run in parallel.
     std::optional<Nearest> nearest(
         const Vec3& p, double max_distance_m = std::numeric_limits<double>::infinity()) const;
 
@@ -46,10 +46,10 @@ class ClosedSurface {
     Triangles edge_of_side_;
     int edge_count_ = 0;
     geom::SurfaceTree tree_;
-    Points face_normals_, edge_normals_, vertex_normals_;  // length 1, or 0 where there is no area
+    Points face_normals_, edge_normals_, vertex_normals_;  // length 1; 0 where there is no area
 };
 
-/// Volume inside, m^3; negative when the surface faces inwards.
+/// Volume inside the surface, m^3; negative when it faces inwards.
 double enclosed_volume(const Points& positions, const Triangles& triangles);
 
 }  // namespace risorius::contact

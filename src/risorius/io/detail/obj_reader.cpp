@@ -14,11 +14,11 @@ namespace risorius::io::detail {
 namespace {
 
 constexpr int kNoTexCoord = -1;
-const std::string kDefaultGroup = "default";  // the name the format gives to faces before any "g"
+const std::string kDefaultGroup = "default";  // the format's name for faces before any "g"
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// What stands in the file at an error, kept short and printable.
+/// The text at an error in the file, shortened and printable.
 std::string in_quotes(std::string_view text) {
     std::string out = "\"";
     for (const char c : text.substr(0, 24)) out += (c >= 32 && c < 127) ? c : '?';
@@ -35,7 +35,7 @@ class ObjReader {
         std::string joined;
         while (at < text_.size()) {
             std::string_view line = next_line(at);
-            // A backslash at the end of a line continues it on the next.
+            // A backslash at the end of a line continues it on the next line.
             if (!line.empty() && line.back() == '\\') {
                 joined.assign(line.substr(0, line.size() - 1));
                 while (at < text_.size()) {
@@ -124,7 +124,7 @@ class ObjReader {
         }
     }
 
-    /// OBJ counts from 1, and from the latest backwards when negative.
+    /// OBJ counts from 1; negative indices count backwards from the latest element.
     int resolve(int index, std::size_t count, const char* what) const {
         const int n = static_cast<int>(count);
         const int resolved = index > 0 ? index - 1 : n + index;
@@ -168,7 +168,7 @@ class ObjReader {
         return {result.ptr, result.ec};
     }
 
-    /// A "g" line may list several names; they stay one name with spaces, as written.
+    /// A "g" line may list several names. They stay one name with spaces, as written.
     static int group_named(std::string_view rest, std::vector<std::string>& names,
                            std::unordered_map<std::string, int>& index) {
         while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
@@ -187,7 +187,7 @@ class ObjReader {
                 name_, expected,
                 "none (line " + std::to_string(stranger_line_) + " begins with " + stranger_ + ")");
         }
-        // An index may point ahead of its face, so the upper end is only known now.
+        // An index may point to an element after its face, so the upper limit is only known now.
         const int vertex_count = static_cast<int>(positions_.size());
         const int texcoord_count = static_cast<int>(texcoords_.size());
         bool any_texcoord = false;
@@ -221,7 +221,7 @@ class ObjReader {
         return mesh;
     }
 
-    /// Groups in the order of their first face, so that a name without faces is no group.
+    /// Sorts groups by their first face. A name without faces is not a group.
     void name_groups(geom::PolygonMesh& mesh) const {
         const bool by_material = !has_groups_ && !material_names_.empty();
         const std::vector<std::string>& names = by_material ? material_names_ : group_names_;

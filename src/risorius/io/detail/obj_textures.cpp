@@ -20,7 +20,7 @@ std::string trimmed(const std::string& text) {
     return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-/// The name of a picture after the options of "map_Kd"; those that would move it over the surface are refused.
+/// The name of a picture after the options of "map_Kd". Options that would move it over the surface are rejected.
 std::string picture_name(std::string rest, const std::string& place) {
     static const std::map<std::string, int> kValuesOf{{"-blendu", 1}, {"-blendv", 1},  {"-cc", 1},
                                                       {"-clamp", 1},  {"-boost", 1},   {"-mm", 2},
@@ -42,7 +42,7 @@ std::string picture_name(std::string rest, const std::string& place) {
     return rest;
 }
 
-/// Material -> picture.
+/// Adds the picture of each material of an MTL file.
 void read_library(const std::filesystem::path& file,
                   std::map<std::string, geom::Texture>& textures) {
     std::ifstream in(file);

@@ -10,8 +10,8 @@
 
 namespace risorius::io::detail {
 
-/// Assigns to faces the picture of their material's "map_Kd". MTL files that do not exist are ignored, as other programs do; whether the
-/// picture exists is not checked. Throws Error for a "map_Kd" that cannot be interpreted.
+/// Assigns to faces the picture of their material's "map_Kd". MTL files that do not exist are ignored, as other programs do.
+/// Whether the picture exists is not checked. Throws Error for a "map_Kd" that cannot be interpreted.
 void add_obj_textures(const std::filesystem::path& obj, const ObjMaterials& materials,
                       geom::PolygonMesh& mesh);
 

@@ -26,7 +26,7 @@ Rigid::MatrixType matrix4(const aiMatrix4x4& m) {
     return out;
 }
 
-/// FBX states its unit in centimetres per unit and assimp leaves positions as they are.
+/// The unit that the file states, in metres. FBX states centimetres per unit, and assimp does not apply it to positions.
 double stated_metres_per_unit(const aiScene& scene) {
     constexpr double kMetresPerCentimetre = 0.01;
     if (!scene.mMetaData) return 1.0;
@@ -44,7 +44,7 @@ bool has_polygons(const aiMesh& mesh) {
                        [](const aiFace& face) { return face.mNumIndices >= 3; });
 }
 
-/// One vertex per face corner, in corner order: the file's indices did not survive the import.
+/// True when there is one vertex per face corner, in the order of corners: then the import has lost the file's indices.
 bool is_unrolled(const aiMesh& mesh) {
     unsigned next = 0;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f)
@@ -88,8 +88,7 @@ class SceneReader {
             const aiMesh* mesh = scene_.mMeshes[node.mMeshes[m]];
             if (has_polygons(*mesh)) meshes.push_back(mesh);
         }
-        // A node whose faces assimp sorted by material is one surface: its corners are joined
-        // across those meshes.
+        // A node whose faces assimp has sorted by material is one surface. Its corners are joined across those meshes.
         std::map<Key, int> vertex_at;
         std::vector<int> first_vertex(meshes.size());
         for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -99,7 +98,7 @@ class SceneReader {
                 add_faces(*meshes[m], world, group, join_corners(*meshes[m], world, vertex_at));
                 continue;
             }
-            // glTF primitives of one mesh may share a vertex buffer, which assimp copies for each.
+            // glTF primitives of one mesh may share a vertex buffer, which assimp copies for each of them.
             first_vertex[m] = static_cast<int>(positions_.size());
             for (std::size_t before = 0; before < m; ++before)
                 if (same_vertices(*meshes[before], *meshes[m])) {
@@ -117,7 +116,7 @@ class SceneReader {
         for (unsigned c = 0; c < node.mNumChildren; ++c) add_node(*node.mChildren[c], world);
     }
 
-    /// assimp passes indices of some formats (PLY) on without looking at them.
+    /// For some formats (PLY), assimp passes indices on without checking them.
     void require_valid_indices(const aiMesh& mesh) const {
         for (unsigned f = 0; f < mesh.mNumFaces; ++f)
             for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
@@ -136,8 +135,7 @@ class SceneReader {
         std::vector<int> vertices(mesh.mNumVertices);
         for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
             const aiVector3D& p = mesh.mVertices[v];
-            // A NaN has no place in an ordering; such a corner stays alone and is reported by the
-            // caller.
+            // A NaN cannot be ordered. Such a corner stays separate, and the caller reports it.
             const bool ordered = p.x == p.x && p.y == p.y && p.z == p.z;
             const int next = static_cast<int>(positions_.size());
             const int vertex =
@@ -150,8 +148,7 @@ class SceneReader {
 
     void add_faces(const aiMesh& mesh, const Matrix4& world, int group,
                    const std::vector<int>& vertices) {
-        // A mirroring transform turns faces inside out; their corners are listed backwards to undo
-        // it.
+        // A mirroring transform turns faces inside out. Their corners are listed backwards to undo it.
         const bool mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
         const bool textured = mesh.HasTextureCoords(0);
         any_texcoord_ |= textured;
@@ -187,7 +184,7 @@ class SceneReader {
         geom::Texture texture{std::filesystem::path(name_).parent_path() / relative,
                               name_ + ":material \"" + material.GetName().C_Str() + "\"",
                               {}};
-        // Of height 0: the bytes of a picture's file
+        // Height 0: the bytes of a picture's file.
         if (const aiTexture* inside = scene_.GetEmbeddedTexture(path.C_Str());
             inside && inside->mHeight == 0) {
             const auto* bytes = reinterpret_cast<const std::uint8_t*>(inside->pcData);
@@ -198,7 +195,7 @@ class SceneReader {
     }
 
     int new_group(const aiNode& node, const std::vector<const aiMesh*>& meshes, std::size_t m) {
-        // assimp writes a name in angle brackets where the file gives none.
+        // assimp writes a name in angle brackets when the file gives none.
         const auto given = [](const aiString& name) {
             const std::string text = name.C_Str();
             return text.empty() || text.front() == '<' ? std::string() : text;
@@ -211,7 +208,7 @@ class SceneReader {
                 given(scene_.mMaterials[meshes[m]->mMaterialIndex]->GetName());
             name += "." + (material.empty() ? std::to_string(m) : material);
         }
-        // Two nodes of one name stay two groups.
+        // Two nodes with the same name stay two groups.
         std::string unique = name;
         for (int n = 2; !names_.insert(unique).second; ++n) unique = name + "." + std::to_string(n);
         mesh_.group_names.push_back(unique);

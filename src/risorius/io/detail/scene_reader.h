@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The result of assimp as one polygon mesh in metres. See io/read_mesh.h for order, groups and units.
+/// Converts the result of assimp to one polygon mesh in metres. See io/read_mesh.h for order, groups and units.
 #pragma once
 
 #include <filesystem>

@@ -76,8 +76,8 @@ struct Encoder::Impl {
         check(avformat_alloc_output_context2(&format, nullptr, muxer_of(form), url.c_str()),
               "no muxer");
         format->flags |= AVFMT_FLAG_BITEXACT;
-        // What AAC and Opus put before the first sample has times below zero, which the containers have a way to say;
-        // without this the pictures would be moved instead.
+        // AAC and Opus put priming samples before the first sample, with times below zero. The containers can express that;
+        // without this flag, the pictures would be shifted instead.
         format->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
         const bool headers_apart = (format->oformat->flags & AVFMT_GLOBALHEADER) != 0;
         pictures.emplace(name, coding_of(form, options, alpha), options, alpha, headers_apart);
@@ -92,8 +92,8 @@ struct Encoder::Impl {
 
         check(avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE), "cannot be written");
         if (form == Form::kMp4 || form == Form::kMov) {
-            // The index before the data lets a player start without reading the whole file. Without B-frames the first
-            // frame is at time zero; an edit list is only needed to leave out what AAC puts before the sound.
+            // With the index before the data, a player can start without reading the whole file. Without B-frames the first
+            // frame is at time zero, so an edit list is only needed to skip AAC's priming samples.
             set("movflags", "+faststart");
             set("use_editlist", form == Form::kMp4 && sound ? "1" : "0");
         }
@@ -104,7 +104,7 @@ struct Encoder::Impl {
         av_packet_rescale_ts(packet.get(), time_base, stream->time_base);
         packet->stream_index = stream->index;
         check(av_interleaved_write_frame(format, packet.get()), "cannot be written");
-        // Written at once, so that a full disk stops the run at the frame that does not fit.
+        // Flushed at once, so that a full disk stops the run at the frame that does not fit.
         avio_flush(format->pb);
         check(format->pb->error, "cannot be written");
     }
@@ -112,7 +112,7 @@ struct Encoder::Impl {
     void write_packets() {
         while (pictures->receive(packet.get())) write(video, pictures->codec().time_base);
         while (sound && sound->receive(packet.get())) {
-            // WebM counts from the first sample put in, priming included, and says in CodecDelay how much of it that is.
+            // WebM counts from the first sample that was put in, priming included. CodecDelay says how much of it is priming.
             if (webm) {
                 packet->pts += sound->codec().initial_padding;
                 packet->dts += sound->codec().initial_padding;
@@ -121,7 +121,7 @@ struct Encoder::Impl {
         }
     }
 
-    /// The sample at which the sound of the frames so far ends.
+    /// The number of sound samples until the end of the frames so far.
     std::int64_t samples() const { return av_rescale(frames, sound->codec().sample_rate, fps); }
 };
 

@@ -2,8 +2,8 @@
 /// \file
 /// Encodes pictures and their sound to one file. It does not handle temporary names.
 ///
-/// bitexact: no dates, library versions or random identifiers in the container. Matroska stores times rounded to whole
-/// milliseconds; the exact frame period stands in its DefaultDuration.
+/// The container is bitexact: it has no dates, library versions or random identifiers. Matroska stores times rounded to whole
+/// milliseconds; the exact frame period is in its DefaultDuration.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace risorius::media::detail {
 
 class Encoder {
   public:
-    /// `name` stands in messages, since `file` is a temporary name. `form` is no folder.
+    /// `name` is used in messages, since `file` is a temporary name. `form` must not be kFolder.
     Encoder(const std::filesystem::path& file, std::string name, Form form,
             const VideoOptions& options, bool alpha);
     ~Encoder();

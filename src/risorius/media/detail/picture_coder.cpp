@@ -13,13 +13,14 @@ namespace {
 
 constexpr int kThreads = 4;
 constexpr int kSlices = 4;
-constexpr int kUsualH264Crf = 18;  // hard to tell from the original
-constexpr int kUsualVp9Crf = 24;   // about the same
-// Of movement to parts of a pixel, by the preset faster: half of the steps
+constexpr int kUsualH264Crf = 18;  // hard to distinguish from the original
+constexpr int kUsualVp9Crf = 24;   // about the same quality
+// Motion search to fractions of a pixel: half the steps of the preset "faster".
 constexpr const char* kUsualRefinement = ":subme=2";
 
-/// What of the processor x264 may use: not AVX-512. With it the macroblock tree of build 164 makes other bytes of the same pictures
-/// now and then, by where its memory lies (seen at 64 x 48 and 320 x 240, never without AVX-512 or without the tree).
+/// Instruction sets that x264 may use: all but AVX-512. With AVX-512, the macroblock tree of build 164 sometimes makes other
+/// bytes from the same pictures, depending on memory addresses. This was seen at 64 x 48 and 320 x 240, but never without
+/// AVX-512 or without the tree.
 std::string instructions() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f") > 0) return ":asm=SSE2Fast,LZCNT,FMA3,BMI2,AVX2";
@@ -103,7 +104,7 @@ PictureCoder::PictureCoder(std::string name, Coding coding, const VideoOptions& 
         case Coding::kFfv1:
             codec_->pix_fmt = alpha ? AV_PIX_FMT_BGRA : AV_PIX_FMT_0RGB32;
             describe_rgb();
-            codec_->gop_size = 1;  // every frame stands alone
+            codec_->gop_size = 1;  // every frame is coded by itself
             codec_->level = 3;
             codec_->slices = kSlices;
             codec_->thread_type = FF_THREAD_SLICE;
@@ -166,9 +167,9 @@ void PictureCoder::open_vp9(const VideoOptions& options, Coding coding, bool alp
         describe_bt709();
         set("crf", std::to_string(options.crf.value_or(kUsualVp9Crf)));
     }
-    codec_->bit_rate = 0;  // by quality alone
+    codec_->bit_rate = 0;  // quality alone determines the rate
     codec_->keyint_min = codec_->gop_size;
-    // No frame that is decoded but never shown, none held back: every packet is one picture
+    // No frame is decoded without being shown, and none is held back: every packet is one picture.
     set("auto-alt-ref", "0");
     set("lag-in-frames", "0");
     set("deadline", "good");
@@ -187,7 +188,7 @@ void PictureCoder::open_conversion(const VideoOptions& options, bool alpha) {
     }
     av_opt_set_int(sws, "src_format", alpha ? AV_PIX_FMT_RGBA : AV_PIX_FMT_RGB0, 0);
     av_opt_set_int(sws, "dst_format", codec_->pix_fmt, 0);
-    // Chroma samples sit beside the left luma column and between the rows, as H.264 assumes.
+    // Chroma samples lie beside the left luma column and between the rows, as H.264 assumes.
     if (codec_->pix_fmt == AV_PIX_FMT_YUV420P || codec_->pix_fmt == AV_PIX_FMT_YUVA420P) {
         av_opt_set_int(sws, "dst_h_chr_pos", 0, 0);
         av_opt_set_int(sws, "dst_v_chr_pos", 128, 0);

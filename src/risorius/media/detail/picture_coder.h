@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pictures to the packets of one video stream. Settings and why:
+/// Encodes pictures to the packets of one video stream. The settings and their reasons:
 ///
 ///   no B-frames         decoding order is display order, so players that step frame by frame cannot be off by one
-///   closed groups       of a quarter of a second unless asked otherwise, without scene detection: any frame is reached
-///                       by decoding few others
-///   four threads        x264's bytes depend on the number of threads, so it is fixed rather than asked of the machine
-///   BT.709, limited     the sRGB-encoded values are carried unchanged as R'G'B', which is what video players assume
+///   closed groups       of a quarter of a second by default, without scene detection: reaching any frame takes few others
+///   four threads        x264's bytes depend on the number of threads, so the number does not depend on the machine
+///   BT.709, limited     the sRGB-encoded values are stored unchanged as R'G'B', as video players assume
 #pragma once
 
 #include <string>
@@ -25,7 +24,7 @@ class PictureCoder {
 
     void send(const Image& frame);
     void send_end();
-    /// False when it needs more pictures or has returned all packets.
+    /// Returns false when the encoder needs more pictures or has returned all packets.
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }
 

@@ -41,7 +41,7 @@ std::vector<unsigned char> big_endian_rows(const PngSamples& picture) {
     return bytes;
 }
 
-/// No object with a destructor lives here: an error of libpng jumps out.
+/// Must not contain objects with destructors, because libpng leaves it by longjmp on errors.
 bool encode_png(const PngSamples& picture, const unsigned char* rows, PngSink& sink) {
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, note_png_failure, ignore_png_warning);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Reads and writes PNG files as raw samples without colour conversion: grey, colour, colour with alpha; 8 or 16 bits.
+/// Writes PNG files as raw samples without colour conversion: grey, colour, or colour with alpha; 8 or 16 bits.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct PngSamples {
     std::vector<std::uint16_t> samples;  ///< height x width x channels, rows from the top
 };
 
-/// Throws RunError when it cannot be written.
+/// Throws RunError when the file cannot be written.
 void write_png_samples(const PngSamples& picture, const std::filesystem::path& file);
 
 }  // namespace risorius::media::detail

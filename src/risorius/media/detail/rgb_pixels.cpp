@@ -5,7 +5,8 @@ namespace risorius::media::detail {
 
 namespace {
 
-/// Calls at(channel of the image, its first byte in a row of the frame, bytes to the next pixel, row) for what the frame has.
+/// Calls at(channel of the image, its first byte in a row of the frame, bytes to the next pixel, row) for every channel and
+/// row.
 template <typename At>
 void each_row(const AVFrame& frame, At at) {
     const AVPixFmtDescriptor* format =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Lossless conversion between pixels of 8-bit RGB frames, packed or planar, and pictures.
+/// Lossless conversion between pictures and the pixels of 8-bit RGB frames, packed or planar.
 #pragma once
 
 #include "risorius/core/image.h"
@@ -8,7 +8,7 @@
 
 namespace risorius::media::detail {
 
-/// Whether this is a format of such frames.
+/// True for a pixel format of 8-bit RGB frames.
 bool is_rgb_of_bytes(AVPixelFormat format);
 void put_rgb_pixels(const Image& image, AVFrame& frame);
 Image rgb_pixels_of(const AVFrame& frame);  ///< opaque when the frame has no alpha

@@ -131,7 +131,7 @@ Sound SoundFile::read() {
     return sound;
 }
 
-/// Bytes of sound that a WAV file's header promises beyond its end; FFmpeg takes what is there.
+/// Number of bytes that are missing according to a WAV file's header. FFmpeg would read the shorter file without an error.
 std::int64_t bytes_missing_of_wav(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
@@ -140,7 +140,7 @@ std::int64_t bytes_missing_of_wav(const std::filesystem::path& file) {
     while (in.seekg(at) && in.read(chunk, sizeof chunk)) {
         std::int64_t length = 0;
         for (int i = 7; i >= 4; --i) length = length << 8 | static_cast<unsigned char>(chunk[i]);
-        constexpr std::int64_t kUnknown = 0xffffffff;  // as programs write it into a pipe
+        constexpr std::int64_t kUnknown = 0xffffffff;  // written by programs that write into a pipe
         if (std::memcmp(chunk, "data", 4) == 0)
             return length == kUnknown ? 0 : std::max<std::int64_t>(0, at + 8 + length - size);
         at += 8 + length + (length & 1);
@@ -148,7 +148,7 @@ std::int64_t bytes_missing_of_wav(const std::filesystem::path& file) {
     return 0;
 }
 
-/// Samples that a FLAC file's header promises.
+/// Number of samples according to a FLAC file's header.
 std::int64_t samples_promised_by_flac(const std::filesystem::path& file, int rate_hz) {
     AVFormatContext* format = nullptr;
     if (avformat_open_input(&format, ffmpeg_url(file.string()).c_str(), nullptr, nullptr) < 0)
@@ -203,7 +203,7 @@ Sound resampled(const Sound& sound, int rate_hz) {
     Sound out = sound;
     out.rate_hz = rate_hz;
     const std::int64_t length = av_rescale_rnd(sound.length(), rate_hz, sound.rate_hz, AV_ROUND_UP);
-    // Room for what the filter still holds when the input has ended
+    // Room for samples that the filter still holds when the input has ended.
     out.samples.assign(static_cast<std::size_t>((length + 4096) * sound.channels), 0.0f);
     auto* to = reinterpret_cast<std::uint8_t*>(out.samples.data());
     const auto* from = reinterpret_cast<const std::uint8_t*>(sound.samples.data());

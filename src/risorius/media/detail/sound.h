@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Sound in memory, read through the FFmpeg libraries: recordings for a video, or the sound of a video to be measured. The delay of decoders
-/// (AAC's priming, Opus' pre-skip) is removed as the file states.
+/// Sound in memory, read through the FFmpeg libraries: recordings for a video, or the sound of a video for measurements. The
+/// delay of decoders (AAC's priming, Opus' pre-skip) is removed as the file states.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,10 @@ namespace risorius::media {
 struct Sound {
     int rate_hz = 48000;
     int channels = 1;
-    int bits = 16;  ///< of a sample in its file: 16, 24, or 32 for floating point
-    double start_s =
-        0;  ///< time stamp of the first sample; Matroska and WebM round it to a millisecond
-    std::string container;       ///< by FFmpeg's name: "wav", "flac", "matroska,webm"
-    std::vector<float> samples;  ///< interleaved, 1 = full scale; 16 and 24 bits are held exactly
+    int bits = 16;       ///< per sample in the file: 16, 24, or 32 for floating point
+    double start_s = 0;  ///< time of the first sample; Matroska and WebM round it to a millisecond
+    std::string container;       ///< FFmpeg's name: "wav", "flac", "matroska,webm"
+    std::vector<float> samples;  ///< interleaved, 1 = full scale; 16 and 24 bits are exact
 
     std::int64_t length() const {  ///< samples of one channel
         return static_cast<std::int64_t>(samples.size()) / channels;
@@ -27,7 +26,7 @@ struct Sound {
 
 /// Throws Error when the file is missing, has no sound, or is shorter than its header says.
 Sound read_sound(const std::filesystem::path& file);
-/// The same of WAV or FLAC only.
+/// The same, for WAV and FLAC only.
 Sound read_recording(const std::filesystem::path& file);
 
 /// Resamples without a delay.

@@ -13,9 +13,9 @@ namespace risorius::media::detail {
 
 namespace {
 
-constexpr int kPcmPiece = 1024;  // samples of a packet; any would do
-constexpr int kBitsPerChannel =
-    128 * 1000;  // of AAC and Opus, transparent for speech and most music
+constexpr int kPcmPiece = 1024;  // samples per packet; the number does not matter
+// For AAC and Opus; transparent for speech and most music.
+constexpr int kBitsPerChannel = 128 * 1000;
 
 const char* encoder_of(Form form, const Sound& sound) {
     if (form == Form::kMp4) return "aac";
@@ -23,7 +23,7 @@ const char* encoder_of(Form form, const Sound& sound) {
     return sound.bits == 16 ? "pcm_s16le" : sound.bits == 24 ? "pcm_s24le" : "pcm_f32le";
 }
 
-// AAC knows thirteen rates, Opus five.
+// The wanted rate when the encoder supports it, else 48 kHz. AAC has thirteen rates and Opus has five.
 int rate_for(const AVCodec& encoder, int wanted_hz) {
     if (!encoder.supported_samplerates) return wanted_hz;
     for (const int* rate = encoder.supported_samplerates; *rate != 0; ++rate)
@@ -80,7 +80,7 @@ SoundCoder::SoundCoder(std::string name, Form form, const Sound& recording,
     if (headers_apart) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     if (form == Form::kMp4 || form == Form::kWebm) {
         codec_->bit_rate = kBitsPerChannel * sound_.channels;
-        // 128 kbit/s per channel are more than AAC may spend at low rates (6144 bits a frame).
+        // At low rates, 128 kbit/s per channel are more than AAC allows (6144 bits per frame).
         codec_->bit_rate =
             std::min<std::int64_t>(codec_->bit_rate, std::int64_t{4} * rate_hz * sound_.channels);
     }

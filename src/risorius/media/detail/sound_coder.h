@@ -2,8 +2,9 @@
 /// \file
 /// Encodes sound to the packets of one stream: PCM in MOV and Matroska, AAC in MP4, Opus in WebM.
 ///
-/// The stream begins with the first frame and ends with the last: silence is added before and after the recording, and what lies outside is
-/// cut. So the position of a sample does not depend on time stamps, which Matroska rounds to a millisecond.
+/// The stream begins with the first frame and ends with the last one. Silence is added before and after the recording, and
+/// sound outside the video is cut. So the position of a sample does not depend on time stamps, which Matroska rounds to a
+/// millisecond.
 #pragma once
 
 #include <string>
@@ -15,14 +16,14 @@ namespace risorius::media::detail {
 
 class SoundCoder {
   public:
-    /// `offset_samples`: from the first frame to the first sample, in samples of the recording's own rate.
+    /// `offset_samples`: from the first frame to the first sample, at the recording's own rate.
     SoundCoder(std::string name, Form form, const Sound& recording, std::int64_t offset_samples,
                bool headers_apart);
 
-    /// Sends what comes before a time to the encoder; true while there are packets to receive() first.
+    /// Sends sound up to a sample to the encoder. Returns true while packets must be received first.
     bool send_until(std::int64_t sample);
-    void send_end(
-        std::int64_t sample);  ///< the same with the last block, which may have any length
+    /// The same with the last block, which may have any length.
+    void send_end(std::int64_t sample);
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }
 
@@ -32,7 +33,7 @@ class SoundCoder {
 
     std::string name_;
     Sound sound_;
-    std::int64_t first_ = 0;  ///< sample of the stream that is the first of the sound
+    std::int64_t first_ = 0;  ///< position of the sound's first sample in the stream
     CodecPtr codec_;
     FramePtr piece_;
     std::int64_t next_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Temporary names, whole-file reads and writes with every error of the operating system looked at.
+// Temporary names, and reading and writing of whole files. Every error of the operating system is checked.
 #include "risorius/media/detail/temporary_file.h"
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string next_suffix() {
-    // The name must differ between writers of one process as well as between processes.
+    // The name must differ between processes, and between writers in one process.
     static std::atomic<unsigned> count{0};
     return ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
 }
@@ -73,14 +73,13 @@ TemporaryFile::~TemporaryFile() {
     if (kept_) return;
     std::error_code ignored;
     fs::remove_all(path_, ignored);
-    // Innermost first; a folder that someone else has put something into stays.
+    // Innermost first. A folder into which someone else has put something stays.
     for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
         fs::remove(*folder, ignored);
 }
 
 void TemporaryFile::replace_target() {
-    // rename() cannot replace a folder that holds files: the old one steps aside first and is
-    // removed last.
+    // rename() cannot replace a folder that contains files. So the old folder is renamed first and removed last.
     std::error_code failure;
     fs::path old;
     if (fs::is_directory(path_) && fs::is_directory(target_)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes output under a temporary name next to its target, so that an incomplete result never has the target's name.
+/// Writes output under a temporary name next to its target, so that an incomplete file never has the target's name.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,11 @@
 
 namespace risorius::media::detail {
 
-/// Reserves ".<name>.part-<process>-<n>" in the target's folder, making that folder and its parents
-/// when missing. Until replace_target() has run, the destructor removes the temporary file or
-/// folder and the parents it made.
+/// Reserves ".<name>.part-<process>-<n>" in the target's folder. That folder and its parents are made when they are missing.
+/// Unless replace_target() has run, the destructor removes the temporary file or folder and the parents it made.
 class TemporaryFile {
   public:
-    /// Throws Error when a parent is not a folder, RunError when it cannot be made.
+    /// Throws Error when a parent is not a folder, and RunError when a folder cannot be made.
     explicit TemporaryFile(const std::filesystem::path& target);
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
@@ -21,7 +20,7 @@ class TemporaryFile {
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// Renames onto the target; a file or a folder that stood there is replaced. Throws RunError.
+    /// Renames the temporary file or folder to the target, which it replaces. Throws RunError.
     void replace_target();
 
   private:
@@ -31,11 +30,10 @@ class TemporaryFile {
     bool kept_ = false;
 };
 
-/// Writes the bytes under a temporary name and renames. Throws RunError, leaving what was there
-/// before.
+/// Writes the bytes under a temporary name and renames. Throws RunError and then keeps the old file.
 void write_whole(const std::filesystem::path& file, const void* bytes, std::size_t count);
 
-/// A file's bytes. Throws Error when it is missing, a folder or cannot be read.
+/// The bytes of a file. Throws Error when it is missing, is a folder or cannot be read; `expected` is part of the message.
 std::vector<unsigned char> read_whole(const std::filesystem::path& file, const char* expected);
 
 }  // namespace risorius::media::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The container and the coding of pictures that a file name's ending asks for.
+/// The container and the coding of pictures, as the ending of a file name determines them.
 #pragma once
 
 #include <filesystem>
@@ -21,17 +21,17 @@ enum class Coding {
     kProRes,   ///< 4444 with alpha, 10 bits of colour
     kPng,      ///< lossless with alpha
     kFfv1,     ///< lossless, with alpha or without
-    kVp9,      ///< 8 bits, yuv420p or yuv444p, alpha beside yuv420p
+    kVp9,      ///< 8 bits, yuv420p or yuv444p; alpha is stored beside yuv420p
     kVp9Rgb,   ///< lossless
 };
 
-/// For every form but a folder.
+/// For every form except a folder.
 Coding coding_of(Form form, const VideoOptions& options, bool alpha);
 
-/// Colour at half the resolution of brightness.
+/// True when colour has half the resolution of brightness.
 bool halves_colour(Coding coding, const VideoOptions& options);
 
-/// Checks the options against the form. Throws Error for what the form cannot do.
+/// Throws Error for options that the form does not support.
 void check_options(const std::string& place, Form form, const VideoOptions& options);
 
 }  // namespace risorius::media::detail

@@ -10,7 +10,7 @@ Vec3 outward_at(End end, const tissue::GridShape& grid, const Points& rest) {
     const int chains = grid.n * grid.o;
     const int outer = end == End::kOrigin ? 0 : grid.m - 1;
     const int inner = end == End::kOrigin ? 1 : grid.m - 2;
-    // Across the mean of the outermost segments, so that a bent belly is met squarely.
+    // Uses the mean direction of the outermost segments, so that a bent belly is met squarely.
     const Vec3 outward =
         (rest.middleRows(outer * chains, chains) - rest.middleRows(inner * chains, chains))
             .colwise()

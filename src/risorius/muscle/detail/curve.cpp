@@ -14,7 +14,7 @@ namespace {
 
 using Form = CurvePiece::Form;
 
-/// Sum of p[j] s^(j+1): one coordinate of a corner, counted from where it begins.
+/// Sum of p[j] s^(j+1): one coordinate of a corner, relative to its start.
 struct Quintic {
     std::array<double, 5> p;
 
@@ -42,12 +42,12 @@ struct Corner {
             piece.c1 - piece.c0),
           length(piece.end - piece.origin) {}
 
-    /// The s of x(s) = u. x grows everywhere, so a root is always between `low` and `high`.
+    /// The s with x(s) = u. x grows everywhere, so the root is always between `low` and `high`.
     double parameter(double u) const {
         if (u <= 0) return 0;
         if (u >= length) return 1;
         double low = 0, high = 1, s = u / length;
-        for (int i = 0; i < 60; ++i) {  // six or so do; halving alone would end here too
+        for (int i = 0; i < 60; ++i) {  // about six are needed; bisection alone would end here too
             const double miss = x.at(s) - u;
             (miss > 0 ? high : low) = s;
             const double slope = x.slope(s);
@@ -58,11 +58,11 @@ struct Corner {
         return s;
     }
     double slope(double s) const { return y.slope(s) / x.slope(s); }
-    /// Of y - y(0), by x.
+    /// Integral of y - y(0) by x.
     double integral(double s) const {
         double sum = 0;
         for (int power = 10; power >= 2; --power) {
-            double factor = 0;  // of s^power
+            double factor = 0;  // coefficient of s^power
             for (int j = std::max(1, power - 5); j <= std::min(5, power - 1); ++j)
                 factor += y.p[static_cast<std::size_t>(power - j - 1)] * j *
                           x.p[static_cast<std::size_t>(j - 1)];
@@ -103,12 +103,12 @@ double slope_of(const CurvePiece& p, double u) {
         case Form::kGaussian:
             return p.c1 - 2 * p.c2 * p.k * (p.k * u) * std::exp(-(p.k * u) * (p.k * u));
         case Form::kCorner:
-            break;  // in corner_at
+            break;  // handled by corner_at
     }
     return 0;
 }
 
-/// From the origin of the piece.
+/// Integral from the origin of the piece.
 double integral_of(const CurvePiece& p, double u) {
     const double line = u * (p.c0 + u * p.c1 / 2);
     switch (p.form) {
@@ -126,7 +126,7 @@ double integral_of(const CurvePiece& p, double u) {
     return 0;
 }
 
-/// All three with one search for s.
+/// Value, slope and integral with one search for s.
 Curve::Value corner_at(const CurvePiece& p, double u) {
     const Corner corner(p);
     const double s = corner.parameter(u);
@@ -164,7 +164,7 @@ CurvePiece toe_piece(double x0, double x1, double height, double k) {
 
 CurvePiece corner_piece(double x0, double f0, double s0, double x1, double f1, double s1,
                         double roundness) {
-    // Where f0 + s0 u and f1 + s1 (u - h) meet.
+    // The place where the lines f0 + s0 u and f1 + s1 (u - h) meet.
     const double h = x1 - x0;
     const double corner = s0 == s1 ? h / 2 : (f1 - f0 - s1 * h) / (s0 - s1);
     if (!(corner > 0 && corner < h && roundness > 0 && roundness < 1))

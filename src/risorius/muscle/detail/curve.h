@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A function of one number in closed-form pieces, with its slope and its integral: what the force curves of muscle and
-/// tendon are made of. The integral is exact, because the line search of a solver needs an energy that agrees with its
-/// forces.
+/// A function of one variable in closed-form pieces, with its slope and its integral. The force curves of muscle and tendon are
+/// made of it. The integral is exact, because the line search of a solver needs an energy that agrees with the forces.
 ///
 ///   u = x - origin of the piece
 ///   cubic         c0 + c1 u + c2 u^2 + c3 u^3
 ///   exponential   c0 + c1 u + c2 (e^{k u} - 1)
 ///   hyperbola     c0 + c1 u + c2 / (1 + k u)
 ///   gaussian      c0 + c1 u + c2 e^{-(k u)^2}
-///   corner        C2, from one straight line into another: a Bezier curve of fifth order in a parameter s, 0..1, through
-///                 (0, c0), twice the point the ratio k of the way from there to the corner (c2, c3), twice the point the
-///                 ratio k of the way from the end (end - origin, c1) to the corner, and the end. x(s) is inverted to the
-///                 last bit by Newton's method; the integral of y dx is a polynomial in s.
+///   corner        C2, from one straight line into another: a Bezier curve of fifth order in a parameter s, 0..1. Its points
+///                 are (0, c0); twice the point at the fraction k of the way from there to the corner (c2, c3); twice the
+///                 point at the fraction k of the way from the end (end - origin, c1) to the corner; and the end. x(s) is
+///                 inverted to the last bit by Newton's method; the integral of y dx is a polynomial in s.
 ///                 Source of the corner: M. Millard et al. 2013, J. Biomech. Eng. 135(2), 021005.
 #pragma once
 
@@ -24,22 +23,23 @@ namespace risorius::muscle {
 struct CurvePiece {
     enum class Form { kCubic, kExponential, kHyperbola, kGaussian, kCorner };
 
-    double end = std::numeric_limits<double>::infinity();  ///< it holds up to here
+    double end = std::numeric_limits<double>::infinity();  ///< upper end of the piece
     double origin = 0;
     Form form = Form::kCubic;
     double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
     double k = 0;
 };
 
-/// From (x0, f0) with slope s0 to (x1, f1) with slope s1.
+/// Cubic from (x0, f0) with slope s0 to (x1, f1) with slope s1.
 CurvePiece hermite_piece(double x0, double f0, double s0, double x1, double f1, double s1);
-/// Through (x, f); it holds up to `end`.
+/// Line through (x, f). The piece ends at `end`.
 CurvePiece line_piece(double x, double f, double slope,
                       double end = std::numeric_limits<double>::infinity());
-/// From (x0, 0) with slope 0 to (x1, height): height (e^{k s} - 1 - k s) / (e^k - 1 - k), s = (x - x0) / (x1 - x0).
+/// Exponential from (x0, 0) with slope 0 to (x1, height): height (e^{k s} - 1 - k s) / (e^k - 1 - k), s = (x - x0) / (x1 - x0).
 CurvePiece toe_piece(double x0, double x1, double height, double k);
-/// From (x0, f0) with slope s0 to (x1, f1) with slope s1, both ends without curvature: a line for `roundness` near 0,
-/// wide arcs for 1, (0, 1). Throws std::invalid_argument when the lines through the ends do not meet between x0 and x1.
+/// Corner from (x0, f0) with slope s0 to (x1, f1) with slope s1, without curvature at the ends. `roundness`, in (0, 1), makes
+/// nearly straight lines near 0 and wide arcs near 1. Throws std::invalid_argument when the lines through the ends do not meet
+/// between x0 and x1.
 CurvePiece corner_piece(double x0, double f0, double s0, double x1, double f1, double s1,
                         double roundness);
 
@@ -49,14 +49,14 @@ class Curve {
         double value = 0, slope = 0, integral = 0;
     };
 
-    /// The pieces from left to right; the first also holds to the left of its origin and the last without end. The
-    /// integral is zero at `zero`. Throws std::invalid_argument unless the ends grow and the last is infinite.
+    /// The pieces from left to right. The first also holds left of its origin, and the last has no end. The integral is zero at
+    /// `zero`. Throws std::invalid_argument unless the ends grow and the last one is infinite.
     Curve(std::vector<CurvePiece> pieces, double zero);
 
     double value(double x) const;
     Value at(double x) const;
 
-    /// Where pieces meet.
+    /// The places where pieces meet.
     std::vector<double> joints() const;
 
   private:

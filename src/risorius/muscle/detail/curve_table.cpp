@@ -13,7 +13,7 @@ CurveTable::CurveTable(const Curve& curve, double low, double high, int cells)
     assert(high > low && cells > 0);
     Curve::Value at_begin = curve_.at(low);
     for (int i = 0; i < cells; ++i) {
-        // Differences of the integral are taken from the value at the begin, which keeps their digits
+        // Differences of the integral are taken from the value at the start of the cell, to keep their digits.
         const Curve::Value at_end = curve_.at(low + (i + 1) * width_);
         const double mean = (at_end.integral - at_begin.integral) / width_;
         cells_.push_back(

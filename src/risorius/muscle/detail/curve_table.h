@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A curve as a table for inner loops: its integral as cubics on equal cells, its value as their slope, so that energy and
-/// force agree to rounding whatever the width of the cells.
+/// A curve as a table for inner loops. Its integral is stored as cubics on equal cells and its value is their slope, so that
+/// energy and force agree to rounding for any width of the cells.
 ///
-/// At the ends of cells value and integral are those of the curve; between them the value is off by less than
-/// f''' w^2 / 70, w the width of a cell. Beyond the table the curve itself is asked.
+/// At the ends of cells, value and integral are those of the curve. Between them the error of the value is below f''' w^2 / 70,
+/// where w is the width of a cell. Outside the table the curve itself is evaluated.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class CurveTable {
     struct Value {
         double value, integral;
     };
-    /// From `low` to `high` in `cells` equal cells. Ends of cells should lie where the curve has kinks.
+    /// A table from `low` to `high` with `cells` equal cells. Kinks of the curve should be at ends of cells.
     CurveTable(const Curve& curve, double low, double high, int cells);
 
     Value at(double x) const {
@@ -35,7 +35,7 @@ class CurveTable {
     struct Values {
         solve::Lanes value, integral;
     };
-    /// The same four times, with the same bits.
+    /// The same for four numbers, with the same bits.
     Values at(const solve::Lanes& x) const {
         const solve::Lanes place = (x - low_) * cells_per_unit_;
         const auto within = (place >= 0.0) & (place < static_cast<double>(cells_.size()));
@@ -58,8 +58,8 @@ class CurveTable {
 
     Curve curve_;
     double low_, width_, cells_per_unit_;
-    std::vector<solve::Lanes>
-        cells_;  ///< c0 .. c3: c0 + c1 u + c2 u^2 + c3 u^3, u from the begin of a cell
+    /// c0 .. c3: c0 + c1 u + c2 u^2 + c3 u^3, u from the start of the cell.
+    std::vector<solve::Lanes> cells_;
 };
 
 }  // namespace risorius::muscle

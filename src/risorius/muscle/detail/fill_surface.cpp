@@ -12,12 +12,12 @@ namespace risorius::muscle::detail {
 
 namespace {
 
-/// Of a thing at a share of the length.
+/// Names a place at a fraction of the length, for messages.
 std::string at_fraction(double s) {
     return " at " + std::to_string(static_cast<int>(std::lround(100 * s))) + " % of the length";
 }
 
-/// The loop around the path, or the only one.
+/// The loop around the path, or the only loop.
 Loop section_at(const SectionedSurface& surface, const PathFrame& frame, double s,
                 const std::string& place) {
     std::vector<Loop> loops = surface.loops(frame);
@@ -53,10 +53,10 @@ Points first_line(const SectionedSurface& surface, const MuscleShape& shape) {
     return line;
 }
 
-/// From tip to tip through the centroids of the sections across itself.
+/// A line from tip to tip through the centroids of the sections perpendicular to it.
 Points middle_line(const SectionedSurface& surface, const MuscleShape& shape) {
     constexpr int kRounds = 4, kStations = 16;
-    constexpr double kFirstMargin = 0.1;  // the first guess may begin outside of the body
+    constexpr double kFirstMargin = 0.1;  // the first guess may begin outside the body
     Points line = first_line(surface, shape);
     for (int round = 0; round < kRounds; ++round) {
         const FramedPath path(line, Points(), /*closed=*/false, shape.place);
@@ -67,10 +67,10 @@ Points middle_line(const SectionedSurface& surface, const MuscleShape& shape) {
             const Loop loop = section_at(surface, frame, s, shape.place);
             centres.row(k) = lifted(frame, loop_centroid(loop)).transpose();
         }
-        // Tips are where the line, drawn on straight, leaves the body.
+        // The tips are where straight extensions of the line leave the body.
         line.resize(kStations + 2, 3);
         line.middleRows(1, kStations) = centres;
-        for (int k = 1; k + 1 < kStations; ++k)  // planes that follow each wiggle would cross
+        for (int k = 1; k + 1 < kStations; ++k)  // planes that follow each wiggle would intersect
             line.row(k + 1) = (centres.row(k - 1) + 2 * centres.row(k) + centres.row(k + 1)) / 4;
         const auto tip = [&](int last, int before) {
             const Vec3 from = line.row(last).transpose();
@@ -86,7 +86,7 @@ Points middle_line(const SectionedSurface& surface, const MuscleShape& shape) {
     return line;
 }
 
-/// Nodes of one section: the square pressed into the unit disc, and the disc stretched along rays to the loop.
+/// Nodes of one section. The square is mapped to the unit disc, and the disc is stretched along rays to the loop.
 std::vector<Vec2> fill_loop(const Loop& loop, int n, int o, double s, const std::string& place) {
     if (!(loop_area(loop) > 0) || crosses_itself(loop))
         throw Error(place, "sections that do not cross themselves", "one" + at_fraction(s));
@@ -164,7 +164,7 @@ Points fill_surface(const MuscleShape& shape, const tissue::GridShape& grid) {
             equal.row(i * layer + k) = (centre + swell * (p - centre)).transpose();
         }
     }
-    // What sections of the right area leave out is branches, or a middle line that missed a part.
+    // When sections have the right area, volume is missing because of branches, or because the middle line missed a part.
     constexpr double kMinFraction = 0.85, kMaxFraction = 1.1;
     double fraction = tissue::enclosed_volume(grid, equal) / surface.volume_m3();
     if (!(fraction > kMinFraction && fraction < kMaxFraction))

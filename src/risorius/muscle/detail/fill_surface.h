@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A grid of nodes that fills a closed surface, its axis a1 along the middle line of the body.
+/// A grid of nodes that fills a closed surface. Its axis a1 follows the middle line of the body.
 #pragma once
 
 #include "risorius/muscle/muscle_shape.h"
 
 namespace risorius::muscle::detail {
 
-/// Nodes of `grid` within shape.surface_m. Throws Error below shape.place.
+/// Nodes of `grid` inside shape.surface_m, MNO x 3, m. Throws Error with a place below shape.place.
 Points fill_surface(const MuscleShape& shape, const tissue::GridShape& grid);
 
 }  // namespace risorius::muscle::detail

@@ -20,12 +20,12 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
     return Eigen::AngleAxisd(angle, axis) * v;
 }
 
-/// Angle by which `from` has to be turned about `axis` to meet `to`, all perpendicular to it.
+/// Angle by which `from` must be rotated about `axis` to meet `to`. Both are perpendicular to it.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
     return std::atan2(axis.dot(from.cross(to)), from.dot(to));
 }
 
-/// Double reflection: the frame's n carried from one sample to the next.
+/// Double reflection: carries the frame's n from one sample to the next.
 Vec3 carried(const Vec3& n, const Vec3& from, const Vec3& t_from, const Vec3& to,
              const Vec3& t_to) {
     const Vec3 v1 = to - from;
@@ -136,7 +136,7 @@ Vec3 FramedPath::slope(int i) const {
     if (closed_ || (i > 0 && i < count))
         return (gap(i) * speed(i - 1) + gap(i - 1) * speed(i)) / (gap(i - 1) + gap(i));
     if (count == 1) return speed(0);
-    // At an end, of the parabola through the outermost three points.
+    // At an end, the slope of the parabola through the three outermost points.
     const int outer = i == 0 ? 0 : count - 1, inner = i == 0 ? 1 : count - 2;
     return speed(outer) + gap(outer) * (speed(outer) - speed(inner)) / (gap(outer) + gap(inner));
 }

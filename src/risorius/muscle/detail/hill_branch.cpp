@@ -5,7 +5,7 @@ namespace risorius::muscle {
 
 namespace {
 
-// Shortening faster than kLeavesAt leaves Hill's hyperbola and reaches zero force, with zero slope, at kZeroAt.
+// Faster shortening than kLeavesAt leaves Hill's hyperbola. It reaches zero force, with zero slope, at kZeroAt.
 constexpr double kLeavesAt = -0.9;
 constexpr double kZeroAt = -1.1;
 
@@ -14,7 +14,7 @@ constexpr double kZeroAt = -1.1;
 std::vector<CurvePiece> hill_branch(double a) {
     const double value = (1 + kLeavesAt) / (1 - kLeavesAt / a);
     const double slope = (1 + 1 / a) / ((1 - kLeavesAt / a) * (1 - kLeavesAt / a));
-    // Hill's (1 + v) / (1 - v / a) = -a + a (1 + a) / (a - v), counted from kLeavesAt.
+    // Hill's (1 + v) / (1 - v / a) = -a + a (1 + a) / (a - v), relative to kLeavesAt.
     const double reach = a - kLeavesAt;
     const CurvePiece shortening = {.end = 0,
                                    .origin = kLeavesAt,

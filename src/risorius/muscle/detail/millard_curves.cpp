@@ -9,14 +9,14 @@ namespace risorius::muscle {
 
 namespace {
 
-/// A curve written down as points with slopes, corners between them.
+/// Builds a curve from points with slopes; corners join them.
 class CornerChain {
   public:
     CornerChain(double x, double f, double slope) : x_(x), f_(f), slope_(slope) {
         pieces_.push_back(line_piece(x, f, slope, x));
     }
     CornerChain& to(double x, double f, double slope, double curviness) {
-        // Millard's curviness leaves both extremes out.
+        // Millard's curviness avoids both extremes.
         pieces_.push_back(corner_piece(x_, f_, slope_, x, f, slope, 0.1 + 0.8 * curviness));
         x_ = x, f_ = f, slope_ = slope;
         return *this;
@@ -32,7 +32,7 @@ class CornerChain {
 };
 
 Curve limbs_curve(const MillardShape& s) {
-    constexpr double kShoulder = 0.05;  // half the width of the plateau about l = 1
+    constexpr double kShoulder = 0.05;  // half the width of the plateau around l = 1
     constexpr double kRound = 1;
     const double first = s.active_shortest, steep_end = s.active_transition,
                  last = s.active_longest;
@@ -60,7 +60,7 @@ Curve parallel_curve(const MillardShape& s) {
 }
 
 Curve velocity_corners(const MillardShape& s) {
-    constexpr double kNear = 0.1;  // of v = -1 and of v = 1
+    constexpr double kNear = 0.1;  // distance from v = -1 and from v = 1
     return CornerChain(-1, 0, 0)
         .to(-1 + kNear, 0.5 * s.shortening_end_slope * kNear, s.shortening_end_slope,
             s.shortening_curviness)
@@ -75,7 +75,7 @@ Curve series_curve(const MillardShape& s) {
     const double stiffness = s.tendon_steepness / s.tendon_strain;
     const auto on_line = [&](double force) { return s.tendon_strain - (1 - force) / stiffness; };
     const double toe_force = s.tendon_toe_force, toe = on_line(toe_force);
-    const double foot = toe / 10;  // where the line the toe begins along would meet f = 0
+    const double foot = toe / 10;  // where the first line of the toe would meet f = 0
     const double middle = on_line(toe_force / 2);
     const double slope = 0.5 * toe_force / (middle - foot);
     return CornerChain(0, 0, 0)

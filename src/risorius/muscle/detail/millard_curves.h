@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The force curves of Millard's muscle, dimensionless; letters as in muscle_curves.h. Fifth-order Bezier corners joined at
-/// points of given slope, C2 throughout but where they go on straight, where they are C1: nothing has to be smoothed.
+/// The force curves of Millard's muscle, dimensionless, with the symbols of muscle_curves.h. Fifth-order Bezier corners join
+/// points of given slope. The curves are C2, except where they continue straight; there they are C1. So nothing has to be
+/// smoothed.
 ///
-/// Values are those of OpenSim's Millard2012EquilibriumMuscle with a damped fibre, whose active curve falls to 0. `curviness`
-/// is its measure of how round a corner is, 0 to 1.
+/// The values are those of OpenSim's Millard2012EquilibriumMuscle with a damped fibre, whose active curve falls to 0.
+/// `curviness` is OpenSim's measure of how round a corner is, 0 to 1.
 ///
 /// Source: M. Millard, T. Uchida, A. Seth, S. L. Delp 2013, Flexing computational muscle, J. Biomech. Eng. 135(2), 021005.
 #pragma once
@@ -14,33 +15,31 @@
 namespace risorius::muscle {
 
 struct MillardShape {
-    double active_shortest = 0.4441;  ///< l from which on there is active force            (0, inf)
-    double active_transition =
-        0.73;  ///< l at which the steep ascent becomes shallow      beyond the last
-    double active_longest =
-        1.8123;  ///< l up to which there is active force              (1.05, inf)
-    double active_shallow_slope =
-        0.8616;                   ///< of the shallow ascent                         (0, inf)
+    /// Minimum l with active force                            (0, inf)
+    double active_shortest = 0.4441;
+    /// l at which the steep ascent becomes shallow   (active_shortest, 0.95)
+    double active_transition = 0.73;
+    double active_longest = 1.8123;  ///< maximum l with active force   (1.1, inf)
+    /// Slope of the shallow ascent   (0, (1 - active_minimum) / (1 - active_transition))
+    double active_shallow_slope = 0.8616;
     double active_minimum = 0;    ///< f outside of these lengths                       [0, 1)
     double passive_strain = 0.7;  ///< strain at which passive f is 1                   (0, inf)
-    double passive_low_stiffness =
-        0.2;  ///< slope where it begins                            (0, 1 / passive_strain)
-    double passive_steepness = 2;     ///< slope at f = 1, ratio of 1 / passive_strain      (1, inf)
+    double passive_low_stiffness = 0.2;  ///< slope at the start   (0, 1 / passive_strain)
+    double passive_steepness = 2;     ///< slope at f = 1, times passive_strain             (1, inf)
     double passive_curviness = 0.75;  ///<                                                  [0, 1]
-    double shortening_end_slope = 0.25;  ///< of f near v = -1                                (0, 1]
-    double isometric_slope = 5;  ///< of f at v = 0                                    (1, inf)
-    double lengthening_end_slope =
-        0.15;  ///< of f near v = 1                                (0, lengthening_force - 1)
+    double shortening_end_slope = 0.25;  ///< slope of f near v = -1                         (0, 1]
+    double isometric_slope = 5;  ///< slope of f at v = 0                              (1, inf)
+    double lengthening_end_slope = 0.15;  ///< slope of f near v = 1   (0, lengthening_force - 1)
     double lengthening_force = 1.4;  ///< f from v = 1 on                                  (1, inf)
     double shortening_curviness = 0.6;  ///<                                                  [0, 1]
     double lengthening_curviness = 0.9;  ///<                                                 [0, 1]
     double tendon_strain = 0.049;     ///< eps at which fT is 1                             (0, inf)
-    double tendon_steepness = 1.375;  ///< slope there, ratio of 1 / tendon_strain          (1, inf)
-    double tendon_toe_force = 2. / 3;  ///< f up to which the toe reaches                    (0, 1)
+    double tendon_steepness = 1.375;  ///< slope there, times tendon_strain                (1, inf)
+    double tendon_toe_force = 2. / 3;  ///< f at the end of the toe                        (0, 1)
     double tendon_curviness = 0.5;     ///<                                                  [0, 1]
 };
 
-/// Throws std::invalid_argument when numbers are outside their ranges or do not go together.
+/// Throws std::invalid_argument when numbers are outside their ranges or do not fit together.
 MuscleCurves millard_curves(const MillardShape& shape = {});
 
 }  // namespace risorius::muscle

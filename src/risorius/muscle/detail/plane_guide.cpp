@@ -18,7 +18,7 @@ PlaneGuide::PlaneGuide(const Points& plate, const Vec3& normal, double stiffness
         forms_.block<3, 3>(0, 3 * c) << first.transpose() / nodes, second.transpose() / nodes,
             turn.transpose();
     }
-    // p w: n x r over sqrt(N sum r^2)
+    // p w: n x r divided by sqrt(N sum r^2)
     forms_.row(2) /= std::sqrt(nodes) * forms_.row(2).norm();
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Second moments of area about the centroid over the area.
+/// Second moments of area about the centroid, divided by the area.
 Eigen::Matrix2d spread_of(const Loop& loop) {
     const Vec2 centroid = loop_centroid(loop);
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
@@ -124,7 +124,7 @@ SectionedSurface::SectionedSurface(const Points& points, const Triangles& triang
                          [static_cast<std::size_t>(edges.side[i])] = e;
         }
 
-    // Tetrahedra from one point of the surface
+    // Sums over tetrahedra from one point of the surface.
     const Vec3 from = points.row(triangles(0, 0)).transpose();
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
@@ -186,7 +186,7 @@ std::vector<Loop> SectionedSurface::loops(const PathFrame& frame) const {
     Eigen::VectorXd above(points_.rows());
     for (Eigen::Index i = 0; i < points_.rows(); ++i)
         above[i] = (points_.row(i).transpose() - frame.at).dot(frame.along);
-    // Seen against the path a triangle's piece of the loop runs from the side that goes down to the side that comes up.
+    // As seen against the path, a triangle's piece of the loop runs from the side that goes down to the side that comes up.
     std::vector<int> next(edges_.size(), -1);
     for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
         int down = -1, up = -1;
@@ -211,7 +211,7 @@ std::vector<Loop> SectionedSurface::loops(const PathFrame& frame) const {
                 ((1 - fraction) * points_.row(a) + fraction * points_.row(b)).transpose() -
                 frame.at;
             const Vec2 corner(p.dot(frame.across), p.dot(frame.outward));
-            // Where the plane meets a vertex, edges give the same corner several times.
+            // Where the plane meets a vertex, several edges give the same corner.
             if (loop.empty() || corner != loop.back()) loop.push_back(corner);
             const int to = next[edge];
             next[edge] = -1;

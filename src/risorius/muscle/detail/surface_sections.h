@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Closed loops in which planes cut a closed surface.
+/// The closed loops in which planes cut a closed surface.
 #pragma once
 
 #include <array>
@@ -12,33 +12,33 @@
 
 namespace risorius::muscle::detail {
 
-/// Corners in the plane of a frame, (across, outward) from its middle, m; counter-clockwise seen against the path.
+/// Corners in the plane of a frame, (across, outward) from its origin, m. They run counter-clockwise as seen against the path.
 using Loop = std::vector<Vec2>;
 
 double loop_area(const Loop& loop);
 Vec2 loop_centroid(const Loop& loop);
-/// Second moments of area over the area along both axes about the centroid, m^2.
+/// Second moments of area about the centroid along both axes, divided by the area, m^2.
 Vec2 loop_spread(const Loop& loop);
-/// The angle by which the axes have to be turned for the first to lie along the loop's widest direction.
+/// The angle by which the axes must be rotated so that the first is along the widest direction of the loop, rad.
 double loop_tilt(const Loop& loop);
 bool crosses_itself(const Loop& loop);
 bool encloses(const Loop& loop, const Vec2& point);
 
 class SectionedSurface {
   public:
-    /// Throws Error below `place` ("/triangles", "/points_m") unless the surface is closed, manifold, of one piece and
-    /// turned outward.
+    /// Throws Error below `place` ("/triangles", "/points_m") unless the surface is closed, manifold, connected and oriented
+    /// outward.
     SectionedSurface(const Points& points, const Triangles& triangles, const std::string& place);
 
     double volume_m3() const { return volume_; }
     const Vec3& centroid() const { return centroid_; }
-    /// Unit vector along which the body is longest, and how much longer than across: ratio of the spreads.
+    /// Unit vector along the longest direction of the body. `slenderness` is the ratio of the spreads along and across it.
     Vec3 long_axis(double& slenderness) const;
-    /// Least and greatest of (x - centroid) . axis.
+    /// Minimum and maximum of (x - centroid) . axis, m.
     std::array<double, 2> extent(const Vec3& axis) const;
-    /// Where a ray from inside leaves the body first; infinite when it does not.
+    /// Distance at which a ray from inside first leaves the body, m; infinite when it does not.
     double way_out(const Vec3& from, const Vec3& direction) const;
-    /// All loops in the plane across frame.along.
+    /// All loops in the plane perpendicular to frame.along.
     std::vector<Loop> loops(const PathFrame& frame) const;
 
   private:
@@ -48,7 +48,8 @@ class SectionedSurface {
     std::vector<std::array<int, 2>> edges_;
     double volume_ = 0;
     Vec3 centroid_ = Vec3::Zero();
-    Mat3 spread_ = Mat3::Zero();  ///< second moments of volume about the centroid over the volume
+    /// Second moments of volume about the centroid, divided by the volume.
+    Mat3 spread_ = Mat3::Zero();
 };
 
 }  // namespace risorius::muscle::detail

@@ -11,8 +11,8 @@ namespace risorius::muscle {
 
 namespace {
 
-/// 0; from x0 on height (e^{k s} - 1) / (e^k - 1), s = (x - x0) / (x1 - x0), with a cubic for its first 1/k; and from
-/// (x1, height) on straight.
+/// 0 up to x0, then height (e^{k s} - 1) / (e^k - 1) with s = (x - x0) / (x1 - x0), and straight from (x1, height) on. The
+/// first 1/k of the exponential is replaced by a cubic.
 Curve exponential_curve(double x0, double x1, double height, double k) {
     const double scale = height / std::expm1(k);
     const double rate = k / (x1 - x0);
@@ -34,7 +34,7 @@ Curve bell_curve(double width) {
 Curve kinkless_velocity_curve(double a, double max) {
     std::vector<CurvePiece> pieces = hill_branch(a);
     const double rate = 2 * (1 + 1 / a) / (max - 1);
-    const double joins = 1 / rate;  // where half of the gain and a quarter of the slope are left
+    const double joins = 1 / rate;  // half of the gain and a quarter of the slope are left here
     pieces.push_back(
         hermite_piece(0, 1, 1 + 1 / a, joins, 0.5 * (1 + max), 0.25 * (max - 1) * rate));
     pieces.push_back(lengthening_piece(max, rate));
@@ -42,8 +42,9 @@ Curve kinkless_velocity_curve(double a, double max) {
 }
 
 Curve toed_tendon_curve(double strain, double toe_force, double k) {
-    // Straight on from the end of the toe it passes (strain, 1).
-    const double end_slope = toe_force * k * std::exp(k) / std::expm1(k);  // times the toe's strain
+    // The straight part after the toe passes through (strain, 1).
+    // Times the strain at the end of the toe.
+    const double end_slope = toe_force * k * std::exp(k) / std::expm1(k);
     return exponential_curve(0, strain / (1 + (1 - toe_force) / end_slope), toe_force, k);
 }
 

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The force curves of Thelen's muscle, dimensionless; letters as in muscle_curves.h.
+/// The force curves of Thelen's muscle, dimensionless, with the symbols of muscle_curves.h.
 ///
 ///   active    e^{-(l - 1)^2 / gamma}
-///   passive   (e^{k (l - 1) / e0} - 1) / (e^k - 1) up to l = 1 + e0, where it is 1, and on along its slope
+///   passive   (e^{k (l - 1) / e0} - 1) / (e^k - 1) up to l = 1 + e0, where it is 1; then straight on with its slope
 ///   velocity  (1 + v) / (1 - v / Af) for v < 0; Flen - (Flen - 1) / (1 + c v), c = (2 + 2 / Af) / (Flen - 1), for v > 0:
 ///             the published relation solved for f at full activation
-///   tendon    as the passive curve up to Ftoe, then straight through (eps0, 1). The toe ends where both slopes agree, at
+///   tendon    like the passive curve up to Ftoe, then straight through (eps0, 1). The toe ends where both slopes agree, at
 ///             0.60862 eps0 with 1.71189 / eps0, which the paper rounds to 0.609 and 1.712
 ///
-/// What is published has kinks; here they are cubics that meet value and slope of what is published on either side:
-///   passive   l = 1 to 1 + e0 / k: within 0.0011 of what is published
-///   tendon    eps = 0 to a third of the toe: within 0.0027
-///   velocity  v = 0, where the slope doubles, to 1 / c = 0.04: within 0.027. Near v = -1 as in detail/hill_branch.h,
-///             within 0.005
+/// The published curves have kinks. Here these are replaced by cubics that meet the value and slope of the published curves at
+/// both ends. The differences from the published curves are
+///   passive   l = 1 to 1 + e0 / k: at most 0.0011
+///   tendon    eps = 0 to a third of the toe: at most 0.0027
+///   velocity  v = 0, where the slope doubles, to 1 / c = 0.04: at most 0.027. Near v = -1, as in detail/hill_branch.h: at
+///             most 0.005
 ///
-/// Source: D. G. Thelen 2003, J. Biomech. Eng. 125(1), 70-77; strain of the tendon and Flen as in OpenSim's model of it.
+/// Source: D. G. Thelen 2003, J. Biomech. Eng. 125(1), 70-77; tendon strain and Flen are those of OpenSim's version of it.
 #pragma once
 
 #include "risorius/muscle/muscle_curves.h"

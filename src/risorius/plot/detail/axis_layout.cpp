@@ -10,7 +10,7 @@
 namespace risorius::plot {
 namespace {
 
-constexpr double kMargin = 0.05;  ///< of the axis, beyond the data at either end
+constexpr double kMargin = 0.05;  ///< fraction of the data's range, added at either end
 
 std::string raised(const std::string& digits) {
     static const char* const kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -23,13 +23,13 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string power_of_ten(int exponent) { return "10" + raised(std::to_string(exponent)); }
 
-// Decades, thinned to at most eight labels; 2 and 5 besides where there are fewer than three decades.
+// Decades, thinned to at most eight labels. With fewer than three decades, 2 and 5 have labels too.
 std::vector<Tic> logarithmic_tics(double low, double high) {
     const double decades = std::log10(high / low);
     const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
     const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
     const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
-    // Powers throughout where some number would be long, plain numbers otherwise
+    // Powers of ten when some plain number would be long.
     const bool powers = first < -3 || last > 4;
     std::vector<Tic> tics;
     const auto add = [&](double at, const std::string& label) {
@@ -41,7 +41,7 @@ std::vector<Tic> logarithmic_tics(double low, double high) {
         add(decade, named ? (powers ? power_of_ten(e) : format_number(decade)) : "");
         for (int k = 2; k <= 9; ++k) {
             const bool labelled = decades < 1.05 || (decades < 2.5 && (k == 2 || k == 5));
-            // Rounded to its two digits, so that 3 * 0.1 is written 0.3
+            // Rounded to its two digits, so that 3 * 0.1 becomes 0.3.
             const std::string digit = std::to_string(k);
             add(k * decade, !labelled ? ""
                             : powers  ? digit + "×" + power_of_ten(e)
@@ -104,10 +104,10 @@ AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const st
             layout.low = min * std::pow(10.0, -margin);
             layout.high = max * std::pow(10.0, margin);
         } else {
-            // All values the same: a range around them wide enough to have distinct numbers
+            // All values are equal: the range around them is wide enough for distinct numbers.
             const double span = max - min;
             const double margin = span > 0 ? kMargin * span : std::max(0.1 * std::abs(max), 1e-3);
-            // Data that starts at zero keeps its zero.
+            // Data that start at zero keep zero as the end of the axis.
             layout.low = min == 0 && span > 0 ? 0 : min - margin;
             layout.high = max == 0 && span > 0 ? 0 : max + margin;
         }

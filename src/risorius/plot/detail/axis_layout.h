@@ -12,19 +12,19 @@ namespace risorius::plot {
 
 struct Tic {
     double at;
-    std::string label;  ///< empty for a minor one
+    std::string label;  ///< empty for a minor tic
 };
 
 struct AxisLayout {
     double low = 0, high = 1;
-    std::vector<Tic> tics;  ///< of logarithmic axes; linear ones are left to gnuplot
+    std::vector<Tic> tics;  ///< for logarithmic axes; gnuplot chooses those of linear axes
 };
 
-/// The range over finite values. Throws Error, naming `place`, for values that a logarithmic axis does not have, a range
-/// upside down, or no finite value and no range.
+/// The range of the finite values, or the axis' own range. Throws Error that names `place`: for values that a logarithmic axis
+/// cannot show, for a range whose ends are in the wrong order, and when there is neither a finite value nor a range.
 AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const std::string& place);
 
-/// "3^3" -> "3³": powers raised, line breaks and other control characters as spaces.
+/// "3^3" -> "3³": powers are raised; line breaks and other control characters become spaces.
 std::string typeset(const std::string& text);
 
 }  // namespace risorius::plot

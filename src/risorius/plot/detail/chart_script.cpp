@@ -14,26 +14,26 @@ struct Colour {
     const char* rgb;
 };
 
-// Okabe and Ito 2008, "Color Universal Design"; yellow, faint on white, comes last.
+// Okabe and Ito 2008, "Color Universal Design". Yellow is faint on white and comes last.
 constexpr Colour kPalette[] = {
     {"blue", "#0072b2"},   {"vermillion", "#d55e00"}, {"green", "#009e73"}, {"purple", "#cc79a7"},
     {"orange", "#e69f00"}, {"sky blue", "#56b4e9"},   {"black", "#000000"}, {"yellow", "#f0e442"}};
 constexpr int kColours = static_cast<int>(std::size(kPalette));
 
-// What was published stands behind and is grey; several ranges differ in their shade.
+// Published ranges are grey and lie behind the curves. Several ranges have different shades.
 constexpr const char* kBandShades[] = {"#e3e3e3", "#f3e3c8", "#d8e8f2", "#e2efe4"};
 
-// Filled circle, square, triangle, diamond, down triangle, then the same ones open.
+// Filled circle, square, triangle, diamond and down triangle, then the same ones open.
 constexpr int kPointTypes[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
 
-// Of the SVG, px; the PNG is three times as large: 18 cm wide at 300 dots per inch.
+// Size of the SVG, px. The PNG is three times as large: 18 cm wide at 300 dots per inch.
 constexpr int kWidth_px = 720;
 constexpr int kHeight_px = 450;
 constexpr int kPngScale = 3;
-constexpr std::size_t kLongestLabelBeside = 22;  ///< characters; longer ones stand below
+constexpr std::size_t kLongestLabelBeside = 22;  ///< characters; longer labels go below the chart
 constexpr std::size_t kMaxLabelsBelow = 9;
 
-// Single quotes: gnuplot reads nothing into such a string but the quote itself.
+// Puts a text in single quotes. In such a string, gnuplot interprets only the quote itself.
 std::string in_quotes(const std::string& text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
@@ -48,7 +48,7 @@ std::size_t letters(const std::string& utf8) {
     }));
 }
 
-/// Colours asked for, and the next free one for the others.
+/// The given colours, and the next free one for each other series.
 std::vector<int> colours_of(const std::vector<Series>& series) {
     std::vector<int> colours;
     int next = 0;
@@ -75,11 +75,11 @@ std::string band_lines(const Chart& chart, const AxisLayout& y) {
     for (std::size_t i = 0; i < chart.bands.size(); ++i) {
         const double low = std::max(chart.bands[i].low, y.low);
         const double high = std::min(chart.bands[i].high, y.high);
-        if (low > high) continue;  // the range asked for does not show it
+        if (low > high) continue;  // outside the given range
         const std::string shade = kBandShades[i % std::size(kBandShades)];
         const std::string place =
             " from graph 0, first " + number(low) + " to graph 1, first " + number(high);
-        // A single published number is a line.
+        // A single published value is a line.
         text += low < high ? "set object rectangle" + place + " behind fillcolor rgb '" + shade +
                                  "' fillstyle solid 1 noborder\n"
                            : "set arrow" + place + " nohead back linewidth 3 linecolor rgb '" +
@@ -98,7 +98,7 @@ std::string key_line(const Chart& chart) {
     for (const Series& series : chart.series) count_label(series.label);
     for (const Band& band : chart.bands) count_label(band.label);
     if (count == 0) return "unset key\n";
-    // Beside or below the curves, never over them
+    // Beside or below the curves, never over them.
     if (longest <= kLongestLabelBeside || count > kMaxLabelsBelow)
         return "set key outside right top vertical Left reverse samplen 2 spacing 1.25\n";
     return "set key outside below center horizontal Left reverse samplen 2 spacing 1.25 "
@@ -149,7 +149,7 @@ std::string plot_lines(const Chart& chart) {
     return text + "\n";
 }
 
-/// The same curves twice: vectors and pixels.
+/// Draws the same curves twice, as vectors and as pixels.
 std::string output_lines(const std::string& name, const std::string& plot) {
     const auto size = [](int scale) {
         return " size " + std::to_string(scale * kWidth_px) + "," +
@@ -174,12 +174,12 @@ std::string chart_data(const Chart& chart) {
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         const Series& series = chart.series[i];
         if (i > 0) text += "\n\n";
-        // A quote in the name is doubled, as CSV has it.
+        // CSV doubles a quote inside a name.
         std::string name = "\"";
         for (const char c : typeset(series.label))
             name += c == '"' ? std::string("\"\"") : std::string(1, c);
         name += "\",";
-        if (series.x.empty()) text += name + "nan,nan\n";  // every series has its block
+        if (series.x.empty()) text += name + "nan,nan\n";  // every series has a block
         for (std::size_t k = 0; k < series.x.size(); ++k)
             text += name + number(series.x[k]) + "," + number(series.y[k]) + "\n";
     }

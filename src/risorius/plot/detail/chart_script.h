@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A chart as the two texts gnuplot draws it from.
+/// A chart as the two texts that gnuplot draws it from.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace risorius::plot {
 
-/// "series,x,y", a block per series with two empty lines between; empty lines are skipped by readers of CSV.
+/// "series,x,y": one block per series, with two empty lines between blocks. Readers of CSV skip the empty lines.
 std::string chart_data(const Chart& chart);
 
-/// Draws NAME.data.csv into NAME.svg and NAME.png of the folder it is run in.
+/// A script that draws NAME.data.csv into NAME.svg and NAME.png, in the folder in which it runs.
 std::string chart_script(const Chart& chart, const AxisLayout& x, const AxisLayout& y);
 
 }  // namespace risorius::plot

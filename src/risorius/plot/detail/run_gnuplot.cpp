@@ -20,7 +20,7 @@ extern char** environ;
 namespace risorius::plot {
 namespace {
 
-/// Both ends close themselves, and no other child inherits them.
+/// A pipe that closes its ends itself and that no other child inherits.
 class Pipe {
   public:
     Pipe() {
@@ -61,7 +61,7 @@ class SpawnSettings {
         posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
         posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
-        // A group of its own, so that Ctrl-C reaches this program, which then ends in order.
+        // A process group of its own, so that Ctrl-C reaches only this program, which then ends in order.
         posix_spawnattr_init(&attributes_);
         posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
         posix_spawnattr_setpgroup(&attributes_, 0);
@@ -81,7 +81,7 @@ class SpawnSettings {
     posix_spawnattr_t attributes_;
 };
 
-// The caller's environment but for what changes gnuplot's output: language, numbers, its own variables.
+// The caller's environment without what changes gnuplot's output: language, number formats, gnuplot's own variables.
 std::vector<std::string> environment() {
     std::vector<std::string> settings;
     for (char** entry = environ; *entry; ++entry) {

@@ -8,8 +8,8 @@
 
 namespace risorius::plot {
 
-/// Runs `program` on `script` (a file name) in `folder` and waits for it. Throws RunError with gnuplot's own words when it
-/// fails, and with the name of its package when there is no such program.
+/// Runs `program` on `script` (a file name) in `folder` and waits for it. Throws RunError with gnuplot's message when it fails,
+/// and with the name of the package when there is no such program.
 void run_gnuplot(const std::string& program, const std::string& script,
                  const std::filesystem::path& folder);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity()};
 
-/// "11" .. "33" of a tensor with so many rows; either order of the indices.
+/// "11" .. "33" of a tensor with this many rows, with the indices in either order.
 std::vector<std::string_view> tensor_keys(int axes) {
     static constexpr std::array<std::string_view, 1> one = {"11"};
     static constexpr std::array<std::string_view, 4> two = {"11", "22", "12", "21"};
@@ -19,7 +19,7 @@ std::vector<std::string_view> tensor_keys(int axes) {
     return {three.begin(), three.end()};
 }
 
-/// Fills `number` and `given` from a plain number or an object of tensor entries; symmetric.
+/// Fills `number` and `given` from a plain number or an object of tensor entries. The result is symmetric.
 void read_entries(const JsonCursor& json, int axes, Mat3& number, Mat3& given) {
     if (axes == 0 || json.is_number()) {
         number.setConstant(json.number(kNotNegative));

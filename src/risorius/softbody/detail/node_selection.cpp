@@ -8,7 +8,7 @@ namespace risorius::softbody {
 namespace {
 
 constexpr std::array<const char*, 3> kAxisNames = {"a1", "a2", "a3"};
-constexpr int kMaxNodes = 100000;  // along one axis; catches a misplaced number
+constexpr int kMaxNodes = 100000;  // along one axis; detects a misplaced number
 
 AxisRange read_axis_range(const JsonCursor& json) {
     AxisRange range{.place = json.place()};
@@ -36,7 +36,7 @@ AxisRange read_axis_range(const JsonCursor& json) {
     return range;
 }
 
-/// Ends of a range as positions along the axis, counted in nodes.
+/// Ends of a range as positions along the axis, in units of nodes.
 std::pair<double, double> ends_in_nodes(const AxisRange& range, int nodes) {
     if (range.coordinates) return {range.from * (nodes - 1), range.to * (nodes - 1)};
     const auto counted = [&](double index) {
@@ -51,7 +51,7 @@ std::pair<double, double> ends_in_nodes(const AxisRange& range, int nodes) {
     return {counted(range.from), counted(range.to)};
 }
 
-// A coordinate like 0.4 need not fall on a node exactly.
+// A coordinate such as 0.4 need not be exactly that of a node.
 constexpr double kSlack = 1e-9;
 
 std::array<int, 3> position_of(int node, const tissue::GridShape& grid) {

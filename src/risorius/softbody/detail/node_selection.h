@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Nodes of a grid picked by planes, ranges and corners, as experiment files write them. The same words pick the same part
-/// of a body at any resolution when they are ends or material coordinates.
+/// Selection of grid nodes by planes, ranges and corners, as experiment files write it. Ends and material coordinates select
+/// the same part of a body at any resolution.
 ///
-///   {"a3": "last"}                                  the plane of nodes where a3 is greatest
+///   {"a3": "last"}                                  the plane of nodes where a3 is maximum
 ///   {"a1": [0, 1], "a2": -1}                        indices, both ends included; negative ones count from the end
 ///   {"a1": {"from": 0.4, "to": 0.6}}                material coordinates, 0..1
-///   {"corners": [[0, 0], [1, 0]], "reach": 1}       corner nodes and their next `reach` nodes along each axis
+///   {"corners": [[0, 0], [1, 0]], "reach": 1}       corner nodes and the next `reach` nodes along each axis
 #pragma once
 
 #include <array>
@@ -20,27 +20,27 @@
 
 namespace risorius::softbody {
 
-/// A stretch of one axis, both ends included. `from` may lie after `to`: grading follows the order written.
+/// A range of one axis, both ends included. `from` may be greater than `to`: a graded change then grows in that direction.
 struct AxisRange {
     bool coordinates = false;  ///< material coordinates instead of node indices
     double from = 0, to = 0;   ///< indices may be negative: -1 is the last node
-    std::string place;         ///< where it was written
+    std::string place;         ///< the place in the file
 };
 
 struct NodeSelection {
-    std::array<std::optional<AxisRange>, 3> axes;  ///< a node has to lie in all that are given
+    std::array<std::optional<AxisRange>, 3> axes;  ///< a node must lie in all given ranges
     std::vector<std::array<int, 3>> corners;  ///< each 0 or 1 per axis; used when no axis is given
-    int reach = 0;                            ///< nodes beside each corner, along each axis
+    int reach = 0;  ///< number of nodes beside each corner, along each axis
 };
 
-/// `axes`: how many material axes the body has, 1 to 3.
+/// `axes`: number of material axes of the body, 1 to 3. Throws Error.
 NodeSelection read_node_selection(const JsonCursor& json, int axes);
 
-/// Rows of the selected nodes, ascending. Throws Error with the place of an index the grid does not have.
+/// Rows of the selected nodes, ascending. Throws Error at the place of an index outside the grid.
 std::vector<int> select(const NodeSelection& selection, const tissue::GridShape& grid);
 
-/// Where a selected node lies within the range of one axis: 0 at its `from`, 1 at its `to`; 1 when that axis is not given
-/// or its range is a single plane.
+/// Position of a selected node within the range of one axis: 0 at its `from`, 1 at its `to`. It is 1 when that axis is not
+/// given or its range is a single plane.
 double fraction_along(const NodeSelection& selection, const tissue::GridShape& grid, int axis,
                       int node);
 

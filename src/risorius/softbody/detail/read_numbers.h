@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Numbers of a description that have to lie in a half-open range, and how many nodes it may have.
+/// Readers of numbers with a half-open range, and the maximum number of nodes.
 #pragma once
 
 #include "risorius/core/json_cursor.h"

@@ -55,7 +55,7 @@ void read_path(const JsonCursor& json, Points& points_m) {
             json.items()[static_cast<std::size_t>(i)].fail("a point apart from the one before");
 }
 
-/// Evenly spaced by length.
+/// Nodes along a path, evenly spaced by length.
 Points along_path(const Points& corners, int nodes) {
     std::vector<double> length{0};
     for (long i = 1; i < corners.rows(); ++i)

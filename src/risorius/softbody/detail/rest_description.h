@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The undeformed shape of a body as written: a block, a cylinder, a sheet, a tube, or every node by itself.
+/// The undeformed shape of a body as a file describes it: a block, a cylinder, a sheet, a tube, a path, or a list of all nodes.
 ///
 ///   {"block_m": [3, 3, 3]}                              solid; edges along x, y, z, which are a1, a2, a3
-///   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x, a square of a2, a3 pressed into the disc
+///   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x; the square of a2, a3 is mapped to a disc
 ///   {"sheet_m": [3, 3]}                                 surface; edges along x, y, which are a1, a2
-///   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, nodes evenly along it
+///   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, with evenly spaced nodes
 ///   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
-///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; holds for one grid only
+///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; fits one grid only
 ///
-/// each with "turn": {"axis": [0, 1, 0], "angle_deg": 90} about the shape's own origin and then "at_m": [0, 0, 1].
+/// Each may have "turn": {"axis": [0, 1, 0], "angle_deg": 90}, a rotation about the shape's own origin, and then
+/// "at_m": [0, 0, 1], a translation.
 #pragma once
 
 #include <string>
@@ -22,25 +23,25 @@ namespace risorius::softbody {
 
 enum class Kind {
     kSolid,     ///< a grid over three material axes
-    kSurface,   ///< over two
+    kSurface,   ///< a grid over two material axes
     kCylinder,  ///< a surface closed along a2
-    kCurve      ///< over one
+    kCurve      ///< a grid over one material axis
 };
 
 struct RestDescription {
     enum class Form { kBlock, kCylinder, kSheet, kTube, kPath, kPoints };
     Form form = Form::kBlock;
-    std::string place;      ///< where it was written
-    Vec3 edges_m{1, 1, 1};  ///< of a block; of a sheet the first two
+    std::string place;      ///< the place in the file
+    Vec3 edges_m{1, 1, 1};  ///< of a block; the first two of a sheet
     double radius_m = 1, length_m = 1;
-    Points points_m;  ///< of a path its corners, else every node
+    Points points_m;  ///< corners of a path, or all nodes
     Rigid placed = Rigid::Identity();
 };
 
-/// The form has to be one of the kind's.
+/// Throws Error unless the form fits the kind.
 RestDescription read_rest(const JsonCursor& json, Kind kind);
 
-/// Every node of a grid (one layer thick for surfaces). Throws Error for points that are not one per node.
+/// All nodes of a grid, N x 3, m (one layer for surfaces). Throws Error when the number of points is not that of the nodes.
 Points rest_points(const RestDescription& rest, const tissue::GridShape& grid);
 
 }  // namespace risorius::softbody

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Adams-Bashforth of order 4, and Adams-Moulton of order 4 with it as predictor (predict, evaluate, correct, evaluate).
-// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, III.1.
+// Source: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, III.1.
 #include <algorithm>
 #include <array>
 
@@ -19,12 +19,13 @@ class Adams final : public Stepper {
   protected:
     void step(const MotionSystem& system, Points& x, Points& v, double t, double h,
               IntegratorReport& report) override {
-        if (h != step_s_) known_ = 0;  // the formulas are for equal steps
+        if (h != step_s_) known_ = 0;  // the formulas need equal steps
         step_s_ = h;
         newest_ = (newest_ + 1) % 4;
         known_ = std::min(known_ + 1, 4);
         past_v_[newest_] = v;
-        // The corrector's evaluation of the step before, done here: contacts may have been searched since
+        // This is the last evaluation of the previous step's corrector. It is done here because contacts may have been searched
+        // since.
         system.acceleration(t, x, v, past_a_[newest_]);
         ++report.evaluations;
         if (known_ < 4) {
@@ -50,7 +51,7 @@ class Adams final : public Stepper {
         ++report.evaluations;
         x += w * (9 * predicted_v_ + 19 * v0 - 5 * v1 + v2);
         v += w * (9 * a_ + 19 * a0 - 5 * a1 + a2);
-        // Milne's estimate from the difference of corrector and predictor
+        // Milne's error estimate, from the difference between corrector and predictor.
         system.place_fixed(t + h, x, v);
         const double difference = std::max((x - predicted_x_).cwiseAbs().maxCoeff(),
                                            h * (v - predicted_v_).cwiseAbs().maxCoeff());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bulirsch & Stoer: Gragg's modified midpoint rule with 2, 4, 6 ... substeps, extrapolated to substep 0 by polynomials in
-// its square; order and step are chosen for the least work per second of motion.
-// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.9.
+// Bulirsch & Stoer: Gragg's modified midpoint rule with 2, 4, 6 ... substeps, extrapolated to substep size 0 by polynomials in
+// its square. Order and step are chosen for the least work per second of motion.
+// Source: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.9.
 //
 //   k      column of the extrapolation table, of order 2 k + 2
 //   H      the whole step, s
@@ -16,7 +16,7 @@ namespace risorius::solve::detail {
 
 namespace {
 
-constexpr int kRows = 8;  ///< of the table at most: 16 substeps, order 16
+constexpr int kRows = 8;  ///< maximum number of rows of the table: 16 substeps, order 16
 
 constexpr int substeps(int row) { return 2 * (row + 1); }
 
@@ -50,7 +50,7 @@ class BulirschStoer final : public ControlledStepper {
                 return {error, next_step(best_step, work, k)};
             }
             if (k == last || hopeless(error, k)) {
-                // Once more with what this order would have needed
+                // Repeats the step with the size that this order would have needed.
                 if (k > 2 && work[at - 1] < 0.8 * work[at])
                     target_ = k - 1;
                 else
@@ -65,7 +65,7 @@ class BulirschStoer final : public ControlledStepper {
     void forget() override { target_ = 4; }
 
   private:
-    /// Gragg's rule over H, smoothed, as the newest row of the table; then extrapolation along the row.
+    /// Applies Gragg's rule over H, smoothed, as the newest row of the table, and extrapolates along the row.
     void add_row(const MotionSystem& system, const Points& x, const Points& v, double t, double H,
                  int k) {
         const int n = substeps(k);
@@ -84,7 +84,8 @@ class BulirschStoer final : public ControlledStepper {
             before_x_.swap(now_x_);
             before_v_.swap(now_v_);
         }
-        // table[k] holds the row's newest value from the left: T(k, 0), then T(k, 1) ... ; older ones are those of row k - 1
+        // From the left, table[k] gets the values of the new row: T(k, 0), then T(k, 1) ... Entries not yet replaced are those
+        // of row k - 1.
         carried_x_ = 0.5 * (now_x_ + before_x_ + h * now_v_);
         carried_v_ = 0.5 * (now_v_ + before_v_ + h * rate_);
         for (int j = 0; j < k; ++j) {
@@ -108,7 +109,7 @@ class BulirschStoer final : public ControlledStepper {
         return scaled_error(now_x_, rate_, H);
     }
 
-    /// Factor to the step that would just do with column k, (9.24)
+    /// Factor to the step size that column k would just accept, (9.24).
     static double growth(double error, int k) {
         const double power = 1.0 / (2 * k + 1);
         const double min = std::pow(0.02, power);
@@ -117,21 +118,21 @@ class BulirschStoer final : public ControlledStepper {
         return std::clamp(factor, min / 4, 1 / min);
     }
 
-    /// Of rows 0 to k
+    /// Number of evaluations for rows 0 to k.
     static double evaluations_to(int k) {
         double sum = 1;
         for (int row = 0; row <= k; ++row) sum += substeps(row);
         return sum;
     }
 
-    /// No acceptance to be expected from the rows still allowed, (9.27), (9.28)
+    /// True when the remaining rows cannot be expected to be accepted, (9.27), (9.28).
     bool hopeless(double error, int k) const {
         const auto ratio = [](int row) { return static_cast<double>(substeps(row)) / substeps(0); };
         if (k < target_ && k + 2 < kRows) return error > std::pow(ratio(k + 1) * ratio(k + 2), 2);
         return k + 1 < kRows && error > std::pow(ratio(k + 1), 2);
     }
 
-    /// The order of least work around k, which was accepted, and its step, (9.29), (9.30)
+    /// Chooses the order of least work around the accepted k. Returns its step, (9.29), (9.30).
     double next_step(const std::array<double, kRows>& best_step,
                      const std::array<double, kRows>& work, int k) {
         const auto at = static_cast<std::size_t>(k);

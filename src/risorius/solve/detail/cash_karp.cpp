@@ -19,9 +19,9 @@ constexpr double kB[6][5] = {
     {3. / 10, -9. / 10, 6. / 5, 0, 0},
     {-11. / 54, 5. / 2, -70. / 27, 35. / 27, 0},
     {1631. / 55296, 175. / 512, 575. / 13824, 44275. / 110592, 253. / 4096}};
-// Of order 5; the second weight is zero in both
+// Weights of order 5. The second weight is zero in both orders.
 constexpr double kC[6] = {37. / 378, 0, 250. / 621, 125. / 594, 0, 512. / 1771};
-// Order 5 minus order 4
+// Weights of order 5 minus those of order 4.
 constexpr double kE[6] = {37. / 378 - 2825. / 27648,
                           0,
                           250. / 621 - 18575. / 48384,
@@ -29,7 +29,7 @@ constexpr double kE[6] = {37. / 378 - 2825. / 27648,
                           -277. / 14336,
                           512. / 1771 - 1. / 4};
 
-/// The stages; k = 0 is (v, a) at the start.
+/// The stages. k = 0 is (v, a) at the start.
 class Stages {
   public:
     void first(const MotionSystem& system, double t, const Points& x, const Points& v) {
@@ -43,7 +43,7 @@ class Stages {
             system.place_fixed(stage_s, x_, v_[k]);
             system.acceleration(stage_s, x_, v_[k], a_[k]);
         };
-        // Written out so that each stage is one sweep over the nodes
+        // The sums are unrolled so that each stage is one pass over the nodes.
         const auto sum1 = [&](const std::array<Points, 6>& y, const double* b) {
             return h * b[0] * y[0];
         };
@@ -77,12 +77,12 @@ class Stages {
         evaluate(5);
     }
 
-    /// x, v += the step of order 5
+    /// Adds the step of order 5 to x and v.
     void add_step(double h, Points& x, Points& v) const {
         x += h * kC[0] * v_[0] + h * kC[2] * v_[2] + h * kC[3] * v_[3] + h * kC[5] * v_[5];
         v += h * kC[0] * a_[0] + h * kC[2] * a_[2] + h * kC[3] * a_[3] + h * kC[5] * a_[5];
     }
-    /// The step of order 5 minus that of order 4
+    /// The step of order 5 minus that of order 4.
     void difference(double h, Points& dx, Points& dv) const {
         dx = h * kE[0] * v_[0] + h * kE[2] * v_[2] + h * kE[3] * v_[3] + h * kE[4] * v_[4] +
              h * kE[5] * v_[5];
@@ -132,7 +132,7 @@ class ControlledCashKarp final : public ControlledStepper {
         stages_.difference(h, dx_, dv_);
         const double error = scaled_error(dx_, dv_, h);
 
-        // Numerical Recipes 17.2: the exponents of an accepted and of a refused step; growth and shrinking are limited
+        // Exponents of an accepted and of a rejected step from Numerical Recipes 17.2. Growth and shrinking are limited.
         constexpr double kSafety = 0.9, kGrowth = 5, kShrink = 0.1;
         double factor = kShrink;
         if (error <= 1)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Eigen matrices as CHOLMOD sees them.
+/// Views of Eigen matrices for CHOLMOD.
 #pragma once
 
 #include <suitesparse/cholmod.h>
@@ -9,7 +9,7 @@
 
 namespace risorius::solve::detail {
 
-/// View of an Eigen matrix's lower triangle; copies nothing.
+/// View of the lower triangle of an Eigen matrix. Nothing is copied.
 inline cholmod_sparse view_of(const Eigen::SparseMatrix<double>& A) {
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(A.rows());

@@ -17,7 +17,7 @@ void multiply(const SymmetricBlocks& A, const Points& x, Points& y) {
         const int first = A.begin[static_cast<std::size_t>(j)];
         const int last = A.begin[static_cast<std::size_t>(j) + 1];
         const double x0 = from[3 * j], x1 = from[3 * j + 1], x2 = from[3 * j + 2];
-        // The diagonal block is stored whole
+        // The diagonal block is stored in full.
         const double* d = A.value[static_cast<std::size_t>(first)].data();
         double y0 = d[0] * x0 + d[3] * x1 + d[6] * x2;
         double y1 = d[1] * x0 + d[4] * x1 + d[7] * x2;
@@ -48,7 +48,8 @@ ConjugateGradientReport ConjugateGradients::solve(const SymmetricBlocks& A, cons
     for (int i = 0; i < n; ++i) {
         const Mat3& block = A.value[static_cast<std::size_t>(A.begin[static_cast<std::size_t>(i)])];
         Mat3& inverse = inverse_[static_cast<std::size_t>(i)];
-        // A block that is not positive definite is met by negative curvature later; the preconditioner must be.
+        // A block that is not positive definite shows up later as negative curvature. The preconditioner must be positive
+        // definite.
         const bool positive = block(0, 0) > 0 &&
                               block(0, 0) * block(1, 1) - block(1, 0) * block(0, 1) > 0 &&
                               block.determinant() > 0;

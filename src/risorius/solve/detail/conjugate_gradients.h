@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Conjugate gradients on a symmetric matrix of 3 x 3 blocks, preconditioned by the inverses of its diagonal blocks.
+/// Conjugate gradients for a symmetric matrix of 3 x 3 blocks, with the inverses of the diagonal blocks as preconditioner.
 ///
-///   A   3n x 3n, positive definite if all is well      b, x   n x 3
+///   A   3n x 3n, should be positive definite      b, x   n x 3
 #pragma once
 
 #include <vector>
@@ -15,13 +15,14 @@ namespace risorius::solve {
 struct ConjugateGradientReport {
     int iterations = 0;
     bool converged = false;
-    bool negative_curvature = false;  ///< A is indefinite; x is the iterate before that showed
+    /// A is indefinite; x is the last iterate before that was found.
+    bool negative_curvature = false;
 };
 
 /// Keeps its buffers between calls.
 class ConjugateGradients {
   public:
-    /// From x = 0 until |b - A x| <= tolerance |b| in the norm of the preconditioner.
+    /// Starts from x = 0 and ends when |b - A x| <= tolerance |b| in the norm of the preconditioner.
     ConjugateGradientReport solve(const SymmetricBlocks& A, const Points& b, double tolerance,
                                   int iterations, Points& x);
 

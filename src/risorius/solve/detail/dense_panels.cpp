@@ -10,8 +10,8 @@ namespace risorius::solve::detail {
 
 namespace {
 
-constexpr int kTileRows = 8, kTileColumns = 4;  // of C kept in registers
-constexpr int kPanelBlock = 32;                 // columns of a panel factored together
+constexpr int kTileRows = 8, kTileColumns = 4;  // of C, kept in registers
+constexpr int kPanelBlock = 32;                 // columns of a panel that are factored together
 
 Lanes load(const double* p) {
     Lanes out;
@@ -20,7 +20,7 @@ Lanes load(const double* p) {
 }
 void store(double* p, const Lanes& v) { __builtin_memcpy(p, &v, sizeof v); }
 
-/// 8 x 4 of C
+/// An 8 x 4 tile of C.
 void tile(const double* a, int a_stride, const double* b, int b_stride, int k, double* c,
           int c_stride) {
     Lanes s[kTileColumns][2]{};
@@ -73,7 +73,7 @@ bool factorise_panel(double* panel, int tall, int width, std::vector<double>& sc
     const auto column = [&](int j) { return panel + static_cast<long>(j) * tall; };
     for (int from = 0; from < width; from += kPanelBlock) {
         const int to = std::min(width, from + kPanelBlock);
-        if (from > 0) {  // what the columns before take from this block
+        if (from > 0) {  // what the earlier columns subtract from this block
             const int m = tall - from, n = to - from;
             scratch.resize(static_cast<std::size_t>(m) * static_cast<std::size_t>(n));
             product(panel + from, tall, panel + from, tall, m, n, from, scratch.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Implicit Euler with one linear solve or by Newton to the end, and equilibrium.
+// Implicit Euler with one linear solve or with Newton's method, and equilibrium.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace risorius::solve::detail {
 
 namespace {
 
-/// An equilibrium walks through pseudo-time first, which takes more iterations than the step of a motion.
+/// An equilibrium goes through pseudo-time first, so it gets this many times the iterations of a step of motion.
 constexpr int kSettlingIterations = 10;
 
 NewtonOptions newton_options(const IntegratorOptions& options) {
@@ -48,7 +48,7 @@ class ImplicitEuler final : public Stepper {
         target_ = x + h * v;
         const ImplicitStep step{t + h, h, start_};
         system.place_fixed(t + h, x, v);
-        // From where inertia would carry it, if that is no worse than staying
+        // Starts from the inertial position unless its potential is higher than at the start of the step.
         guess_ = target_;
         scratch_ = v;
         system.place_fixed(t + h, guess_, scratch_);
@@ -81,7 +81,7 @@ class ImplicitEuler final : public Stepper {
     Points start_, target_, guess_, scratch_;
 };
 
-// (M/h^2 + H(x_n)) dx = f(x_n) + M v_n / h: Newton's first move on Phi, from x_n with the fixed nodes moved on.
+// (M/h^2 + H(x_n)) dx = f(x_n) + M v_n / h: the first Newton move on Phi, from x_n with the fixed nodes at their new places.
 class BaraffWitkin final : public Stepper {
   public:
     using Stepper::Stepper;

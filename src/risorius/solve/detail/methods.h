@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One maker per family of methods; the options were checked by make_integrator.
+/// Factories, one for each family of methods. make_integrator() has checked the options.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ std::unique_ptr<Integrator> make_runge_kutta_2(const IntegratorOptions& options)
 std::unique_ptr<Integrator> make_runge_kutta_4(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_cash_karp(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_bulirsch_stoer(const IntegratorOptions& options);
-std::unique_ptr<Integrator> make_adams(const IntegratorOptions& options);  ///< both of them
+/// kAdamsBashforth and kAdamsMoulton.
+std::unique_ptr<Integrator> make_adams(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_terzopoulos(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_implicit_euler(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_baraff_witkin(const IntegratorOptions& options);

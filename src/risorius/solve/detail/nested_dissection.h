@@ -10,20 +10,20 @@
 
 namespace risorius::solve::detail {
 
-/// cholmod_analyze(), one thread at a time. METIS, which orders by nested dissection, seeds and draws from the process' one
-/// rand(): two orderings at once would give others than each alone, and sums in another order other bits.
+/// cholmod_analyze(), one thread at a time. METIS, which makes the nested dissection, seeds and uses the global rand() of the
+/// process. Two simultaneous orderings would differ from either alone, and another order of sums gives other bits.
 cholmod_factor* analyse(cholmod_sparse& A, cholmod_common& common);
 
-/// Rows of A in an order that keeps its factor sparse. `block` rows in a row belong to one node and stay together; in
-/// post-order. Throws std::invalid_argument when there is none.
+/// An order of the rows of A that keeps its factor sparse, in post-order. Groups of `block` consecutive rows belong to one node
+/// and stay together. Throws std::invalid_argument when no ordering is found.
 std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A, int block);
 
-/// Panels of columns of like pattern of the factor of A after nested dissection.
+/// Panels: columns of the factor of A, after nested dissection, that have similar patterns.
 struct PanelPattern {
-    std::vector<int> order;      ///< row of A at each place
-    std::vector<int> super;      ///< first column of each panel, and n
-    std::vector<int> row_begin;  ///< of each panel in row, and the end
-    std::vector<int> row;        ///< ascending in each panel, its own columns first
+    std::vector<int> order;      ///< row of A at each position
+    std::vector<int> super;      ///< first column of each panel, then n
+    std::vector<int> row_begin;  ///< where each panel begins in `row`, then the end
+    std::vector<int> row;        ///< ascending within each panel; its own columns come first
 };
 PanelPattern panel_pattern(const Eigen::SparseMatrix<double>& A, int block);
 

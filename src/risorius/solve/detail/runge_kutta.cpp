@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One-step explicit methods of fixed step: Euler, Verlet, Runge-Kutta 2 and 4. Press et al., Numerical Recipes, ch. 17.
+// One-step explicit methods with fixed steps: Euler, Verlet, Runge-Kutta 2 and 4. Source: Press et al., Numerical Recipes, ch.
+// 17.
 #include "risorius/solve/detail/runge_kutta.h"
 
 #include "risorius/solve/detail/methods.h"
@@ -48,9 +49,9 @@ class Euler final : public Stepper {
     Points a_;
 };
 
-// r+ = 2 r - r- + h^2 a(r, (r - r-)/h), kept as v = (r - r-)/h, which is the velocity half a step ago. The start has
-// the velocity of its own time, half a step ago being none: r+ = r + h v + h^2 a / 2. After a step of another length the
-// velocity is taken from the middle of the last step to the middle of this one.
+// r+ = 2 r - r- + h^2 a(r, (r - r-)/h). The state keeps v = (r - r-)/h, the velocity half a step ago. At the start there is no
+// earlier step and v belongs to the start time: r+ = r + h v + h^2 a / 2. When the step size changes, v is integrated from the
+// middle of the last step to the middle of this one.
 class Verlet final : public Stepper {
   public:
     using Stepper::Stepper;

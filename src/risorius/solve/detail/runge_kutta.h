@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The classic Runge-Kutta step of order 4, also the start of the multi-step methods.
+/// The classic Runge-Kutta step of order 4. It also starts the multi-step methods.
 #pragma once
 
 #include "risorius/solve/motion_system.h"
@@ -9,7 +9,7 @@ namespace risorius::solve::detail {
 
 class RungeKutta4Step {
   public:
-    /// Steps x and v by h; `a` is the acceleration at t. Three evaluations.
+    /// Steps x and v by h. `a` is the acceleration at t. Evaluates the acceleration three times.
     void apply(const MotionSystem& system, double t_s, double h, const Points& a, Points& x,
                Points& v);
 

@@ -12,9 +12,9 @@ namespace risorius::solve::detail {
 
 namespace {
 
-constexpr double kBulirschStoerTolerance = 1e-6;  ///< where the options ask for none
+constexpr double kBulirschStoerTolerance = 1e-6;  ///< when the options give none
 
-/// How near to `until` counts as there: rounding of k h, or of the caller's own sum of steps.
+/// Tolerance for having reached `until`: rounding of k h, or of the caller's own sum of steps.
 double closeness(double h, double until_s) {
     return std::max(1e-9 * h, 4 * std::numeric_limits<double>::epsilon() * std::abs(until_s));
 }
@@ -35,7 +35,7 @@ bool ProgressMonitor::diverged(const Points& x, const Points& v) const {
     const double* p = x.data();
     const double* p0 = began_.data();
     const double* q = v.data();
-    // As long as all nodes together have not moved so far, none has; NaN goes on to the second look
+    // If the squared motion of all nodes together is below the limit, so is that of each. NaN goes on to the second check.
     const long n = x.size();
     Lanes moved{}, speed{};
     long k = 0;
@@ -56,7 +56,7 @@ bool ProgressMonitor::diverged(const Points& x, const Points& v) const {
     for (long i = 0; i < x.rows(); ++i, p += 3, p0 += 3, q += 3) {
         const double dx = p[0] - p0[0], dy = p[1] - p0[1], dz = p[2] - p0[2];
         const double speed_squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
-        // Written so that NaN is bad
+        // Written so that NaN counts as diverged.
         bad |= !(dx * dx + dy * dy + dz * dz <= farthest_squared_);
         bad |= !(speed_squared <= std::numeric_limits<double>::max());
     }
@@ -137,7 +137,7 @@ double ControlledStepper::scaled_error(const Points& dx, const Points& dv, doubl
     for (long i = 0; i < dx.size(); ++i) {
         max_x = std::max(max_x, std::abs(p[i]));
         max_v = std::max(max_v, std::abs(q[i]));
-        poison += 0.0 * p[i] + 0.0 * q[i];  // std::max drops NaN, this keeps it
+        poison += 0.0 * p[i] + 0.0 * q[i];  // std::max drops NaN; this keeps it
     }
     return std::max(max_x, h * max_v) / (tolerance_ * options_.length_scale_m) + poison;
 }
@@ -163,14 +163,14 @@ IntegratorReport ControlledStepper::advance(const MotionSystem& system, MotionSt
     while (!report.diverged && until_s - state.t_s > closeness(step_s_, until_s)) {
         const double t = state.t_s;
         const double left = until_s - t;
-        // Two equal last steps rather than one whole and a sliver
+        // Two equal last steps instead of a full one and a tiny one.
         double h = left <= step_s_ ? left : left < 2 * step_s_ ? left / 2 : step_s_;
         system.begin_step(t, h, state.x, state.v);
         for (bool first = true;; first = false) {
             const bool shortened = h < step_s_;
             const Attempt result = attempt(system, state.x, state.v, t, h, first, report);
             if (result.error <= 1) {
-                // A step cut short by the end of the interval says nothing against longer ones
+                // A step that was cut short by the end of the interval is no reason for shorter steps.
                 step_s_ = shortened && first ? std::max(step_s_, result.next_s) : result.next_s;
                 report.error_estimate = std::max(report.error_estimate, result.error * tolerance_);
                 const double end = t + h;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What all methods share: the clock of whole steps, the start of the history, and the watch for divergence.
+/// What all methods have in common: the clock of whole steps, the start of the history, and the check for divergence.
 #pragma once
 
 #include "risorius/solve/integrator.h"
 
 namespace risorius::solve::detail {
 
-/// Remembers where a motion began and whether it is continued where it was left.
+/// Remembers where a motion began, and detects whether it is continued from where it was left.
 class ProgressMonitor {
   public:
     explicit ProgressMonitor(const IntegratorOptions& options);
 
     void restart() { left_at_s_ = std::numeric_limits<double>::quiet_NaN(); }
 
-    /// True when `state` is not where the last advance left it: the history means nothing then.
+    /// Returns true when the time of `state` is not that of the last end(). Then the history does not apply.
     bool begin(const MotionState& state);
     void end(const MotionState& state) { left_at_s_ = state.t_s; }
 
-    /// Not finite, or a node too far from where it began.
+    /// True when a value is not finite or a node is too far from where it began.
     bool diverged(const Points& x, const Points& v) const;
 
   private:
@@ -27,7 +27,7 @@ class ProgressMonitor {
     Points began_;
 };
 
-/// A method of fixed steps. Time runs on the grid origin + k h, so that advancing in pieces repeats the same steps.
+/// A method with fixed steps. Time runs on the grid origin + k h, so that advancing in several calls repeats the same steps.
 class Stepper : public Integrator {
   public:
     explicit Stepper(const IntegratorOptions& options);
@@ -37,8 +37,8 @@ class Stepper : public Integrator {
                              double until_s) override;
 
   protected:
-    /// One step of h from t, in place; fixed nodes are where they belong at t, and are put there at t + h afterwards. May
-    /// set report.diverged.
+    /// One step of h from t, in place. Fixed nodes are at their places for t; the caller moves them to those for t + h
+    /// afterwards. May set report.diverged.
     virtual void step(const MotionSystem& system, Points& x, Points& v, double t_s, double h,
                       IntegratorReport& report) = 0;
     /// Drops the history of earlier steps.
@@ -52,7 +52,7 @@ class Stepper : public Integrator {
     long count_ = 0;
 };
 
-/// A method that chooses its step. A step is repeated smaller until its error is allowed.
+/// A method that controls its step size. A step is repeated with a smaller size until its error is allowed.
 class ControlledStepper : public Integrator {
   public:
     explicit ControlledStepper(const IntegratorOptions& options);
@@ -63,16 +63,16 @@ class ControlledStepper : public Integrator {
 
   protected:
     struct Attempt {
-        double
-            error;  ///< of the whole step in units of what is allowed: up to 1 is accepted, NaN is not
-        double next_s;  ///< step to try next, or to repeat this one with
+        /// Of the whole step, relative to the allowed error: accepted up to 1, never when NaN.
+        double error;
+        double next_s;  ///< size of the next step, or of the repetition of this one
     };
-    /// Tries h from t and leaves the result in trial_x_, trial_v_. `first` says that x and v are new.
+    /// Tries a step of h from t. The result is left in trial_x_ and trial_v_. `first` is true when x and v are new.
     virtual Attempt attempt(const MotionSystem& system, const Points& x, const Points& v,
                             double t_s, double h, bool first, IntegratorReport& report) = 0;
     virtual void forget() {}
 
-    /// Error of (dx, dv) over a step of h in units of what is allowed; NaN if one of them is.
+    /// Error (dx, dv) of a step of h, relative to the allowed error. NaN if any entry is NaN.
     double scaled_error(const Points& dx, const Points& dv, double h) const;
 
     const IntegratorOptions options_;

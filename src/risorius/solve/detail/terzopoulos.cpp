@@ -3,9 +3,9 @@
 //
 //   (M/h^2 + C/2h + K(r_t)) r_{t+h} = f + (M/h^2 + C/2h) r_t + (M/h - C/2) v_t,    v_t = (r_t - r_{t-h}) / h
 //
-// It is solved for the move r_{t+h} - r_t, which keeps the digits that K's cancelling rows would lose. v_t belongs to the
-// middle of the step before; after a step of another length, or none (the start), the time between the middles of both
-// steps stands for one h of h^2 and for h of M/h, so that the start takes v at its own time.
+// It is solved for the move r_{t+h} - r_t, because the cancelling rows of K would lose digits otherwise. v_t belongs to the
+// middle of the previous step. After a step of another length, or at the start, the time between the middles of the two steps
+// replaces one h in h^2 and the h in M/h; so the start uses v at its own time.
 #include <algorithm>
 
 #include "risorius/solve/detail/methods.h"
@@ -16,7 +16,7 @@ namespace risorius::solve::detail {
 
 namespace {
 
-/// b -= w A x, A by its lower triangle
+/// b -= w A x, with A given by its lower triangle.
 void subtract_product(const Eigen::SparseMatrix<double>& A, double w, const Points& x, Points& b) {
     for (int j = 0; j < A.outerSize(); ++j)
         for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it) {
@@ -44,9 +44,9 @@ class Terzopoulos final : public Stepper {
         ++report.evaluations;
         K_ = stiffness.build({});
         C_ = drag.build({});
-        A_ = K_ + C_ * (0.5 / h);  // without M yet, but of every node
+        A_ = K_ + C_ * (0.5 / h);  // still without M, but for every node
 
-        // Right side of the move, fixed nodes' moves known and brought over
+        // Right side for the move. The moves of fixed nodes are known and are subtracted.
         subtract_product(K_, 1, x, right_);
         subtract_product(C_, 0.5, v, right_);
         for (int i = 0; i < n; ++i)
@@ -76,7 +76,8 @@ class Terzopoulos final : public Stepper {
         return system.fixed()[static_cast<std::size_t>(node)] != 0;
     }
 
-    /// Rows and columns of fixed nodes become the identity's, the others get their mass; every diagonal entry exists.
+    /// Rows and columns of fixed nodes become those of the identity. The diagonal of all others gets their mass; every diagonal
+    /// entry must exist.
     void eliminate_fixed(const MotionSystem& system, double mass_weight) {
         Eigen::SparseMatrix<double> diagonal(system.size(), system.size());
         diagonal.reserve(Eigen::VectorXi::Ones(system.size()));

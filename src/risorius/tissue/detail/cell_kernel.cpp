@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kRow[6] = {0, 1, 2, 0, 0, 1}, kColumn[6] = {0, 1, 2, 1, 2, 2};
 constexpr int kOf[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-/// Modes not part of a parallelepiped, as a share of its edges: rounding of the grid.
+/// Modes beyond those of a parallelepiped count as zero below this fraction of its edges: rounding errors of the grid.
 constexpr double kStraight = 1e-12;
 
-/// Tangents t1, t2, t3 (8 xi-derivatives) at Gauss point g, from the modes.
+/// Tangents t1, t2, t3 (8 times the derivatives by xi) at Gauss point g, from the modes.
 void tangents(const Modes& m, int g, LaneVector (&t)[3]) {
     const Lanes s1 = Lanes{} + ((g & 4) ? 1.0 : -1.0), s2 = Lanes{} + ((g & 2) ? 1.0 : -1.0),
                 s3 = Lanes{} + ((g & 1) ? 1.0 : -1.0);
@@ -25,7 +25,7 @@ void tangents(const Modes& m, int g, LaneVector (&t)[3]) {
     t[2] = m.c + s1 * m.e + s2 * m.f + (s1 * s2) * m.k;
 }
 
-/// S = C T C of symmetric 3 x 3, six components each.
+/// S = C T C for symmetric 3 x 3 matrices, six components each.
 void sandwich(const Lanes (&c)[6], const Lanes (&t)[6], Lanes (&s)[6]) {
     Lanes ct[3][3];
     for (int i = 0; i < 3; ++i)
@@ -45,7 +45,7 @@ CellKernel::CellKernel(const CellBody& body, const Points& rest_vertices,
     const int count = static_cast<int>(cells.size());
     groups_.resize(static_cast<std::size_t>((count + 3) / 4));
 
-    // Is every cell a parallelepiped, is it rectangular?
+    // Are all cells parallelepipeds, and are they rectangular?
     bool straight = true, rectangular = true;
     for (const CellMesh::Cell& cell : cells) {
         const CellCorners rest(cell, rest_vertices);
@@ -63,7 +63,7 @@ CellKernel::CellKernel(const CellBody& body, const Points& rest_vertices,
     if (pointwise) curved_.resize(groups_.size());
 
     for (int slot = 0; slot < 4 * static_cast<int>(groups_.size()); ++slot) {
-        // The last group is filled up with copies of the last cell that have no stiffness.
+        // The last group is filled with copies of the last cell that have no stiffness.
         const int c = std::min(slot, count - 1);
         const auto index = static_cast<std::size_t>(c);
         const CellMesh::Cell& cell = cells[index];
@@ -79,7 +79,7 @@ CellKernel::CellKernel(const CellBody& body, const Points& rest_vertices,
         if (body.moduli.empty()) {
             parameters = body.parameters[index];
         } else if (!pointwise) {
-            // lambda_ij = mu V0 / (Li^2 Lj^2) of a rectangular cell
+            // lambda_ij = mu V0 / (Li^2 Lj^2) for a rectangular cell
             const Mat3 r = tangents_at(rest, cell.size, 0);
             const double volume = rest_volume[c] / cell.size.prod();
             const CellModuli& moduli = body.moduli[index];
@@ -248,7 +248,7 @@ double CellKernel::add_gradient(const CellMesh& mesh, const Points& x, const Poi
     return solve::sum_lanes(energy);
 }
 
-// lambda (g - g0)^2 + omega/h (g - gn)^2 = (lambda + omega/h) (g - gm)^2 + what does not depend on g.
+// lambda (g - g0)^2 + omega/h (g - gn)^2 = (lambda + omega/h) (g - gm)^2 + a constant
 void CellKernel::prepare_step(const CellMesh& mesh, const solve::ImplicitStep& step) {
     if (step.step_s == step_s_ && step.start.rows() == step_start_.rows() &&
         step.start == step_start_)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Energy and gradient of all cells, four at a time: the fast path where the law is constant in a cell (cell_lanes.h), Gauss
-/// point by Gauss point where moduli meet a curved rest shape.
+/// Energy and gradient of all cells, four at a time. Cells with a constant law use the fast path of cell_lanes.h. Cells with
+/// moduli and a curved rest shape are summed over their Gauss points.
 #pragma once
 
 #include <vector>
@@ -17,16 +17,16 @@ class CellKernel {
     CellKernel(const CellBody& body, const Points& rest_vertices,
                const Eigen::VectorXd& rest_volume);
 
-    /// Adds dE/dx, and the derivative of dissipation at the velocities `v` if given; returns E.
+    /// Adds dE/dx, and the damping force at the velocities `v` unless it is null. Returns E.
     double add_gradient(const CellMesh& mesh, const Points& x, const Points* v, Points& gradient);
-    /// E + h R and its derivative by x.
+    /// Adds the derivative of E + h R by x. Returns E + h R.
     double add_potential(const CellMesh& mesh, const solve::ImplicitStep& step, const Points& x,
                          Points& gradient);
 
   private:
-    /// Four cells whose law varies from point to point.
+    /// Four cells whose law differs from Gauss point to Gauss point.
     struct CurvedGroup {
-        Lanes inverse_metric[8][6];  ///< C sqrt(share of the point), scaled as the modes are
+        Lanes inverse_metric[8][6];  ///< C sqrt(weight of the point), in the scale of the modes
         Lanes rest[8][6];            ///< t_i . t_j
         Lanes mu, eta;
     };
@@ -41,14 +41,14 @@ class CellKernel {
 
     std::vector<CellGroup> groups_;
     std::vector<CurvedGroup> curved_;  ///< empty, or one per group
-    std::vector<Lanes>
-        rest_targets_;  ///< empty when all cells are parallelepipeds; kStrains per group
+    /// kStrains per group; empty when all cells are parallelepipeds.
+    std::vector<Lanes> rest_targets_;
     bool damped_ = false;
 
-    // Of the implicit step at hand: what the strains are compared with, weighed by lambda + omega / h
+    // The current implicit step: target strains, weighed by lambda + omega / h
     Points step_start_;
     double step_s_ = 0;
-    double step_energy_ = 0;  ///< of the start, which blending leaves out
+    double step_energy_ = 0;  ///< constant part of the energy, which the combined targets leave out
     std::vector<Lanes> step_targets_, step_stiffness_;
 
     solve::PaddedPoints x_, v_, gradient_;

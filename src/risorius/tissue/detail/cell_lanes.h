@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The inner loop of a solid of trilinear cells, four cells at a time, without a loop over Gauss points.
+/// The inner loop of a solid of trilinear cells: four cells at a time, without a loop over Gauss points.
 ///
 /// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3,
 /// s = +-1, are
 ///   t1 = a + s2 d + s3 e + s2 s3 k     t2 = b + s1 d + s3 f + s1 s3 k     t3 = c + s1 e + s2 f + s1 s2 k
-/// (a, b, c: the linear modes; d, e, f / k: the others times 1/sqrt 3 and 1/3; all times 8). At fixed s3, t1 = p + s2 q and
-/// t2 = u + s1 q, hence
+/// Here a, b, c are the linear modes, d, e, f are the bilinear modes times 1/sqrt 3, and k is the trilinear mode times 1/3; all
+/// are scaled by 8. For fixed s3, t1 = p + s2 q and t2 = u + s1 q, hence
 ///   t1.t1 = (p.p + q.q) + s2 2 p.q      t1.t2 = p.u + s1 p.q + s2 q.u + s1 s2 q.q
-/// and, lambda being constant in the cell, the sum of squares over the four points is four times that of these
-/// coefficients: 36 numbers ("strains") instead of 48 metric entries, and no transform back. The volume is
+/// lambda is constant in the cell, so the sum of squares over the four points is four times the sum of squares of these
+/// coefficients. This needs 36 numbers ("strains") instead of 48 metric entries, and no transform back. The volume is
 ///   64 V = a.(b x c) + a.(d x e) + b.(f x d) + c.(e x f)
-/// exactly, since 1/3, the mean of xi^2, is the square of the scale of d, e, f.
+/// This is exact, because 1/3, the mean of xi^2, is the square of the scale of d, e, f.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +25,20 @@ using solve::Lanes;
 enum Component { k11, k22, k33, k12, k13, k23 };
 constexpr int kStrains = 36;
 
-/// Tensor component each strain belongs to; see measure().
+/// Tensor component of each strain; see measure().
 constexpr Component kComponent[kStrains] = {
     k11, k11, k22, k22, k12, k12, k12, k12, k11, k11, k22, k22, k12, k12, k12, k12,  // s3 = +, -
     k33, k33, k13, k13, k13, k13, k33, k33, k13, k13, k13, k13,                      // s2 = +, -
     k23, k23, k23, k23, k23, k23, k23, k23};                                         // s1 = +, -
-/// Shear strains stand for G_ij and G_ji.
+/// Shear strains count twice, as G_ij and G_ji.
 constexpr double multiplicity(int strain) { return kComponent[strain] <= k33 ? 1.0 : 2.0; }
 
 /// Four cells, one per lane.
 struct alignas(64) CellGroup {
     Lanes elastic[6];           ///< lambda in the scale of the modes
-    Lanes damping[6];           ///< omega likewise
-    Lanes rest[6];              ///< t_i . t_j at rest, of cells that are parallelepipeds
-    Lanes bulk;                 ///< psi_c likewise
+    Lanes damping[6];           ///< omega in the scale of the modes
+    Lanes rest[6];              ///< t_i . t_j of the rest shape, for cells that are parallelepipeds
+    Lanes bulk;                 ///< psi_c in the scale of the modes
     Lanes rest_volume;          ///< 64 V_c0
     std::int32_t vertex[8][4];  ///< [corner][lane]
 };
@@ -92,11 +92,11 @@ inline Modes modes_of(const CellGroup& g, const solve::PaddedPoints& x) {
             square * (dd1 - dd0)};
 }
 
-/// Adds the derivative by the modes to that by the vertices.
+/// Converts the derivative by the modes into one by the vertices and adds it.
 inline void scatter(const CellGroup& g, const Modes& m, solve::PaddedPoints& gradient) {
     const Lanes scale = Lanes{} + kGauss, square = Lanes{} + 1.0 / 3.0;
     const LaneVector d = scale * m.d, e = scale * m.e, f = scale * m.f, k = square * m.k;
-    // along a1, a2, a3: index = 2 b2 + b3 of what is left
+    // Along a1, a2, a3. Index: 2 b2 + b3 of the remaining corners.
     const LaneVector zero_low = LaneVector{} - m.a, b_low = m.b - d, b_high = m.b + d;
     const LaneVector c_low = m.c - e, c_high = m.c + e, f_low = f - k, f_high = f + k;
     LaneVector v[8];
@@ -117,7 +117,7 @@ inline void scatter(const CellGroup& g, const Modes& m, solve::PaddedPoints& gra
     }
 }
 
-/// One pair of axes at one sign of the third: its part of the strains.
+/// The strains of one pair of axes at one sign of the third axis.
 inline void measure_pair(const LaneVector& p, const LaneVector& q, const LaneVector& u, int first,
                          int own, Lanes* strain) {
     const Lanes qq = dot(q, q), y = dot(q, u), z = dot(p, q);
@@ -145,7 +145,7 @@ inline void measure(const Modes& m, Lanes* strain) {
     measure_pair(m.b - m.d, m.f - m.k, m.c - m.e, 32, 0, strain);
 }
 
-/// Derivative of the strains by time, the modes moving at the rates `n`.
+/// Time derivative of the strains when the modes move at the rates `n`.
 inline void measure_rate_pair(const LaneVector& p, const LaneVector& q, const LaneVector& u,
                               const LaneVector& dp, const LaneVector& dq, const LaneVector& du,
                               int first, int own, Lanes* rate) {
@@ -181,7 +181,7 @@ inline void measure_rate(const Modes& m, const Modes& n, Lanes* rate) {
                       rate);
 }
 
-/// The rest strains of a parallelepiped: all but these are zero.
+/// The strains of a parallelepiped that are not always zero.
 constexpr int kConstantStrains[12] = {0, 2, 4, 8, 10, 12, 16, 18, 22, 24, 28, 32};
 constexpr bool is_constant(int strain) {
     for (const int k : kConstantStrains)
@@ -189,13 +189,13 @@ constexpr bool is_constant(int strain) {
     return false;
 }
 
-/// What the strains are compared with and weighed by.
+/// Target and stiffness of the strains.
 template <bool kTargets, bool kRates>
 struct CellLaw {
     const CellGroup& g;
     const Lanes* stiffness;  ///< per component: lambda, or lambda + omega/h
-    const Lanes* target;     ///< kStrains of them, when kTargets
-    const Lanes* rate;       ///< kStrains of them, when kRates
+    const Lanes* target;     ///< kStrains values, when kTargets
+    const Lanes* rate;       ///< kStrains values, when kRates
     Lanes energy{};
 
     /// dE/dstrain of strain k
@@ -219,7 +219,7 @@ struct CellLaw {
     }
 };
 
-/// Stress of one pair at one sign, turned into derivatives by p, q, u.
+/// Stress of one pair at one sign, converted to derivatives by p, q, u.
 template <int kFirst, int kOwn, class Law>
 inline void pull_pair(Law& law, const LaneVector& p, const LaneVector& q, const LaneVector& u,
                       LaneVector& dp, LaneVector& dq, LaneVector& du) {
@@ -250,7 +250,7 @@ inline void pull_pair(Law& law, const LaneVector& p, const LaneVector& q, const 
     dq = on_z * p + on_y * u + (on_qq + on_qq) * q;
 }
 
-/// Derivative by the modes of the metric term; its energy is added to law.energy.
+/// Derivative of the metric term by the modes. Its energy is added to law.energy.
 template <class Law>
 inline Modes metric_gradient(Law& law, const Modes& m) {
     Modes out;
@@ -282,7 +282,7 @@ inline Modes metric_gradient(Law& law, const Modes& m) {
     return out;
 }
 
-/// Adds the derivative of bulk (64 V - 64 V0)^2 by the modes; returns the energy.
+/// Adds the derivative of bulk (64 V - 64 V0)^2 by the modes. Returns the energy.
 inline Lanes add_volume_gradient(const CellGroup& g, const Modes& m, Modes& out) {
     const LaneVector da = cross(m.b, m.c) + cross(m.d, m.e);
     const LaneVector fd = cross(m.f, m.d), ef = cross(m.e, m.f);

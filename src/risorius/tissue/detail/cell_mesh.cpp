@@ -11,7 +11,8 @@ namespace risorius::tissue {
 
 namespace {
 
-/// A vertex by its coordinates in units of half the finest cell, so that middles of edges and faces have one too.
+/// A vertex, by its coordinates in units of half the finest cell. In these units, midpoints of edges and faces have integer
+/// coordinates too.
 using Key = std::uint64_t;
 Key key_of(const std::array<std::int64_t, 3>& at) {
     return (static_cast<Key>(at[0]) << 42) | (static_cast<Key>(at[1]) << 21) |
@@ -37,7 +38,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         deepest_ = std::max(deepest_, place.level);
         uniform_ = uniform_ && place.level == places.front().level;
     }
-    // 21 bits hold a coordinate of half the finest cell
+    // A coordinate in units of half the finest cell must fit in 21 bits.
     for (int axis = 0; axis < 3; ++axis)
         if (static_cast<std::int64_t>(root.along(axis)) << (deepest_ + 1) >= (1 << 21))
             throw std::invalid_argument("CellMesh: too fine");
@@ -49,7 +50,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         if (root_.closed) at[0] %= static_cast<std::int64_t>(root_.cells(0)) << (deepest_ + 1);
         return key_of(at);
     };
-    // Vertices in the order of their coordinates, which for a uniform mesh is that of the grid
+    // Vertices are sorted by their coordinates. In a uniform mesh this is the order of the grid.
     std::vector<Key> vertices;
     vertices.reserve(8 * cells_.size());
     for (const Cell& cell : cells_)
@@ -64,7 +65,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         return at != vertices.end() && *at == key ? static_cast<int>(at - vertices.begin()) : -1;
     };
 
-    // A vertex in the middle of a cell's edge or face hangs on the corners of that edge or face
+    // A vertex in the middle of a cell's edge or face depends on the corners of that edge or face.
     std::vector<Hanging> hangs(vertices.size());
     if (!uniform_) {
         for (std::size_t cell = 0; cell < cells_.size(); ++cell)
@@ -89,7 +90,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
             }
     }
 
-    // Nodes first, then what hangs
+    // Nodes come first, then hanging vertices.
     std::vector<int> number(vertices.size(), -1);
     for (std::size_t v = 0; v < vertices.size(); ++v)
         if (hangs[v].count == 0) number[v] = node_count_++;
@@ -121,7 +122,7 @@ CellMesh::CellMesh(const GridShape& root, std::vector<CellPlace> places) : root_
         }
 }
 
-// The cells in the order of their lowest corners.
+// Sorts the cells by their lowest corners.
 void CellMesh::add_cells(std::vector<CellPlace> places) {
     const auto lowest = [&](const CellPlace& place) {
         return key_of(corner_of(place, deepest_, {0, 0, 0}));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Trilinear cells over material coordinates a in [0,1]^3: a grid of root cells, each perhaps split into eight, those
-/// again, and so on. Neighbours differ by one level at most, across faces, edges and corners alike.
+/// Trilinear cells over material coordinates a in [0,1]^3: a grid of root cells, each of which may be split into eight,
+/// recursively. Neighbours across faces, edges and corners differ by one level at most.
 ///
-///   vertex   a corner of a cell. The first node_count() vertices are nodes; the others hang:
-///   hanging  in the middle of a bigger neighbour's edge or face, hence the mean of 2 or 4 nodes, so that the body has no gap
+///   vertex   a corner of a cell. The first node_count() vertices are nodes, the others are hanging
+///   hanging  in the middle of an edge or face of a larger neighbour: the mean of 2 or 4 nodes, so that the body has no gaps
 ///   x_full = P x,  gradient = P^T gradient_full,  P = identity on nodes, 1/2 or 1/4 on hanging vertices
 ///
-/// A closed grid's cells go round along a1: its last cells lie between the last nodes and the first.
+/// In a closed grid the last cells along a1 join the last nodes to the first.
 ///
-/// Hanging vertices as constraints: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
+/// Sources for constraints at hanging vertices: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace risorius::tissue {
 
-/// Place of a cell: the root grid halved `level` times is numbered from 0 along each axis.
+/// Address of a cell: its level, and its index along each axis of the root grid halved `level` times.
 struct CellPlace {
     int level = 0;
     std::array<int, 3> at = {0, 0, 0};
@@ -36,22 +36,22 @@ class CellMesh {
         CellPlace place;
         Vec3 low = Vec3::Zero();   ///< material coordinates of its lowest corner
         Vec3 size = Vec3::Zero();  ///< h1, h2, h3
-        std::array<int, 8>
-            vertex{};  ///< corner 4 b1 + 2 b2 + b3, b = 1 on the high side of that axis
+        /// Corner 4 b1 + 2 b2 + b3; b = 1 on the high side of the axis.
+        std::array<int, 8> vertex{};
     };
     struct Hanging {
         int count = 0;  ///< 2 or 4
         std::array<int, 4> node{};
     };
-    /// What of a cell's corners depends on its nodes: corner c is sum of weight(c, k) node[k].
+    /// The nodes that a cell's corners depend on: corner c is sum_k weight(c, k) node[k].
     struct Support {
         std::vector<int> node;                                             ///< distinct, K of them
         Eigen::Matrix<double, 8, Eigen::Dynamic, Eigen::RowMajor> weight;  ///< 8 x K
-        bool plain = true;  ///< the corners are the nodes, in order
+        bool plain = true;  ///< true when the corners are the nodes, in order
     };
 
-    /// Nodes of a uniform mesh are numbered as those of the grid. Throws std::invalid_argument unless the cells fill the
-    /// cube without overlap and neighbours differ by one level at most.
+    /// In a uniform mesh, nodes are numbered as in the grid. Throws std::invalid_argument unless the cells fill the cube
+    /// without overlap and neighbours differ by one level at most, or when the mesh is too fine.
     CellMesh(const GridShape& root, std::vector<CellPlace> cells);
 
     const GridShape& root() const { return root_; }
@@ -65,22 +65,21 @@ class CellMesh {
 
     Support support(const Cell& cell) const;
 
-    /// Writes the hanging rows of `vertices` (V rows, nodes first).
+    /// Computes the hanging rows of `vertices` (V rows, nodes first) from the rows of the nodes.
     void spread(Points& vertices) const;
     void spread(solve::PaddedPoints& vertices) const;
-    /// Adds the hanging rows to those of their nodes: the transpose of spread().
+    /// Adds the hanging rows to the rows of their nodes: the transpose of spread().
     void gather(solve::PaddedPoints& vertices) const;
 
-    /// Index of the cell that holds material coordinates `a` (clamped to the cube); on a border, the higher cell.
+    /// Index of the cell that contains material coordinates `a`, clamped to the cube. On a border it is the higher cell.
     int cell_at(const Vec3& a) const;
-    /// Value at `a` of a field over vertices, trilinear within the cell.
+    /// Value at `a` of a field over the vertices, V x 3, trilinear within the cell.
     Vec3 interpolate(const Points& vertices, const Vec3& a) const;
 
   private:
     void add_cells(std::vector<CellPlace> places);
     GridShape root_;
-    std::vector<Cell>
-        cells_;  ///< ascending by lowest corner, so that neighbours are near in memory
+    std::vector<Cell> cells_;  ///< sorted by lowest corner, so that neighbours are near in memory
     std::vector<Hanging> hanging_;
     Points material_;
     int node_count_ = 0;
@@ -92,7 +91,7 @@ class CellMesh {
 /// One cell per grid cell.
 CellMesh uniform_cells(const GridShape& grid);
 
-/// Trilinear weights of the eight corners at `s` in [0,1]^3 of a cell.
+/// Trilinear weights of the eight corners at the point `s` of a cell, s in [0,1]^3.
 std::array<double, 8> trilinear_weights(const Vec3& s);
 
 }  // namespace risorius::tissue

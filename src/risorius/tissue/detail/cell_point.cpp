@@ -12,10 +12,10 @@ namespace {
 
 using Derivatives = Eigen::Matrix<double, 3, 8>;
 
-/// Tangent and stress of one Gauss point under one law: s = D : dG, everything weighed by the point's share.
+/// Tangent and stress at one Gauss point: s = D : dG. Everything is multiplied by the weight of the point.
 struct PointLaw {
     bool physical;
-    Mat3 elastic, damping;  ///< lambda, omega; or C and C, each with its factor in mu, eta
+    Mat3 elastic, damping;  ///< lambda, omega; or C twice, with its factors in mu and eta
     double mu = 0, eta = 0;
 
     PointLaw(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest, int g)
@@ -40,7 +40,7 @@ struct PointLaw {
         return physical ? Mat3(eta * damping * rate * damping) : damping.cwiseProduct(rate);
     }
 
-    /// d(s_ik r_k)/dr_j with s's own part left out: what the change of G does.
+    /// d(s_ik r_k)/dr_j without the term of s itself: the effect of the change of G.
     Mat3 block(int i, int j, const Mat3& r, double rate_hz) const {
         if (physical) {
             const Mat3 rc = r * elastic;
@@ -174,7 +174,7 @@ CellScalarMatrix cell_metric(const CellMaterialLaw& law, const Vec3& size, const
             matrix += 2 * (point.mu + rate_hz * point.eta) * dn.transpose() * point.elastic * dn;
             continue;
         }
-        // One coordinate u of the displacement, along a tangent: lambda_ik G_kk (du/da_i)^2, twice where i = k
+        // For one coordinate u of the displacement along a tangent: lambda_ik G_kk (du/da_i)^2, twice where i = k.
         const Mat3 metric = metric_at(rest, size, g);
         const Mat3 d = point.elastic + rate_hz * point.damping;
         for (int i = 0; i < 3; ++i) {

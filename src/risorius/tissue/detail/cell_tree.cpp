@@ -8,7 +8,7 @@ namespace risorius::tissue {
 
 namespace {
 
-/// Steps -1, 0, 1 along each axis, `code` from 0 to 26; 13 is the cell itself.
+/// Steps -1, 0, 1 along each axis. `code` runs from 0 to 26; 13 is the cell itself.
 std::array<int, 3> step_of(int code) { return {code / 9 - 1, code / 3 % 3 - 1, code % 3 - 1}; }
 
 CellPlace neighbour_of(CellPlace cell, const std::array<int, 3>& step) {
@@ -16,7 +16,7 @@ CellPlace neighbour_of(CellPlace cell, const std::array<int, 3>& step) {
     return cell;
 }
 
-/// Whether the part at `corner` of a neighbour in direction `step` touches the cell.
+/// True when the child at `corner` of a neighbour in direction `step` touches the cell.
 bool touches(const std::array<int, 3>& step, int corner) {
     const std::array<int, 3> high = {corner >> 2 & 1, corner >> 1 & 1, corner & 1};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -54,7 +54,7 @@ bool CellTree::exists(const CellPlace& cell) const {
 void CellTree::split(const CellPlace& cell) {
     if (!inside(cell)) throw std::invalid_argument("CellTree: a cell lies outside its grid");
     if (is_split(cell)) return;
-    // Its parts may not meet cells bigger than itself: it and its neighbours have to exist
+    // Its children may not meet cells larger than itself. So the cell and all its neighbours must exist first.
     if (cell.level > 0)
         for (int code = 0; code < 27; ++code) {
             const CellPlace neighbour = neighbour_of(cell, step_of(code));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Which cells of a root grid are split: an octree over every root cell, balanced so that neighbours, across edges and
-/// corners too, differ by one level at most.
+/// Which cells of a root grid are split: an octree in every root cell. It is balanced, so that neighbours across faces, edges
+/// and corners differ by one level at most.
 ///
-/// 2:1 balance as in Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
+/// The 2:1 balance follows Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
 
 #include <set>
@@ -20,11 +20,11 @@ class CellTree {
     bool is_split(const CellPlace& cell) const { return split_.contains(cell); }
     bool exists(const CellPlace& cell) const;  ///< as a leaf or split
 
-    /// Splits a cell into eight, and bigger neighbours first. A cell that does not exist yet is made. Throws
-    /// std::invalid_argument for a place outside the root grid.
+    /// Splits a cell into eight. Larger neighbours are split first, and so is whatever contains the cell if it does not exist
+    /// yet. Throws std::invalid_argument for a place outside the root grid.
     void split(const CellPlace& cell);
-    /// Makes a leaf of a cell whose eight parts are leaves; false, and nothing done, where it is none or a neighbour is
-    /// too fine for that.
+    /// Merges the eight children of a cell. Returns false and changes nothing when the cell is not split, when its children are
+    /// not all leaves, or when a neighbour is too fine.
     bool merge(const CellPlace& cell);
 
     CellMesh mesh() const;
@@ -36,7 +36,7 @@ class CellTree {
     std::set<CellPlace> split_;
 };
 
-CellPlace parent_of(CellPlace cell);                    ///< of a cell below the root grid
-CellPlace child_of(const CellPlace& cell, int corner);  ///< the part at that corner
+CellPlace parent_of(CellPlace cell);                    ///< of a cell below the root level
+CellPlace child_of(const CellPlace& cell, int corner);  ///< the child at that corner
 
 }  // namespace risorius::tissue

@@ -10,11 +10,11 @@ namespace risorius::tissue {
 namespace {
 
 struct Hinge {
-    Vec3 e, a, b;   ///< edge; from x0 to xa and xb
+    Vec3 e, a, b;   ///< the edge; from x0 to xa and to xb
     double length;  ///< |e|
     Vec3 n1, n2;
     Vec3 ga, gb;    ///< dtheta/dxa, dtheta/dxb
-    double ta, tb;  ///< where xa and xb stand over the edge, 0 at x0 and 1 at x1
+    double ta, tb;  ///< position of xa and xb along the edge: 0 at x0, 1 at x1
 
     explicit Hinge(const HingeCorners& x)
         : e(x[1] - x[0]),
@@ -43,7 +43,7 @@ std::array<Vec3, 4> hinge_angle_gradient(const HingeCorners& x) {
 }
 
 std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const HingeCorners& x) {
-    // Derivatives by e, a, b first; x0 moves all three back.
+    // First the derivatives by e, a and b. Moving x0 changes all three.
     const Hinge h(x);
     const Vec3 along = h.e / h.length;
     const Mat3 E = cross_matrix(h.e);
@@ -61,7 +61,7 @@ std::array<std::array<Mat3, 4>, 4> hinge_angle_hessian(const HingeCorners& x) {
     const Mat3 e_by_e =
         -h.ga * ta_by_e.transpose() - h.ta * ga_by_e - h.gb * tb_by_e.transpose() - h.tb * gb_by_e;
 
-    // Corners x1, xa, xb move e, a, b.
+    // Corners x1, xa and xb move e, a and b.
     std::array<std::array<Mat3, 4>, 4> block;
     block[1] = {Mat3::Zero(), e_by_e, ga_by_e.transpose(), gb_by_e.transpose()};
     block[2] = {Mat3::Zero(), ga_by_e, ga_by_a, Mat3::Zero()};

@@ -30,7 +30,7 @@ void check_tensor(const Eigen::Ref<const Eigen::MatrixXd>& tensor, const std::st
     for (Eigen::Index i = 0; i < tensor.rows(); ++i)
         for (Eigen::Index j = 0; j < tensor.cols(); ++j)
             check_range(tensor(i, j), /*zero_allowed=*/true, place + "/" + at(i, j));
-    // G is symmetric: parameters that are not would turn the body as a whole.
+    // G is symmetric, so unsymmetric parameters would rotate the whole body.
     for (Eigen::Index i = 0; i < tensor.rows(); ++i)
         for (Eigen::Index j = 0; j < i; ++j)
             if (tensor(i, j) != tensor(j, i))

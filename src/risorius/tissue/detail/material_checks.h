@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What the checks of solids, surfaces and curves share: numbers in range and tensors that are symmetric.
+/// Checks that solids, surfaces and curves have in common: numbers in range and symmetric tensors.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace risorius::tissue {
 
-/// As messages show it: six digits.
+/// The number as messages show it, with six digits.
 std::string shown(double value);
 /// "[x, y, z]"
 std::string shown(const Vec3& point);
 
-/// Throws Error at `place` unless finite and positive, or zero where that is allowed.
+/// Throws Error at `place` unless the value is finite and positive, or zero where that is allowed.
 void check_range(double value, bool zero_allowed, const std::string& place);
 
-/// Throws Error at the first entry that is negative, not finite or unlike its mirror image. 2 x 2 or 3 x 3.
+/// Throws Error at the first entry that is negative, not finite or not symmetric. The tensor is 2 x 2 or 3 x 3.
 void check_tensor(const Eigen::Ref<const Eigen::MatrixXd>& tensor, const std::string& place);
 
 }  // namespace risorius::tissue

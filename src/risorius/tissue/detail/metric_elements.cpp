@@ -29,7 +29,7 @@ Mat2 rate(const Element& element, const Tangents& r, const Points& v) {
     return half + half.transpose();
 }
 
-/// Adds `sign` times the derivative by the nodes of what has the derivative r stress by the tangents.
+/// Adds `sign` times the derivative by the nodes of an energy whose derivative by the tangents is r stress.
 void add_to_nodes(const Element& element, const Tangents& r, const Mat2& stress, double sign,
                   Points& out) {
     const Tangents p = sign * (r * stress);
@@ -40,7 +40,7 @@ void add_to_nodes(const Element& element, const Tangents& r, const Mat2& stress,
 
 Mat2 positive_part(const Mat2& s) {
     Eigen::SelfAdjointEigenSolver<Mat2> eigen;
-    eigen.computeDirect(s);  // in closed form
+    eigen.computeDirect(s);  // closed form
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
            eigen.eigenvectors().transpose();
 }
@@ -104,7 +104,7 @@ void MetricElements::add_hessian(const solve::ImplicitStep& step, const Points& 
             stiffness += rate_hz * element.phi;
         }
         if (curvature == solve::Curvature::kPositive) stress = positive_part(stress);
-        // Second derivative by r_1, r_2: stress (x) I + 1/2 sum k_ij g_ij g_ij^T, where g_ij is the gradient of G_ij
+        // Second derivative by r_1, r_2: stress (x) I + 1/2 sum k_ij g_ij g_ij^T, where g_ij is the gradient of G_ij.
         const Vec3 r1 = r.col(0), r2 = r.col(1);
         const double shear = stiffness(0, 1);
         Mat3 block[2][2];
@@ -127,7 +127,7 @@ void MetricElements::add_hessian(const solve::ImplicitStep& step, const Points& 
 
 void MetricElements::add_metric(double step_s, solve::MetricBuilder& builder) const {
     for (const Element& element : elements_) {
-        // At rest only 1/2 sum k_ij g_ij g_ij^T is left. (a + b)^2 <= 2 a^2 + 2 b^2 takes apart the shear.
+        // In the rest shape only 1/2 sum k_ij g_ij g_ij^T is left. (a + b)^2 <= 2 a^2 + 2 b^2 separates the shear.
         const Mat2 k = element.eta + element.phi / step_s;
         const Mat2& g = element.rest_metric;
         builder.add_outer(element.node, element.d[0], element.count,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Stretch and shear of curves and surfaces: elements in which the tangents r_i are fixed differences of at most three
-/// nodes. A grid's forward differences are such elements, and so is a triangle.
+/// Stretch and shear of curves and surfaces. In each element the tangents r_i are fixed differences of at most three nodes. The
+/// forward differences of a grid are such elements, and so are triangles.
 ///
 ///   r_i = sum_k d_ik x_k      G_ij = r_i . r_j
 ///   E = 1/4 sum eta_ij (G_ij - G0_ij)^2        R = 1/4 sum phi_ij (dG_ij/dt)^2
@@ -20,13 +20,13 @@ class MetricElements {
     struct Element {
         int count = 0;
         int node[3] = {};
-        double d[2][3] = {};              ///< a curve has no second tangent
+        double d[2][3] = {};              ///< a curve has no second tangent: that row is zero
         Mat2 eta = Mat2::Zero();          ///< symmetric, per element
         Mat2 phi = Mat2::Zero();          ///< symmetric, per element
         Mat2 rest_metric = Mat2::Zero();  ///< G0
     };
 
-    /// Fills in the rest metric.
+    /// Adds an element. Its rest metric is computed from `rest`.
     void add(Element element, const Points& rest);
 
     const std::vector<Element>& list() const { return elements_; }
@@ -34,11 +34,11 @@ class MetricElements {
     double energy(const Points& x) const;
     void add_force(const Points& x, const Points& v, Points& force) const;
     double add_potential(const solve::ImplicitStep& step, const Points& x, Points& gradient) const;
-    /// kPositive keeps the positive part of the stress.
+    /// kPositive: only the positive part of the stress is used.
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
     void add_metric(double step_s, solve::MetricBuilder& metric) const;
-    /// K from the stress; damping goes to `force` when its rate is not lagged.
+    /// K contains the stress. Damping is added to `force` unless its rate is lagged.
     void add_secant(const Points& x, const Points& v, bool lag_rate, solve::MetricBuilder& K,
                     Points& force) const;
 

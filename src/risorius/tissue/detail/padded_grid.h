@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Fields over a grid in one flat array of floats, worked on eight at a time: a neighbour is a fixed distance away, since
-/// cells are numbered as the nodes at their lowest corners and zeros lie before and behind. The last layer of cells along
-/// each axis does not exist; its values are zero.
+/// Fields over a grid in one flat array of floats, processed eight at a time. A cell has the number of the node at its lowest
+/// corner, and the array has zeros before and behind it, so each neighbour is at a fixed distance. The cells of the last layer
+/// along each axis do not exist; their values are zero.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ inline void store8(float* to, const Lanes8& lanes) { std::memcpy(to, &lanes, siz
 struct PaddedGrid {
     GridShape nodes;
 
-    int size() const { return (nodes.size() + 7) / 8 * 8; }  ///< loops run to here, by eights
+    /// Loops run to here, in steps of eight.
+    int size() const { return (nodes.size() + 7) / 8 * 8; }
     int distance(int i, int j, int k) const { return (i * nodes.n + j) * nodes.o + k; }
     int halo() const { return distance(1, 1, 1) + 8; }
     /// Corner 4 b1 + 2 b2 + b3 of a cell.
@@ -50,7 +51,7 @@ class Field {
     std::vector<float> values_;
 };
 
-/// Thirteen of the 26 neighbours of a cell, those behind it in the numbering.
+/// The 13 of a cell's 26 neighbours that have higher numbers.
 constexpr int kBehind[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
                                 {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                 {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};

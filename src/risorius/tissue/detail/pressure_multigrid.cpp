@@ -65,10 +65,10 @@ void PressureMultigrid::subtract_product(const Level& level, const Field& x, Fie
 }
 
 void PressureMultigrid::coarsen(Level& from, Level& to) const {
-    // Which coarse entry an entry adds to depends on where in its eight the cell lies
+    // The coarse entry that an entry is added to depends on where in its group of eight the cell lies.
     struct Target {
-        int neighbour;  ///< -1: both cells are in one
-        bool turned;    ///< the entry belongs to the other's parent
+        int neighbour;  ///< -1: both cells are in the same group
+        bool turned;    ///< the entry belongs to the parent of the other cell
     };
     Target target[8][13];
     for (int parity = 0; parity < 8; ++parity)
@@ -83,7 +83,7 @@ void PressureMultigrid::coarsen(Level& from, Level& to) const {
             target[parity][q] = {std::max(straight, turned), turned >= 0};
         }
 
-    // The sum of a row is what holds the border, where nothing jumps; r = - S 1
+    // The sum of a row holds the border in place and needs no factor, because nothing jumps there; r = - S 1.
     for (int c = 0; c < from.grid.size(); ++c) from.x[c] = from.diagonal[c] > 0 ? 1.0f : 0.0f;
     from.r.set_zero();
     subtract_product(from, from.x, from.r);
@@ -125,7 +125,7 @@ void PressureMultigrid::refresh(const Field& compliance) {
         if (l + 1 < levels_.size()) coarsen(level, levels_[l + 1]);
         const int size = level.grid.size();
         for (int c = 0; c < size; ++c) level.diagonal[c] += level.compliance[c];
-        // Gershgorin
+        // Gershgorin bound
         std::array<std::ptrdiff_t, 13> away;
         for (std::size_t q = 0; q < 13; ++q)
             away[q] = level.grid.distance(kBehind[q][0], kBehind[q][1], kBehind[q][2]);
@@ -166,7 +166,7 @@ void PressureMultigrid::refresh(const Field& compliance) {
     direct_.compute(dense);
 }
 
-// x += polynomial(D^-1 S) D^-1 r; r is the residual of x before, and after too if asked for.
+// x += polynomial(D^-1 S) D^-1 r. r must be the residual of x; it is updated when asked for.
 void PressureMultigrid::smooth(Level& level, int degree, bool residual_after) const {
     const int size = level.grid.size();
     float *const x = level.x.data(), *const z = level.z.data();
@@ -186,7 +186,7 @@ void PressureMultigrid::smooth(Level& level, int degree, bool residual_after) co
     }
 }
 
-// Along one axis, fine cell c lies at a quarter of the way from coarse cell c/2 to the one beside it on its own side.
+// Along one axis, fine cell c lies a quarter of the way from coarse cell c/2 to the next coarse cell on the same side.
 void PressureMultigrid::restrict_residual(Level& from, Level& to) const {
     const GridShape &fine = from.grid.nodes, &coarse = to.grid.nodes;
     const int m = fine.m - 1, n = fine.n - 1, o = fine.o - 1;
@@ -248,7 +248,7 @@ void PressureMultigrid::add_prolonged(Level& to, Level& from) const {
     }
 }
 
-// x of the level becomes its cycle's answer to b of the level.
+// Replaces x of the level by one cycle's approximate solution for b of the level.
 void PressureMultigrid::cycle(std::size_t l, int degree) {
     Level& level = levels_[l];
     if (l + 1 == levels_.size()) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Multigrid for the pressures of a uniform grid of cells: S q = t, a positive matrix that acts like Poisson's equation.
+/// Multigrid for the pressures of a uniform grid of cells. It solves S q = t, where S is positive definite and acts like
+/// Poisson's equation.
 ///
-///   S          over cells; neighbours are the 26 cells with a node in common
-///   coarser    eight cells as one. Sums over them make pressures jump where they should slope, which is twice as stiff;
-///              hence half of the sum, but for the compliance and for what holds the border
+///   S          over cells; neighbours are the 26 cells that have a node in common with a cell
+///   coarser    eight cells become one. Plain sums make pressures jump where they should slope, which is twice too stiff;
+///              so half of each sum is taken, except for the compliance and for what fixes the border
 ///   transfer   trilinear between the centres of cells, the same up and down
-///   smoother   Chebyshev polynomials of the fourth kind in D^-1 S, before and after alike: a cycle is symmetric, and
-///              nothing in it waits for its neighbour as Gauss-Seidel does
+///   smoother   Chebyshev polynomials of the fourth kind in D^-1 S, the same before and after: a cycle is symmetric, and
+///              cells do not wait for their neighbours as in Gauss-Seidel
 ///
-/// Lottes 2023, Numer. Linear Algebra Appl. 30(6), section 4; the factor of two: Braess 1995, Computing 55.
+/// Sources: Lottes 2023, Numer. Linear Algebra Appl. 30(6), section 4; Braess 1995, Computing 55, for the factor of two.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -23,15 +24,15 @@ class PressureMultigrid {
   public:
     PressureMultigrid(const GridShape& nodes, int coarsest_cells);
 
-    /// S without its compliance, to be filled before refresh.
+    /// S without its compliance. The caller fills diagonal() and behind() before refresh().
     Field& diagonal() { return levels_.front().diagonal; }
     Field& behind(int neighbour) {
         return levels_.front().behind[static_cast<std::size_t>(neighbour)];
     }
-    /// Zero where there is no cell.
+    /// `compliance` is zero where there is no cell.
     void refresh(const Field& compliance);
 
-    /// q = near S^-1 t by one cycle with polynomials of this degree, symmetric and positive.
+    /// q approximates S^-1 t by one cycle with polynomials of this degree. The operator is symmetric and positive.
     void solve(const Field& t, int degree, Field& q);
 
     int level_count() const { return static_cast<int>(levels_.size()); }
@@ -41,9 +42,9 @@ class PressureMultigrid {
         explicit Level(const GridShape& nodes);
         PaddedGrid grid;
         Field diagonal, compliance,
-            inverse;  ///< inverse: of the diagonal with compliance, 0 beside the cells
-        std::array<Field, 13> behind;  ///< of S between a cell and those behind it
-        float largest = 1;             ///< bound of the eigenvalues of D^-1 S
+            inverse;  ///< inverse of diagonal + compliance; 0 where there is no cell
+        std::array<Field, 13> behind;  ///< entries of S between a cell and its 13 neighbours behind
+        float largest = 1;             ///< upper bound of the eigenvalues of D^-1 S
         Field b, x, z, r;
         std::vector<float> along_k, along_jk;  ///< scratch of restrict and prolong
     };

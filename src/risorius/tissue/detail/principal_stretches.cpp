@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One-sided Jacobi rotations: accurate also where stretches are equal, as they are at rest.
+// One-sided Jacobi rotations. They are accurate also for equal stretches, as in the rest shape.
 #include "risorius/tissue/detail/principal_stretches.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,7 +11,7 @@ PrincipalStretches principal_stretches(const Mat3& f) {
     constexpr int kSweeps = 12;
     constexpr double kOrthogonal = 1e-15;
     PrincipalStretches out{f, Mat3::Identity(), Vec3::Zero()};
-    Mat3& b = out.u;  // F V, until its columns are at right angles
+    Mat3& b = out.u;  // F V, until its columns are orthogonal
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         bool turned = false;
         for (int k = 0; k < 3; ++k) {
@@ -33,7 +33,7 @@ PrincipalStretches principal_stretches(const Mat3& f) {
         if (!turned) break;
     }
 
-    // The direction of the least column from the other two, so that U turns and the sign goes to its stretch
+    // The direction of the smallest column comes from the other two, so that U is a rotation and its stretch has the sign.
     const Vec3 length(b.col(0).norm(), b.col(1).norm(), b.col(2).norm());
     int min = 0, max = 0;
     for (int k = 1; k < 3; ++k) {
@@ -48,7 +48,7 @@ PrincipalStretches principal_stretches(const Mat3& f) {
     Vec3 second;
     if (length[middle] > 1e-12 * length[max])
         second = b.col(middle) / length[middle];
-    else  // crushed to a line: any direction across it
+    else  // crushed to a line: any perpendicular direction
         second = first.unitOrthogonal();
     b.col(max) = first;
     b.col(middle) = second;
@@ -61,7 +61,7 @@ void clamp(StretchModes& modes) {
     modes.symmetric = modes.symmetric.cwiseMax(0.0);
     modes.antisymmetric = modes.antisymmetric.cwiseMax(0.0);
     const Mat3& a = modes.along;
-    // Sylvester's criterion tells most of the time that there is nothing to take away
+    // By Sylvester's criterion there is usually nothing to remove.
     if (a(0, 0) > 0 && a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) > 0 && a.determinant() > 0) return;
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(a);
     modes.along = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *

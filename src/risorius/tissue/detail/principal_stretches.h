@@ -2,13 +2,13 @@
 /// \file
 /// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy in their frame.
 ///
-///   F = U diag(sigma) V^T,  U and V rotations; where F is inverted one sigma is negative
+///   F = U diag(sigma) V^T,  U and V rotations; one sigma is negative where F is inverted
 ///
-/// In that frame the second derivative of psi(sigma) falls apart: a 3 x 3 block A_ij of the stretches and, for each pair
-/// (i, j), one number for their symmetric and one for their antisymmetric off-diagonal change:
+/// In that frame the second derivative of psi(sigma) splits into a 3 x 3 block A_ij for the stretches and, for each pair
+/// (i, j), two numbers for its symmetric and antisymmetric off-diagonal change:
 ///   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
-/// (Smith, De Goes & Kim 2019, "Analytic eigensystems for isotropic distortion energies", ACM TOG 38(1).) Clamping those at
-/// zero takes away exactly the negative part.
+/// Clamping these at zero removes exactly the negative part. Source: Smith, De Goes & Kim 2019, "Analytic eigensystems for
+/// isotropic distortion energies", ACM TOG 38(1).
 #pragma once
 
 #include "risorius/core/types.h"
@@ -23,11 +23,11 @@ PrincipalStretches principal_stretches(const Mat3& f);
 
 struct StretchModes {
     Mat3 along;          ///< A
-    Vec3 symmetric;      ///< of the pair opposite to axis k, that is of the other two axes
-    Vec3 antisymmetric;  ///< likewise
+    Vec3 symmetric;      ///< entry k belongs to the pair of axes other than k
+    Vec3 antisymmetric;  ///< in the same order
 };
 
-/// Takes away the negative part.
+/// Removes the negative part.
 void clamp(StretchModes& modes);
 
 /// The 3 x 3 block, in the frame U, between two points whose shape functions have the gradients a and b in the frame V.

@@ -16,14 +16,14 @@ using Edge = std::array<int, 2>;  ///< lower node first
 
 Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The corner whose next side is the longest at rest.
+/// The corner at which the longest rest edge of triangle t begins.
 int longest_side(const TriangleSurface& surface, Eigen::Index t) {
     int longest = 0;
     double max = -1;
     Edge best{};
     for (int k = 0; k < 3; ++k) {
         const int a = surface.triangles(t, k), b = surface.triangles(t, (k + 1) % 3);
-        // From the lower node, so that both triangles of an edge find the same bits
+        // Measured from the lower node, so that both triangles of an edge get the same bits.
         const Edge edge = edge_of(a, b);
         const double length = (surface.rest.row(edge[1]) - surface.rest.row(edge[0])).squaredNorm();
         if (length > max || (length == max && edge < best)) {
@@ -96,7 +96,7 @@ Points with_middles(const Points& x, const std::vector<Edge>& middle_of) {
     return all;
 }
 
-constexpr double kMinSheetStrain = 1e-12;  ///< below is rounding
+constexpr double kMinSheetStrain = 1e-12;  ///< smaller strains are rounding errors
 
 }  // namespace
 
@@ -111,8 +111,8 @@ Bisected bisected(const TriangleSurface& surface, const std::vector<char>& marke
                 .push_back(static_cast<int>(t));
     }
 
-    // A triangle with a cut side is cut at its longest side too
-    std::map<Edge, int> cut;  // the node in its middle, once numbered
+    // A triangle with a cut edge is cut at its longest edge too.
+    std::map<Edge, int> cut;  // for each cut edge: the node at its midpoint, once numbered
     std::vector<int> open;
     for (Eigen::Index t = 0; t < count; ++t)
         if (marked[static_cast<std::size_t>(t)]) open.push_back(static_cast<int>(t));
@@ -145,7 +145,7 @@ Bisected bisected(const TriangleSurface& surface, const std::vector<char>& marke
         if (!is_cut) {
             parts.push_back(whole);
         } else {
-            // Halves (a, m, c) and (m, b, c), each cut again from m where its own old side is cut
+            // Halves (a, m, c) and (m, b, c). Each is cut again from m when its own old edge is cut.
             if (const auto [again, n] = middle(c, a); again) {
                 parts.push_back({a, m, n});
                 parts.push_back({n, m, c});
@@ -204,10 +204,10 @@ Eigen::VectorXd squared_error(const TriangleSurface& surface, const TriangleShee
         const auto row = static_cast<Eigen::Index>(t);
         const SurfaceMaterial& material = material_of(surface, row);
         const Mat2 &lambda = material.elastic_n_per_m3, &zeta = material.bending_n_per_m;
-        SheetStrain weight;  // of the squares; the mixed components count twice
+        SheetStrain weight;  // of the squares; mixed components count twice
         weight << 0.25 * lambda(0, 0), 0.25 * lambda(1, 1), 0.5 * lambda(0, 1), 0.5 * zeta(0, 0),
             0.5 * zeta(1, 1), zeta(0, 1);
-        double sum = 0;  // the middles of the sides: exact for squares of linear functions
+        double sum = 0;  // at the midpoints of the edges: exact for squares of linear functions
         for (int k = 0; k < 3; ++k) {
             const auto p = static_cast<std::size_t>(surface.triangles(row, k));
             const auto q = static_cast<std::size_t>(surface.triangles(row, (k + 1) % 3));
@@ -264,7 +264,7 @@ bool AdaptiveSurface::refine_where(const std::function<bool(int triangle)>& want
 bool AdaptiveSurface::refine(solve::MotionState& state) {
     const Eigen::VectorXd squared = squared_error(surface_, *term_, state.x);
     const double energy = term_->energy(state.t_s, state.x);
-    // Shrunk to a point, the surface has strains of the order of one
+    // Shrunk to a point, the surface has strains of order one.
     const double one = term_->metric_energy(Points::Zero(state.x.rows(), 3));
     error_ = 0;
     if (!(energy > kMinSheetStrain * kMinSheetStrain * one)) return false;

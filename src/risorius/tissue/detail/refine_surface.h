@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Adaptive resolution of surfaces on any triangle mesh: triangles are bisected where strain and curvature ask for it, with
-/// the material and the rest shape, facets included, unchanged.
+/// Adaptive resolution of surfaces on any triangle mesh. Triangles are bisected where strain and curvature require it; the
+/// material and the rest shape, with its facets, do not change.
 ///
 ///   dG   metric strain of a triangle, constant      b - b0   its change of curvature (triangle_sheet.h)
-///   dG*, b*   continuous: means over the triangles round a node, interpolated
+///   dG*, b*   continuous: means over the triangles around a node, interpolated
 ///   eta_t^2 = A (1/4 sum lambda_ij (dG_ij - dG*_ij)^2 + 1/2 sum zeta_ij (b_ij - b*_ij)^2), means over the triangle, J
 ///
-/// Means are of numbers by a: neighbours' coordinates have to run the same way, as a grid's and those along a fibre do.
-/// Bisection at longest edges: Rivara 1984, Int. J. Numer. Meth. Eng. 20(4); no angle becomes smaller than half the
-/// smallest. Estimate: Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2).
+/// The means are taken of components in the coordinates a. So the coordinates of neighbouring triangles must have the same
+/// directions, as those of a grid or along a fibre have.
+///
+/// Sources: Rivara 1984, Int. J. Numer. Meth. Eng. 20(4), for bisection at the longest edge: no angle becomes smaller than half
+/// the smallest one; Zienkiewicz & Zhu 1987, Int. J. Numer. Meth. Eng. 24(2), for the estimate.
 #pragma once
 
 #include <array>
@@ -24,23 +26,24 @@
 namespace risorius::tissue {
 
 struct Bisected {
-    TriangleSurface surface;                    ///< the former nodes first
-    std::vector<std::array<int, 2>> middle_of;  ///< each further node lies between two others
-    std::vector<int> parent;                    ///< of each triangle: the one it is part of
+    TriangleSurface surface;  ///< the old nodes come first
+    /// For each new node: the two nodes it lies between.
+    std::vector<std::array<int, 2>> middle_of;
+    std::vector<int> parent;  ///< for each triangle: the old triangle that contains it
 };
 
-/// Cuts every marked triangle in two through the middle of its longest edge, and others where that is needed so that no
-/// node lies within an edge. Ties of length go to the lower nodes.
+/// Bisects every marked triangle at its longest edge, and further triangles so that no node lies inside an edge. Of edges of
+/// equal length, the one with the lower nodes counts as longest.
 Bisected bisected(const TriangleSurface& surface, const std::vector<char>& marked);
 
-/// eta_t^2 of every triangle, J. `term` is the surface's.
+/// eta_t^2 of every triangle, J. `term` is the term of `surface`.
 Eigen::VectorXd squared_error(const TriangleSurface& surface, const TriangleSheetTerm& term,
                               const Points& x);
 
 struct SurfaceRefineOptions {
-    /// As of solids: estimated error in the energy norm, share of that of the deformation.    (0, 1)
+    /// Target: estimated error in the energy norm, as a fraction of the norm of the deformation    (0, 1)
     double tolerance = 0.1;
-    int max_bisections = 4;  ///< of one triangle; two halve its edges    [0, 16]
+    int max_bisections = 4;  ///< bisections of one triangle; two of them halve its edges    [0, 16]
 };
 
 class AdaptiveSurface {
@@ -51,18 +54,20 @@ class AdaptiveSurface {
     const TriangleSurface& surface() const { return surface_; }
     const std::shared_ptr<TriangleSheetTerm>& term() const { return term_; }
 
-    /// At rest on the present mesh.
+    /// The rest state on the present mesh.
     solve::MotionState start() const;
 
-    /// Bisects every triangle for which `wanted`, once. A state given is carried over. True when anything changed.
+    /// Bisects every triangle for which `wanted` is true, once. `state` is carried over to the new mesh. Returns true when
+    /// anything changed.
     bool refine_where(const std::function<bool(int triangle)>& wanted,
                       solve::MotionState* state = nullptr);
 
-    /// Bisects as the strain of `state` asks; new nodes lie in the middles of edges. Systems and terms of the former
-    /// surface must be made anew when it returns true. Triangles are not put together again.
+    /// Bisects triangles according to the strain of `state`; new nodes lie at the midpoints of edges. When it returns true,
+    /// systems and terms of the old surface must be made anew. Triangles are never merged.
     bool refine(solve::MotionState& state);
 
-    double estimated_error() const { return error_; }  ///< of the last refine(), as of solids
+    /// At the last refine(); see AdaptiveSolid::estimated_error.
+    double estimated_error() const { return error_; }
 
   private:
     bool bisect(const std::vector<char>& marked, solve::MotionState* state);
@@ -74,11 +79,11 @@ class AdaptiveSurface {
     double error_ = 0;
 };
 
-/// As SettleSolid.
+/// See SolveSolid.
 using SolveSurface = std::function<bool(const AdaptiveSurface& surface, SolveStage stage,
                                         solve::MotionState& state)>;
 
-/// As of solids.
+/// See solve_and_refine() for solids.
 RefineRounds solve_and_refine(AdaptiveSurface& surface, const SolveSurface& solve, int rounds,
                               solve::MotionState& state);
 

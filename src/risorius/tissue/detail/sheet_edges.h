@@ -12,14 +12,14 @@ namespace risorius::tissue::detail {
 
 inline Vec3 point(const Points& x, int node) { return x.row(node).transpose(); }
 
-/// One triangle's side of an edge.
+/// An edge as seen from one of its triangles.
 struct EdgeSide {
     int low, high;  ///< nodes of the edge, low < high
     int triangle;
     int edge;  ///< runs from corner `edge` to `edge` + 1; the corner after that is opposite
 };
 
-/// Edges with exactly two triangles, in order of their nodes; the triangle with the lower number first.
+/// All edges with exactly two triangles, sorted by their nodes. The triangle with the lower number comes first.
 std::vector<std::array<EdgeSide, 2>> inner_edges(const Triangles& triangles);
 
 }  // namespace risorius::tissue::detail

@@ -29,7 +29,7 @@ Face face_of(int a, int b, int c) {
     return face;
 }
 
-// Which tets have a face, two at most
+// The tets of each face, at most two.
 class FaceNeighbours {
   public:
     explicit FaceNeighbours(const Tets& tets) : tets_(tets) {
@@ -46,7 +46,7 @@ class FaceNeighbours {
         const std::array<int, 2>& pair = of_.at(face).tets;
         return pair[0] == tet ? pair[1] : pair[0];
     }
-    // The node of a tet that is not on one of its faces
+    // The node of a tet that is not on the given face of it.
     int opposite(int tet, const Face& face) const {
         for (int k = 0; k < 4; ++k)
             if (std::find(face.nodes.begin(), face.nodes.end(), tets_(tet, k)) == face.nodes.end())
@@ -68,7 +68,7 @@ class FaceNeighbours {
 TetFans find_fans(const Tets& tets) {
     const FaceNeighbours neighbours(tets);
     struct Candidate {
-        int apart;  // of its numbers
+        int apart;  // sum of the differences of tet numbers
         TetFan fan;
     };
     std::vector<Candidate> candidates;
@@ -85,7 +85,7 @@ TetFans find_fans(const Tets& tets) {
             if (before < 0 || after < 0) continue;
             const int begin = neighbours.opposite(before, first),
                       end = neighbours.opposite(after, last);
-            if (begin == end) continue;  // closes around the edge
+            if (begin == end) continue;  // the ring is closed: not a fan
             candidates.push_back({std::abs(before - middle) + std::abs(after - middle),
                                   {{before, middle, after}, {a, b, begin, ring[0], ring[1], end}}});
         }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Tetrahedra about a common edge, three by three: six nodes where they would have twelve one by one.
+/// Groups tetrahedra around a common edge in fans of three. A fan has six nodes, where three separate tets have twelve.
 ///
-/// A fan has nodes a, b (the edge), then r_0 .. r_k around it; its tets are (a, b, r_i, r_i+1). The three of a cut prism are one.
+/// A fan has nodes a, b (the edge) and r_0 .. r_3 around it. Its tets are (a, b, r_i, r_i+1). The three tets of a cut prism
+/// form a fan.
 #pragma once
 
 #include <array>
@@ -21,10 +22,10 @@ struct TetFan {
 
 struct TetFans {
     std::vector<TetFan> fans;
-    std::vector<int> alone;  ///< tets that are in none, ascending
+    std::vector<int> alone;  ///< tets that are in no fan, ascending
 };
 
-/// As many fans as are found by taking those first whose tets have the nearest numbers.
+/// Finds fans greedily: those whose tets have the closest numbers come first.
 TetFans find_fans(const Tets& tets);
 
 }  // namespace risorius::tissue

@@ -16,7 +16,7 @@ std::vector<double> monotone_slopes(const std::vector<Key>& keys) {
         secants[i] = (keys[i + 1].value - keys[i].value) / (keys[i + 1].time_s - keys[i].time_s);
     for (std::size_t i = 1; i + 1 < n; ++i)
         if (secants[i - 1] * secants[i] > 0) slopes[i] = (secants[i - 1] + secants[i]) / 2;
-    // Inside the circle of radius 3 around the secant the cubic is monotone (their condition 4).
+    // Inside the circle of radius 3 around the secant, the cubic is monotone (condition 4 of Fritsch & Carlson).
     for (std::size_t i = 0; i + 1 < n; ++i) {
         if (secants[i] == 0) continue;
         const double a = slopes[i] / secants[i], b = slopes[i + 1] / secants[i];
@@ -54,7 +54,7 @@ double Curve::at(double t_s) const {
     const double rise = s * s * (3 - 2 * s);
     const double cubic = from.value + rise * (to.value - from.value) +
                          h * s * (1 - s) * ((1 - s) * slopes_[i] - s * slopes_[i + 1]);
-    // Monotone up to rounding; the clamp takes the last bit.
+    // Monotone up to rounding; the clamp removes the rest.
     return std::clamp(cubic, std::min(from.value, to.value), std::max(from.value, to.value));
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A value over time given by keys. Before the first and after the last key it is constant; between keys it is stepped, linear or smooth.
+/// A value over time, given by keys. Before the first key and after the last one it is constant. Between keys it is stepped,
+/// linear or smooth.
 ///
-/// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, without overshoot between
-/// two keys. Its slope is 0 at both ends, where it joins the constant parts.
+/// Smooth is the monotone cubic of Fritsch & Carlson 1980 (SIAM J. Numer. Anal. 17, 238-246): C1 everywhere, and without
+/// overshoot between two keys. Its slope is 0 at both ends, where it joins the constant parts.
 #pragma once
 
 #include <vector>
@@ -19,18 +20,18 @@ struct Key {
 
 class Curve {
   public:
-    /// At least one key, times strictly increasing.
+    /// Needs at least one key; times must increase strictly.
     Curve(std::vector<Key> keys, Interpolation interpolation);
 
     double at(double t_s) const;
 
   private:
     std::vector<Key> keys_;
-    std::vector<double> slopes_;  ///< at each key, smooth curves only
+    std::vector<double> slopes_;  ///< at each key; for smooth curves only
     Interpolation interpolation_;
 };
 
-/// A value recorded at a constant rate: linear between samples, 0 before the first and after the last.
+/// A value recorded at a constant rate. It is linear between samples, and 0 before the first and after the last sample.
 class SampledCurve {
   public:
     /// The first sample is at `start_s`.
@@ -43,7 +44,7 @@ class SampledCurve {
     double rate_hz_, start_s_;
 };
 
-/// Minimum-jerk movement from 0 to 1, at rest at both ends; s is clamped to [0, 1].
+/// Minimum-jerk movement from 0 to 1, with velocity 0 at both ends. s is clamped to [0, 1].
 /// Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
 double minimum_jerk(double s);
 

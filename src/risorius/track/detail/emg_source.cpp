@@ -15,7 +15,7 @@ namespace {
 using signal::EmgFilters;
 using signal::Recording;
 
-/// Number below half the rate of the recording.
+/// Reads a frequency below half the rate of the recording, Hz.
 double frequency(const JsonCursor& json, double rate_hz) {
     const double hz = json.number();
     if (!(hz > 0 && hz < rate_hz / 2))
@@ -64,7 +64,7 @@ int column_named(const JsonCursor& json, const Recording& recording) {
     json.fail(expected, "\"" + name + "\"");
 }
 
-/// Rate, and when the recording begins.
+/// Reads the rate, Hz, and the start of the recording, s.
 std::pair<double, double> read_clock(const JsonCursor& json, const Recording& recording) {
     const auto rate = json.find("rate_hz"), time = json.find("time_column");
     if (rate.has_value() == time.has_value())

@@ -4,12 +4,13 @@
 ///
 ///   {"file": "emg.csv", "rate_hz": 1000, "channels": {"zygomaticus_major.l": "ZYG_L"}}
 ///
-/// Each channel is filtered (signal/emg_envelope.h), its value at rest is subtracted, and it is divided by its maximum and clamped to 0..1:
+/// Each channel is filtered (signal/emg_envelope.h). Then its resting value is subtracted, and the result is divided by its
+/// maximum and clamped to 0..1:
 ///
-///   e = (envelope - rest) / (maximum - rest)      u = e; of a muscle with resting tone that can be taken away, which is
+///   e = (envelope - rest) / (maximum - rest)      u = e; for a muscle with resting tone that can be reduced, which is
 ///                                                 silent at u = min: min + (1 - min) e
 ///
-/// Several channels, or other sources of the script, that drive one muscle are added.
+/// Several channels that drive one muscle are added, and so are other sources in the script.
 #pragma once
 
 #include <vector>
@@ -20,7 +21,8 @@
 
 namespace risorius::track {
 
-/// Keys, ranges and defaults are in the README. Throws Error naming the script, or file, line and column of the recording.
+/// Reads "emg" and its recordings. Keys, ranges and defaults are in docs/formats/script.md. Throws Error that names the script,
+/// or file, line and column of the recording.
 std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& channels);
 
 }  // namespace risorius::track

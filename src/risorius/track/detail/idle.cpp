@@ -21,13 +21,13 @@ constexpr std::array<double, 3> kPartialDepths{0.25, 0.5, 0.75};
 // Saccades
 constexpr double kFixationSpread = 0.3;
 constexpr std::array<double, 8> kDirectionPercent{15.54, 6.46, 17.69, 7.44,
-                                                  16.80, 7.89, 20.38, 7.80};  // by 45 deg
+                                                  16.80, 7.89, 20.38, 7.80};  // for every 45 deg
 constexpr int kTries = 8;
 // Sway
 constexpr double kSlowest_hz = 0.05, kFastest_hz = 1.5, kSlope = 1.5;
 constexpr int kSines = 24;
 constexpr double kFade_s = 1.0;
-constexpr double kBreathPitch_deg = 0.2, kBreathLift_mm = 0.7;  // from top to bottom
+constexpr double kBreathPitch_deg = 0.2, kBreathLift_mm = 0.7;  // peak to peak
 struct Axis {
     Kinematic channel;
     double spread;  ///< SD, deg or mm
@@ -41,7 +41,7 @@ constexpr std::array<Axis, 6> kAxes{{{Kinematic::kHeadYaw, 0.8},
 
 enum class Stream : unsigned { kBlinks = 1, kSaccades, kSway };
 
-/// Numbers that are the same with every standard library, which std::normal_distribution does not promise.
+/// Random numbers that are the same with every standard library; std::normal_distribution does not promise that.
 class Random {
   public:
     Random(const IdleEvent& event, Stream stream) {
@@ -49,13 +49,13 @@ class Random {
                            static_cast<unsigned>(stream)};
         engine_.seed(seed);
     }
-    /// Within (0, 1).
+    /// In (0, 1).
     double uniform() { return (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53; }
     double normal() {
         const double radius = std::sqrt(-2 * std::log(uniform()));
         return radius * std::cos(2 * kPi * uniform());
     }
-    /// Right-skewed, of that mean and SD / mean.
+    /// Lognormal (right-skewed) with the given mean and ratio of SD to mean.
     double lognormal(double mean, double spread) {
         const double variance = std::log1p(spread * spread);
         return mean * std::exp(std::sqrt(variance) * normal() - 0.5 * variance);
@@ -91,7 +91,8 @@ std::vector<IdleSaccade> draw_saccades(const IdleEvent& event) {
     for (double t = event.start_s;;) {
         t +=
             std::clamp(random.lognormal(fixation, kFixationSpread), 0.5 * fixation, 1.5 * fixation);
-        // As far as chance says, but not out of reach; failing that, back to straight ahead
+        // Draws a direction and a size. Draws again when the target is out of reach; after kTries, the target is straight
+        // ahead.
         Vec2 to = Vec2::Zero();
         for (int attempt = 0; attempt < kTries; ++attempt) {
             const double size = std::min(reach, -0.5 * reach * std::log(random.uniform()));
@@ -101,7 +102,7 @@ std::vector<IdleSaccade> draw_saccades(const IdleEvent& event) {
             break;
         }
         const double duration = 0.022 + 0.0023 * (to - gaze).norm();
-        // Ends where it began, so that what comes after need not jump
+        // The gaze must return to its start before the end of the event, so that it does not jump afterwards.
         if (t + 2 * duration + fixation > event.end_s) break;
         saccades.push_back({t, duration, gaze, to});
         t += duration;
@@ -136,7 +137,7 @@ std::vector<IdleBlink> idle_blinks(const IdleEvent& event) {
     if (event.options.blinks_per_minute == 0) return blinks;
     Random random(event, Stream::kBlinks);
     const double mean = 60 / event.options.blinks_per_minute;
-    // The event begins somewhere within an interval
+    // The event begins at a random place within an interval.
     double t = event.start_s + random.uniform() * random.lognormal(mean, kIntervalSpread);
     while (t < event.end_s) {
         double intensity = 1;
@@ -154,7 +155,8 @@ IdleMotion::IdleMotion(const IdleEvent& event) : event_(event), saccades_(draw_s
         std::vector<Sine> sines;
         double power = 0;
         for (int k = 0; k < kSines; ++k) {
-            // Evenly spread over log f, each somewhere within its share, so that nothing repeats
+            // Frequencies are spread evenly over log f, each at a random place within its part, so that the motion does not
+            // repeat.
             const double place = (k + random.uniform()) / kSines;
             const double hz = kSlowest_hz * std::pow(kFastest_hz / kSlowest_hz, place);
             const double amplitude = std::pow(hz, 0.5 * (1 - kSlope));

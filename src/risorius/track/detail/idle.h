@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Spontaneous movement of a face: blinks, small saccades, sway of the head, and breathing. Reproducible from a seed.
+/// Spontaneous movement of a face: blinks, small saccades, sway of the head and breathing. The movement is determined by a
+/// seed.
 ///
-/// Blinks come at intervals drawn from a lognormal law, SD 0.6 of the mean, never within 0.3 s. Between saccades the gaze rests;
-/// a saccade takes 22 ms + 2.3 ms per degree along a minimum-jerk curve, its size is exponential, its direction that of
-/// conversation, horizontal and vertical before oblique; both eyes turn alike. The head's sway is a sum of sines between 0.05
-/// and 1.5 Hz whose power falls as f^-1.5. Sway and breathing fade in and out over a second.
-/// Sources: Doughty 2002 and Bentivoglio et al. 1997 (rates and intervals of blinks); Bahill, Clark & Stark 1975 (main sequence); Lee,
-/// Badler & Badler 2002, ACM Trans. Graph. 21(3) (sizes and directions of saccades). Sizes of the sway are estimates.
+/// Blinks have lognormal intervals with an SD of 0.6 of the mean, and are at least 0.3 s apart. Between saccades the gaze is
+/// still. A saccade takes 22 ms + 2.3 ms per degree and follows a minimum-jerk curve. Its size is exponentially distributed.
+/// Its direction has the distribution found in conversation, where horizontal and vertical directions are more frequent than
+/// oblique ones. Both eyes turn alike. The sway of the head is a sum of sines between 0.05 and 1.5 Hz whose power falls as
+/// f^-1.5. Sway and breathing fade in and out over one second.
+///
+/// Sources: Doughty 2002 and Bentivoglio et al. 1997 (rates and intervals of blinks); Bahill, Clark & Stark 1975 (main
+/// sequence); Lee, Badler & Badler 2002, ACM Trans. Graph. 21(3) (sizes and directions of saccades). Sizes of the sway are
+/// estimates.
 #pragma once
 
 #include <vector>
@@ -17,13 +21,13 @@
 
 namespace risorius::track {
 
-/// Field names are the keys of "idle" in a script. 0 turns a part off.
+/// Field names are the keys of "idle" in a script. 0 switches a part off.
 struct IdleOptions {
     double blinks_per_minute = 17;  ///< [0, 60]
     double partial_blinks = 0;      ///< fraction of blinks that do not close the lids, [0, 1]
     double saccade_deg = 2;         ///< mean eccentricity of the gaze, [0, 25]
-    double fixation_s = 0.4;  ///< mean; each lasts half to one and a half times as long, [0.1, 20]
-    double sway = 1;  ///< ratio of 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, SD, [0, 5]
+    double fixation_s = 0.4;        ///< mean; each lasts 0.5 to 1.5 times as long, [0.1, 20]
+    double sway = 1;  ///< SD, as a ratio of 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, [0, 5]
     double breaths_per_minute = 14;  ///< [0, 60]
 };
 
@@ -31,7 +35,7 @@ struct IdleEvent {
     double start_s = 0, end_s = 0;
     IdleOptions options;
     int seed = 1;    ///< of the script
-    int number = 0;  ///< number of the event among those of its kind, so that two events differ
+    int number = 0;  ///< index of the event among idle events, so that two events differ
 };
 
 IdleOptions read_idle_options(const JsonCursor& json);
@@ -52,7 +56,7 @@ class IdleMotion {
   public:
     explicit IdleMotion(const IdleEvent& event);
 
-    /// Gaze and head motion at t; zero outside of the event.
+    /// Gaze and head motion at t; zero outside the event.
     KinematicValues at(double t_s) const;
     const std::vector<IdleSaccade>& saccades() const { return saccades_; }
 
