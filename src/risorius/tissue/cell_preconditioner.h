@@ -4,15 +4,17 @@
 /// exactly, with one pressure per cell, and all other terms are reduced to a diagonal.
 ///
 ///   H = A + C^T D C     A   inertia M/h^2, stiffness of shape and the other terms     d  diagonal of A, one number per node
-///                       C   gradients of the cells' volumes now                       D  stiffness of volumes, d2E/dV2
+///                       C   gradients of the cells' volumes                           D  stiffness of volumes, d2E/dV2
 ///   B = (d + C^T D C)^-1 = d^-1 - d^-1 C^T S^-1 C d^-1,   S = D^-1 + C d^-1 C^T        (Sherman, Morrison & Woodbury)
 ///
-/// Tissue is 20 to 1000 times stiffer in volume than in shape. Motions that keep volume involve whole neighbourhoods of nodes,
-/// so a smoother that treats H node by node fails, the more so the stiffer the volume term is. S acts like Poisson's equation,
-/// for which multigrid works best, and has one unknown per cell. Source: Braess & Sarazin 1997, Appl. Numer. Math. 23.
+/// C is taken at the start of the step, and h is the length of the step. Tissue is 20 to 1000 times stiffer in volume than in
+/// shape. Motions that keep volume involve whole neighbourhoods of nodes, so a smoother that treats H node by node converges
+/// slowly, and the more slowly the stiffer the volume term is. S acts like Poisson's equation, for which multigrid works best,
+/// and has one unknown per cell. Source: Braess & Sarazin 1997, Appl. Numer. Math. 23.
 ///
-/// B is as good as d approximates A. The condition number of B H grows with the ratio of shape stiffness between neighbours to
-/// M/h^2, that is, with the square of the resolution; the number of iterations grows with its square root.
+/// B is a good preconditioner where d is a good approximation of A. The condition number of B H grows with the ratio of shape
+/// stiffness between neighbours to M/h^2, that is, with the square of the resolution. The number of iterations grows with the
+/// square root of the condition number.
 #pragma once
 
 #include <memory>
@@ -23,9 +25,9 @@
 namespace risorius::tissue {
 
 struct CellPreconditionerOptions {
-    /// Degree of the smoothing polynomials, before and after the coarse correction   [1, ...)
+    /// Degree of the polynomials that smooth before and after the correction on the coarser grid [1, ...)
     int degree = 12;
-    int coarsest_cells = 64;  ///< a level with at most so many cells is solved directly
+    int coarsest_cells = 64;  ///< a grid with at most this many cells is solved directly
 };
 
 /// The preconditioner for one system, one solid and one length of step.

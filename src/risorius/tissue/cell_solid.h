@@ -4,12 +4,14 @@
 /// points and one exact volume term per cell (mean dilatation).
 ///
 ///   E = sum over cells [ sum_8 (h1 h2 h3 / 8) 1/4 lambda_ij (G_ij - G0_ij)^2 + psi_c / (h1 h2 h3) (V_c - V_c0)^2 ]
-///   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed
+///   G_ij = r_i . r_j,  r_i = dr/da_i,  V_c exact and signed,  0: in the rest shape
 ///
-/// Damping is the same metric sum with omega_ij and the strain rate. In an implicit step the rate is (G - G_n) / h, so rotation
-/// is not damped and the damping potential depends on x alone.
+/// lambda_ij, omega_ij and psi_c are in cell_body.h; h1, h2, h3 are the edges of a cell in material coordinates. The damping is
+/// the same metric sum with omega_ij and the strain rate dG/dt. In an implicit step of length h the rate is (G - G_n) / h,
+/// where G_n is G at the start of the step. So rotation is not damped, and the damping potential depends on x alone.
 ///
-/// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with C = G0^-1 at every Gauss point; see cell_body.h.
+/// With moduli in Pa the metric term is mu/4 |C dG|^2 sqrt(det G0) with dG = G - G0 and C = G0^-1 at every Gauss point; see
+/// cell_body.h.
 ///
 /// Sources: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, sections 3.1-3.5 (the continuum); Nagtegaal, Parks & Rice
 /// 1974 and Simo, Taylor & Pister 1985 (mean dilatation).
@@ -45,21 +47,21 @@ class CellSolid : public solve::EnergyTerm {
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
-    /// The metric term is linearized as K(x). The volume term is added to `force`.
+    /// K contains the metric term at x. The volume term is added to `force`, and so is the damping unless its rate is lagged.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;
 
     /// Positions of all vertices, hanging ones included, from the positions `x` of the nodes; V x 3, m.
     Points vertices(const Points& x) const;
-    Eigen::VectorXd cell_volumes(const Points& x) const;  ///< m^3
-    double volume(const Points& x) const;                 ///< of the body, m^3
-    double rest_volume() const { return rest_volume_.sum(); }
-    int inverted_count(const Points& x) const;  ///< cells with V_c <= 0
+    Eigen::VectorXd cell_volumes(const Points& x) const;       ///< of each cell, signed, m^3
+    double volume(const Points& x) const;                      ///< of the body, m^3
+    double rest_volume() const { return rest_volume_.sum(); }  ///< of the body, m^3
+    int inverted_count(const Points& x) const;                 ///< number of cells with V_c <= 0
 
     /// Metric strain dG_ij = G_ij - G0_ij at the eight Gauss points of a cell, m^2. Point g is the one next to corner g.
     void metric_strain(const Points& vertices, int cell, Mat3 (&strain)[8]) const;
-    /// C = G0^-1 at the centre of a cell, 1/m^2. It turns metric strain into Green strain, C dG / 2.
+    /// C = G0^-1 at the centre of a cell, 1/m^2. C dG / 2 is the Green strain as a mixed tensor.
     Mat3 inverse_rest_metric(int cell) const;
 
   private:

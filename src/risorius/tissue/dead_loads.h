@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Constant forces on nodes, N: they keep size and direction while the tissue moves. Examples are weight and air pressure held
-/// in the cheeks.
+/// Constant forces on nodes, N. A force keeps its size and direction while the tissue moves. Examples are weight and air
+/// pressure held in the cheeks.
 #pragma once
 
 #include <utility>
@@ -22,7 +22,7 @@ class DeadLoads {
     void set(std::vector<Load> loads) { loads_ = std::move(loads); }
     const std::vector<Load>& list() const { return loads_; }
 
-    /// Returns E = -sum f . x, J, and adds dE/dx = -f.
+    /// Returns E = -sum f . x, J, and adds dE/dx = -f to `gradient`, n x 3, N. f is the force on a node and x is its position.
     double add_energy(const Points& x, Points& gradient) const {
         double energy = 0;
         for (const Load& load : loads_) {

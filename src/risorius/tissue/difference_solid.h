@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The grid solid in the thesis' finite differences (discretisation A): forward differences of positions and backward
+/// The grid solid in the finite differences of the thesis (discretisation A): forward differences of positions and backward
 /// differences of stress. Differences across the border are zero.
 ///
 ///   r_i    = (r[n + u_i] - r[n]) / h_i, zero where n + u_i is outside      G_ij = r_i . r_j
 ///   E      = sum over nodes of [ 1/4 sum_ij eta_ij (G_ij - G0_ij)^2 + psi (dV - dV0)^2 ],  dV = r_1 . (r_2 x r_3), signed
-///   force  = - dE/dr - damping: s_ij = eta_ij (G_ij - G0_ij) + phi_ij (v_i . r_j + r_i . v_j) in place of alpha_ij
+///   force  = - dE/dr, with the stress s_ij = eta_ij (G_ij - G0_ij) + phi_ij (v_i . r_j + r_i . v_j) in the metric term
 ///
-/// eta, phi and psi are coefficients of each node: sums over nodes carry no further weight, and psi is not scaled with the
-/// resolution. A node without all three forward neighbours has no volume term. The force is the exact negative gradient of the
-/// energy.
+/// r[n] is the position of node n. u_i is the step to the next node along a_i, h_i is the spacing of nodes in a_i, and v_i is
+/// the same difference of the velocities as r_i. The index 0 means the rest shape. eta, phi and psi are coefficients of each
+/// node. The sums over nodes have no other factors, and psi is not scaled with the resolution. A node without all three forward
+/// neighbours has no volume term. Without damping, the force is the exact negative gradient of the energy.
 ///
-/// Because the differences are one-sided, a hanging cube drifts sideways by some per mille of its length, and its result
+/// Because the differences are one-sided, a hanging cube moves sideways by some thousandths of its length, and the result
 /// depends on which end is held. CellSolid has neither defect.
 ///
-/// In implicit steps the damping comes from the potential sum 1/4 phi_ij (G_ij - G_ij(x_n))^2 / h.
+/// In an implicit step of length h from x_n, the damping force is the negative gradient of sum 1/4 phi_ij (G_ij - G_ij(x_n))^2
+/// / h.
 ///
-/// Sources: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, eq. (3), (6), (8), (10); Terzopoulos, Platt, Barr &
-/// Fleischer 1987 for the differences at borders.
+/// Sources: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005 ("the thesis"), eq. (3), (6), (8), (10); Terzopoulos,
+/// Platt, Barr & Fleischer 1987 for the differences at borders.
 #pragma once
 
 #include <string>
@@ -32,8 +34,8 @@ namespace risorius::tissue {
 /// Energy and forces of the solid. Weight and drag are terms of their own.
 class DifferenceSolid : public solve::EnergyTerm {
   public:
-    /// The nodes of the system must be those of the grid. Throws Error when check(solid, place) does. Mass and drag are
-    /// separate: see node_mass and node_drag.
+    /// The nodes of the system must be those of the grid. Throws the Error of check(solid, place). Mass and drag are not part
+    /// of this term: see node_mass and node_drag.
     explicit DifferenceSolid(const GridSolid& solid, const std::string& place = "solid");
 
     const GridShape& grid() const { return grid_; }
@@ -46,7 +48,8 @@ class DifferenceSolid : public solve::EnergyTerm {
     /// kPositive: only the positive part of each node's stress is used, and the second derivative of dV is left out.
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// Per node: a fixed pattern times the smallest factor that bounds the node's second derivative at the rest shape.
+    /// The matrix of each node is a fixed pattern times a factor: the smallest one that bounds the second derivative of the
+    /// node's energy at the rest shape.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
     /// The volume force is added to `force`, and so is the damping unless its rate is lagged.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
@@ -55,7 +58,7 @@ class DifferenceSolid : public solve::EnergyTerm {
 
     /// Sum of dV over nodes, m^3, as plotted in figure 9a of the thesis. Only its change from rest has a meaning.
     double volume_element_sum(const Points& x) const;
-    int inverted_count(const Points& x) const;  ///< nodes with dV <= 0 among those that have dV
+    int inverted_count(const Points& x) const;  ///< number of nodes with dV <= 0
 
   private:
     using Lanes = solve::Lanes;
@@ -84,7 +87,7 @@ class DifferenceSolid : public solve::EnergyTerm {
 
     /// One node in matrix form, for everything outside the innermost loop.
     struct Node {
-        int nodes[4];    ///< itself and the forward neighbours; itself again where one is missing
+        int nodes[4];  ///< the node and its forward neighbours; the node again where one is missing
         Vec3 inverse_h;  ///< zero where a neighbour is missing
         Mat3 eta, phi;
         double psi = 0, dv0 = 0;
@@ -98,10 +101,10 @@ class DifferenceSolid : public solve::EnergyTerm {
     bool damped_ = false, incompressible_ = false;
     std::vector<Group> groups_;
     int ahead_[3];                       ///< rows from a node to its forward neighbours
-    int stride_;                         ///< distance between the coordinates in x_ and v_
+    int stride_;                         ///< distance from the x to the y and z arrays in x_ and v_
     int q_stride_;                       ///< distance between the components of q_
     mutable std::vector<double> x_, v_;  ///< x, y, z as contiguous arrays, followed by zeros
-    /// P_i / h_i, component by component, with zeros before and behind
+    /// Stress vectors sum_j s_ij r_j / h_i of all nodes, component by component, with zeros before and behind.
     mutable std::vector<double> q_;
 };
 

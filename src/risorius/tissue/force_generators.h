@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Time-dependent forces at any points of a body: box, triangle and sine pulses along a direction.
+/// Forces at any points of a body that depend on time: box, triangle and sine pulses along a fixed direction.
 ///
-///   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p
+///   f(t) = pulse(t) d      d  direction, length 1      E = - f(t) . p      p  the point, m
 ///
 /// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
 #pragma once
@@ -20,7 +20,7 @@ namespace risorius::tissue {
 
 /// The course of a pulse in time.
 enum class PulseShape {
-    kBox,       ///< the amplitude during the whole pulse
+    kBox,       ///< is the amplitude during the whole pulse
     kTriangle,  ///< rises to the amplitude at half time and falls again
     kSine       ///< amplitude sin(2 pi frequency (t - start) + phase)
 };
@@ -51,11 +51,12 @@ struct ForceGenerator {
     Pulse pulse;
 };
 
-/// Throws Error that names the field below `place`.
+/// Throws Error when a value is outside its range. The message names the field by its path, which begins with `place`.
 void check(const ForceGenerator& generator, const std::string& place);
 
-/// Explicit methods use the force at each time they ask for. An implicit step uses its mean over the step; so the body receives
-/// the whole impulse for any step length, and short pulses are not missed. An equilibrium uses the force at its time.
+/// The forces of a list of generators. Explicit methods use the force at each time at which they evaluate it. An implicit step
+/// uses its mean over the step; so the body receives the whole impulse for any step length, and short pulses are not missed. An
+/// equilibrium uses the force at the time of the equilibrium.
 class ForceGenerators : public solve::EnergyTerm {
   public:
     explicit ForceGenerators(std::vector<ForceGenerator> generators);

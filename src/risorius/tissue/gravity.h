@@ -7,7 +7,7 @@
 
 namespace risorius::tissue {
 
-constexpr double kStandardGravity = 9.81;  ///< m/s^2, as the experiments of the thesis use it
+constexpr double kStandardGravity = 9.81;  ///< m/s^2
 
 /// The weight of all nodes.
 class Gravity : public solve::EnergyTerm {

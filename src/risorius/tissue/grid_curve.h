@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The deformable curve: M nodes over a in [0,1], any rest shape in space, and five numbers in every node. It stretches and
-/// bends; the model has no twist.
+/// The deformable curve: M nodes over a in [0,1], any rest shape in space, and five material parameters for each node. It
+/// stretches and bends; the model has no twist.
 ///
-///   r' = dr/da    G = r' . r'    s = |r'' - c r'|, its bent part; S in the rest shape
+///   r' = dr/da    G = r' . r'    s = |r'' - e r'|, the bent part of r'';  S  s in the rest shape
 ///   energy  integral of 1/4 lambda (G - G0)^2 + 1/2 zeta (s - S)^2        dissipation  1/4 omega (dG/dt)^2
 ///
-/// c r' is the part of r'' along r' that the rest shape has because of unevenly spaced nodes. Where the rest shape is straight,
-/// S = 0 and bending is the plain 1/2 zeta |r''|^2. Elsewhere s is rounded off near zero, s = sqrt(|..|^2 + (0.1 S)^2) as in
-/// SkinSheet, so that a curve that is bent straight has finite forces.
+/// e r' is the part of r'' along r' in the rest shape. It is not zero where nodes are unevenly spaced. Where the rest shape is
+/// straight, S = 0 and bending is the plain 1/2 zeta |r''|^2. Elsewhere s is rounded off near zero, s = sqrt(|..|^2 + (0.1
+/// S)^2) as in SkinSheet, so that a curve that is bent straight has finite forces.
 ///
 /// Source: Terzopoulos, Platt, Barr & Fleischer 1987, Elastically deformable models.
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace risorius::tissue {
 
-/// The five numbers of a node.
+/// The five parameters of a node.
 struct CurveMaterial {
     double elastic_n_per_m3 = 0;   ///< lambda                                         [0, inf)
     double damping_ns_per_m3 = 0;  ///< omega                                          [0, inf)
@@ -34,20 +34,22 @@ struct CurveMaterial {
 struct GridCurve {
     Points rest;                          ///< M x 3, m; M >= 2
     std::vector<CurveMaterial> material;  ///< one, or one per node
-    /// kResolutionIndependent: every value is multiplied by 1/(M-1), the length of a link in a. This is eq. (10) with one axis,
-    /// and for bending the trapezoidal rule without moments at the ends.
+    /// kResolutionIndependent: lambda, omega and zeta are multiplied by 1/(M-1), the length of a link in a. For lambda and
+    /// omega this is eq. (10) of the thesis (solid_material.h) with one axis. For zeta it is the trapezoidal rule without
+    /// moments at the ends.
     Parameters parameters = Parameters::kResolutionIndependent;
 };
 
-/// Material of a straight rod of length L: lambda = EA / (2 L^3), zeta = EI / L^3. The mass keeps its default.
+/// Material of a straight rod of length L: lambda = EA / (2 L^3), zeta = EI / L^3. EA is `tension_stiffness_n` and EI is
+/// `bending_stiffness_n_m2`. The mass has its default value.
 CurveMaterial rod_material(double tension_stiffness_n, double bending_stiffness_n_m2,
                            double length_m);
 
 /// A straight line of evenly spaced nodes, M x 3, m.
 Points line_rest(int nodes, const Vec3& from, const Vec3& to);
 
-/// Throws Error that names the field below `place`: for fewer than 2 nodes, NaN, negative values, no mass, neighbours at the
-/// same place, or a link that turns back on the one before.
+/// Throws Error for fewer than 2 nodes, NaN, negative values, no mass, neighbours at the same position, or a link that turns
+/// back on the one before. The message names the field by its path, which begins with `place`.
 void check(const GridCurve& curve, const std::string& place);
 
 Eigen::VectorXd node_mass(const GridCurve& curve);  ///< kg
@@ -72,7 +74,7 @@ class GridCurveTerm : public solve::EnergyTerm {
                     Points& force) const override;
 
   private:
-    /// Second difference at an inner node.
+    /// Second difference at an inner node: r'' - e r' = sum d_k x_k over the three nodes.
     struct Bending {
         int node[3] = {};
         double d[3] = {};
@@ -80,7 +82,7 @@ class GridCurveTerm : public solve::EnergyTerm {
         double rest = 0;              ///< S, rounded off like s
         double squared_rounding = 0;  ///< (0.1 S)^2
     };
-    /// Calls visit(element, r'', s).
+    /// Calls visit(element, r'' - e r', s) for every inner node.
     template <class Visit>
     void for_each_bend(const Points& x, const Visit& visit) const;
     double add_bending_gradient(const Points& x, Points& gradient) const;

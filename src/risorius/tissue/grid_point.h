@@ -10,7 +10,7 @@
 
 namespace risorius::tissue {
 
-/// Coordinates outside [0, 1] are clamped.
+/// Returns the nodes and weights of the point at material coordinates `a`. Coordinates outside [0, 1] are clamped.
 solve::NodeBlend point_of_grid(const GridShape& grid, const Vec3& a);
 
 }  // namespace risorius::tissue

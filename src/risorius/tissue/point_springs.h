@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Hookean springs with dampers from any points of a body to fixed points in space, and the one spring that a person pulls
+/// Hookean springs with dampers from any points of a body to fixed points in space, and a spring that a user pulls
 /// interactively.
 ///
 ///   p  the point, m    o  the fixed end, m    l = |p - o|    l0  rest length, m    k  stiffness, N/m    c  damping, N s/m
-///   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which resists in all directions
+///   E = k/2 (l - l0)^2      R = c/2 (dl/dt)^2, and c/2 |dp/dt|^2 for l0 = 0, which damps all directions
 ///
 /// Source: M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, section 3.4.
 #pragma once
@@ -28,7 +28,7 @@ struct PointSpring {
     double damping_ns_per_m = 0;   ///< [0, inf)
 };
 
-/// Throws Error that names the field below `place`.
+/// Throws Error when a value is outside its range. The message names the field by its path, which begins with `place`.
 void check(const PointSpring& spring, const std::string& place);
 
 /// The forces of a list of springs.
@@ -57,9 +57,9 @@ class PointSprings : public solve::EnergyTerm {
 
 /// A spring of rest length zero whose free end a caller moves while the simulation runs.
 ///
-/// attach(), move() and release() may be called from any thread at any time. They take effect at the next begin_step(): nothing
-/// changes within a step, and the same calls between the same steps give the same motion. All other members belong to the
-/// thread that steps the system.
+/// attach(), move() and release() may be called from any thread at any time. They take effect at the next begin_step(). So
+/// nothing changes within a step, and the same calls between the same steps give the same motion. All other members belong to
+/// the thread that steps the system.
 class InteractiveSpring : public solve::EnergyTerm {
   public:
     /// Throws std::invalid_argument unless both values are finite and not negative.
@@ -70,7 +70,7 @@ class InteractiveSpring : public solve::EnergyTerm {
     void release();
 
     bool attached() const { return !now_.list().empty(); }  ///< in the current step
-    Vec3 free_end() const;  ///< of the current step; zero while released
+    Vec3 free_end() const;  ///< of the current step, m; zero while released
 
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) override;
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override {

@@ -5,12 +5,12 @@
 ///     membrane   E = A k/4 |F^T F - I|^2
 ///     bending    E = w/2 (s - S)^2,   s = |sum c_i x_i|,   S = s in the rest shape,   w = 3 kB / (A_1 + A_2)
 ///
-/// - F: 3 x 2 deformation gradient
+/// - F: 3 x 2 deformation gradient; G: gradients of the shape functions in a triangle, 1/m
 /// - A: rest area, m^2
 /// - k: membrane stiffness, N/m
 /// - kB: bending stiffness, N m
-/// - c: cotangent stencil of the four nodes of an edge (Bergou et al. 2006, "A quadratic bending model for inextensible
-///   surfaces")
+/// - c: cotangent weights of the four nodes x_i of an edge (Bergou et al. 2006, "A quadratic bending model for
+///   inextensible surfaces"); A_1, A_2: rest areas of its two triangles
 ///
 /// The length s is rounded off near zero, s = sqrt(|l|^2 + (0.1 S)^2) with l = sum c_i x_i, so that its gradient exists
 /// everywhere. For a flat rest shape S = 0, and the term is the plain quadratic w/2 |l|^2.
@@ -30,7 +30,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
-/// An object keeps scratch arrays, so only one thread at a time may use it.
+/// Energy and forces of the skin. An object keeps scratch arrays, so only one thread at a time may use it.
 class SkinSheet {
   public:
     /// Stiffnesses are given per triangle; a hinge takes the mean of its two triangles. Edges that do not have exactly two
@@ -39,8 +39,7 @@ class SkinSheet {
               const Eigen::VectorXd& membrane_n_per_m, const Eigen::VectorXd& bending_n_m);
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed order. The energy is computed
-    /// from displacements, so that the rest shape is exact in float too. In float, forces have an error of about 1e-6 of the
-    /// stress.
+    /// from displacements, so that the rest shape is exact in float too. In float, forces have a relative error of about 1e-6.
     double add_energy(const Points& x, Points& gradient,
                       solve::Precision precision = solve::Precision::kDouble) const;
 
@@ -49,7 +48,7 @@ class SkinSheet {
     void add_hessian(const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// Adds the metric sum 2 A k G G^T + w c c^T.
+    /// Adds the metric sum 2 A k G G^T + w c c^T, N/m.
     void add_metric(solve::MetricBuilder& builder) const;
 
     int triangle_count() const { return triangle_count_; }
@@ -66,7 +65,7 @@ class SkinSheet {
         Lane stiffness;                ///< A k
         std::int32_t node[3][kWidth];  ///< [corner][lane]
     };
-    /// Hinges. Nodes are the ends of the edge, then the opposite corners.
+    /// As many hinges as there are lanes. The nodes are the ends of the edge, then the opposite corners.
     template <class Real>
     struct alignas(64) HingeGroup {
         using Lane = typename solve::LanesOf<Real>::Lane;

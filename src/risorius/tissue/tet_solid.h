@@ -4,12 +4,13 @@
 ///
 ///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
 ///
-/// - F: deformation gradient; J = det F
+/// - F: deformation gradient; J = det F; G: gradients of the shape functions in a tet, 1/m
 /// - V: rest volume, m^3
-/// - mu, K: shear modulus and modulus of the volume term, Pa
+/// - mu, K: shear modulus and modulus of the volume term (Lame's first parameter, not the bulk modulus), Pa
+/// - J_c, c: kCrushed and kHardens, without unit
 ///
-/// J is signed, so that an inverted element is not a second zero of the energy. Below J_c tissue counts as crushed and hardens,
-/// so that contact forces are balanced before an element inverts.
+/// J is signed, so the energy of an inverted tet is not zero. Below J_c the tissue hardens, so that contact forces are balanced
+/// before a tet inverts.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ class HessianBuilder;
 
 namespace risorius::tissue {
 
-/// An object keeps scratch arrays, so only one thread at a time may use it.
+/// Energy and forces of soft tissue. An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
     static constexpr double kCrushed = 0.2;  ///< J_c
@@ -39,14 +40,13 @@ class TetSolid {
              const Eigen::VectorXd& bulk_pa);
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed order. The energy is computed
-    /// from displacements, so that the rest shape is exact in float too. In float, forces have an error of about 1e-6 of the
-    /// stress in the tet.
+    /// from displacements, so that the rest shape is exact in float too. In float, forces have a relative error of about 1e-6.
     double add_energy(const Points& x, Points& gradient,
                       solve::Precision precision = solve::Precision::kDouble) const;
 
     /// Begins a step at the positions `start`. From then on add_step_energy() adds damping that is proportional to the shear
     /// modulus:
-    ///   c/2 sum V mu |F - F_start|^2,   c = `viscosity`: the time constant of damping divided by the length of the step.
+    ///   d/2 sum V mu |F - F_start|^2,   d = `viscosity`: the time constant of damping divided by the length of the step.
     void begin_step(const Points& start, double viscosity, solve::Precision precision);
     double add_step_energy(const Points& x, Points& gradient, solve::Precision precision) const;
 
@@ -55,7 +55,7 @@ class TetSolid {
     void add_hessian(const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// Adds sum V (2 mu + K) G G^T, the stiffness at the rest shape for one coordinate. It is a good enough bound for a
+    /// Adds sum V (2 mu + K) G G^T, N/m, the stiffness of one coordinate at the rest shape. It is a good enough bound for a
     /// preconditioner.
     void add_metric(solve::MetricBuilder& builder) const;
 
@@ -63,8 +63,8 @@ class TetSolid {
     void add_laplacian(solve::MetricBuilder& builder, double scale) const;
 
     const Tets& tets() const { return tets_; }
-    const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< per tet
-    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< per tet
+    const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< mu, per tet
+    const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< K, per tet
     int size() const { return static_cast<int>(tets_.rows()); }
     int inverted_count(const Points& x) const;          ///< tets with J <= 0
     double volume(const Points& x) const;               ///< signed, m^3
@@ -72,7 +72,7 @@ class TetSolid {
     Eigen::VectorXd lumped_mass(double density_kg_per_m3, int nodes) const;  ///< kg per node
 
   private:
-    /// As many fans of tets (tet_fans.h) as there are lanes. A single tet is a fan of one.
+    /// As many fans of tets (tet_fans.h) as there are lanes. kTets is the number of tets in a fan; it is 1 for single tets.
     template <class Real, int kTets>
     struct alignas(64) Group {
         using Lane = typename solve::LanesOf<Real>::Lane;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Attachment of tissue to what lies beneath it, by zero-length springs: single nodes are held at targets, firmly along a
-/// normal and loosely across it (retaining ligaments, periosteum, sliding fascia). Targets and normals may be moved between
-/// steps.
+/// Attachment of tissue to what lies beneath it (retaining ligaments, periosteum, sliding fascia) by zero-length springs. A
+/// spring pulls one node x to a target t. It is stiff along a normal n and soft across it. Targets and normals may be moved
+/// between steps.
 ///
 ///   E = 1/2 [ kn ((x - t).n)^2 + kt |x - t - ((x - t).n) n|^2 ]
 #pragma once
@@ -37,7 +37,7 @@ class ZeroLengthSprings {
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N.
     double add_energy(const Points& x, Points& gradient) const;
 
-    /// Adds the second derivative. It has no negative part.
+    /// Adds the second derivative, N/m. It has no negative part.
     void add_hessian(solve::HessianBuilder& hessian) const;
 
     /// Adds max(kn, kt) to the diagonal: a bound for any direction of the normal.

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// The deformable surface on any triangle mesh, with the same material as on a grid: metric, damping and bending tensors over
-/// material coordinates a. Each triangle has its own a at its corners (texture coordinates, or metres along a fibre).
+/// material coordinates a. Each triangle has material coordinates of its own at its corners: texture coordinates (no unit), or
+/// metres along and across a fibre.
 ///
-///   A    area of a triangle in a      r_i, G_ij   its tangents by a and their metric, constant over the triangle
-///   b    curvature tensor of a triangle by a, from the folds theta of its edges      kappa = b as (b_11, b_22, sqrt2 b_12)
+///   A    area of a triangle in a      r_i = dr/da_i, G_ij = r_i . r_j   its tangents and metric, constant over the triangle
+///   b    curvature tensor of a triangle: second derivatives of its height by a, from the folds theta of its edges, rad;
+///        in m, or in 1/m where a is in metres      kappa = b as the vector (b_11, b_22, sqrt2 b_12)
 ///
 ///   E = sum A (1/4 sum lambda_ij (G_ij - G0_ij)^2 + 1/2 sum zeta_ij (b_ij - b0_ij)^2)
 ///
-/// Curvature follows from folds. On a smooth surface z = 1/2 x . b x the interpolating triangles fold by theta = B kappa, where
-/// B is known from the rest shape; so b is solved from the folds theta - theta0. At a border some folds are missing. There b is
-/// the tensor of minimum energy that agrees with the other folds, because no moment acts at a border.
+/// The curvature is computed from folds. Triangles that interpolate a smooth surface z = 1/2 x . b x fold by theta = B kappa,
+/// where the matrix B is known from the rest shape. So b - b0 is solved from the folds theta - theta0; the index 0 means the
+/// rest shape. At a border some folds are missing. There b - b0 is the tensor of minimum energy that agrees with the other
+/// folds, because no moment acts at a border.
 ///
 /// Bending is then exact for constant curvature on any triangulation. A stiffness per hinge (SkinSheet) depends on the pattern
-/// of triangles instead, by a factor of two in twist.
+/// of triangles instead: in twist it varies by a factor of two.
 #pragma once
 
 #include <array>
@@ -37,17 +40,19 @@ class TriangleSheetTerm : public solve::EnergyTerm {
     double bending_energy(const Points& x) const;                              ///< J
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
-    /// kPositive: of stresses the positive part is used, and of bending the square of the first derivative.
+    /// kPositive: for the metric term only the positive part of the stress is used. For bending the Gauss-Newton matrix is
+    /// used, which has only products of first derivatives.
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// A bound for a flat rest shape, and roughly right for a curved one.
+    /// Adds a matrix that is a bound for a flat rest shape, and approximately right for a curved one.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
-    /// K contains stresses and the bending of add_metric. The rest of the bending force is added to `force`.
+    /// K contains the metric term and the bending of add_metric(). The rest of the bending force is added to `force`, and so is
+    /// the damping unless its rate is lagged.
     void add_secant(double t_s, const Points& x, const Points& v, bool lag_rate,
                     solve::MetricBuilder& K, solve::MetricBuilder& damping,
                     Points& force) const override;
 
-    /// b - b0 of every triangle, (b_11, b_22, b_12) by a, m; zero where nothing bends.
+    /// b - b0 of every triangle, (b_11, b_22, b_12), m, or 1/m where a is in metres; zero where nothing bends.
     std::vector<Vec3> curvatures(const Points& x) const;
 
     int hinge_count() const { return static_cast<int>(hinges_.size()); }
@@ -56,7 +61,7 @@ class TriangleSheetTerm : public solve::EnergyTerm {
     struct Hinge {
         int node[4] = {};  ///< nodes: ends of the edge, then opposite corners
         double rest = 0;   ///< theta0
-        /// dtheta by the height of each corner above the flattened rest shape.
+        /// Derivative of theta by the height of each corner above the flattened rest shape, rad/m.
         double height[4] = {};
     };
     /// Bending of one triangle: 1/2 sum Q_ef (theta_e - theta0_e) (theta_f - theta0_f). Q contains the signs of the folds.
@@ -64,7 +69,7 @@ class TriangleSheetTerm : public solve::EnergyTerm {
         int triangle = 0, count = 0;
         int hinge[3] = {};
         Mat3 Q = Mat3::Zero();
-        Mat3 curvature = Mat3::Zero();  ///< (b_11, b_22, b_12) per unit of each fold
+        Mat3 curvature = Mat3::Zero();  ///< column k: (b_11, b_22, b_12) per rad of fold k
     };
     struct EdgeOf {
         int hinge = -1;  ///< -1: an edge of one triangle

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The description of the deformable surface on a triangle mesh: the same 14 numbers as on a grid, over material coordinates a.
-/// Each triangle has its own a at its corners: texture coordinates, or metres along a fibre.
+/// The description of the deformable surface on a triangle mesh: the same 14 parameters as on a grid, over material coordinates
+/// a. Each triangle has material coordinates of its own at its corners: texture coordinates (no unit), or metres along and
+/// across a fibre.
 #pragma once
 
 #include <string>
@@ -17,40 +18,41 @@ using CornerCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMaj
 
 /// The description of a surface on triangles.
 struct TriangleSurface {
-    Triangles triangles;
+    Triangles triangles;            ///< F x 3
     Points rest;                    ///< V x 3, m
     CornerCoordinates coordinates;  ///< F x 6
-    /// One, or one per triangle; mass is that of one unit of area in a.
+    /// One, or one per triangle. The mass is that of one unit of area in a.
     std::vector<SurfaceMaterial> material;
 };
 
-/// The cells of a grid, each cut in two, with the mean material of their corners. Values meant per node become those that mean
-/// the same at this resolution.
+/// The surface of a grid with each cell cut into two triangles, which have the mean material of the corners of the cell. Values
+/// per node (kPerNode) are converted to values that do not depend on the resolution and give the same body.
 TriangleSurface triangulated(const GridSurface& surface);
 
-/// The same surface on irregular triangles. Inner nodes are moved at random by up to `fraction` (0 to 0.45) of the spacing, in
-/// a and in space alike. Cells are cut so that the wider angles remain (Delaunay's rule). Nodes keep their index and their
-/// material.
+/// The surface of a grid on irregular triangles. Inner nodes are moved at random by up to `fraction` (0 to 0.45) of the
+/// spacing, both in a and in space. Each cell is cut along the diagonal that Delaunay's rule selects. Nodes keep their index
+/// and their material.
 TriangleSurface irregularly_triangulated(const GridSurface& surface, double fraction,
                                          unsigned seed);
 
 /// Material coordinates in metres along and across a direction that is given for each triangle (`fibre`, F x 3, not normal to
-/// it). lambda is then k in N/m, zeta is D in N m and mass is in kg/m^2.
+/// it). lambda is then the membrane stiffness k in N/m, zeta is the bending stiffness D in N m (SheetConstants), and mass is in
+/// kg/m^2.
 CornerCoordinates fibre_coordinates(const Triangles& triangles, const Points& rest,
                                     const Points& fibre);
 
-/// The material of a triangle, when there is one for all triangles or one for each.
+/// The material of a triangle. `surface` has one material for all triangles or one for each.
 const SurfaceMaterial& material_of(const TriangleSurface& surface, Eigen::Index triangle);
-/// a of a triangle's corners, one per column.
+/// Material coordinates of the corners of a triangle, one corner per column.
 Eigen::Matrix<double, 2, 3> coordinates_of(const TriangleSurface& surface, Eigen::Index triangle);
-/// Area of a triangle in a.
+/// Area of a triangle in material coordinates, from the result of coordinates_of().
 double area_of(const Eigen::Matrix<double, 2, 3>& corners);
 
-/// Throws Error that names the field below `place`: for wrong sizes, NaN, corners beyond the points, triangles without area at
-/// rest or in a, negative or unsymmetric values, or no mass.
+/// Throws Error for wrong sizes, NaN, corners beyond the points, triangles without area at rest or in a, negative or
+/// unsymmetric values, or no mass. The message names the field by its path, which begins with `place`.
 void check(const TriangleSurface& surface, const std::string& place);
 
-/// kg; a third of the mass of each triangle around the node
+/// Mass of each node, kg: a third of the mass of each triangle around it.
 Eigen::VectorXd node_mass(const TriangleSurface& surface);
 
 }  // namespace risorius::tissue

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Energy and gradient of all cells, four at a time. Cells with a constant law use the fast path of cell_lanes.h. Cells with
-/// moduli and a curved rest shape are summed over their Gauss points.
+/// Energy and gradient of all cells, four at a time. Cells whose law is the same at all Gauss points use the fast method of
+/// cell_lanes.h. Cells with moduli and a curved rest shape are summed over their Gauss points.
 #pragma once
 
 #include <vector>
@@ -17,16 +17,17 @@ class CellKernel {
     CellKernel(const CellBody& body, const Points& rest_vertices,
                const Eigen::VectorXd& rest_volume);
 
-    /// Adds dE/dx, and the damping force at the velocities `v` unless it is null. Returns E.
+    /// Adds dE/dx to `gradient`, n x 3, N. Unless `v` is null, it also subtracts the damping force at the velocities `v`.
+    /// Returns E, J.
     double add_gradient(const CellMesh& mesh, const Points& x, const Points* v, Points& gradient);
-    /// Adds the derivative of E + h R by x. Returns E + h R.
+    /// Adds the derivative of E + h R by x to `gradient`. Returns E + h R, J.
     double add_potential(const CellMesh& mesh, const solve::ImplicitStep& step, const Points& x,
                          Points& gradient);
 
   private:
     /// Four cells whose law differs from Gauss point to Gauss point.
     struct CurvedGroup {
-        Lanes inverse_metric[8][6];  ///< C sqrt(weight of the point), in the scale of the modes
+        Lanes inverse_metric[8][6];  ///< C sqrt(weight of the point), in the scale of Modes
         Lanes rest[8][6];            ///< t_i . t_j
         Lanes mu, eta;
     };
@@ -45,10 +46,10 @@ class CellKernel {
     std::vector<Lanes> rest_targets_;
     bool damped_ = false;
 
-    // The current implicit step: target strains, weighed by lambda + omega / h
+    // The current implicit step: target strains, and their stiffness lambda + omega / h
     Points step_start_;
     double step_s_ = 0;
-    double step_energy_ = 0;  ///< constant part of the energy, which the combined targets leave out
+    double step_energy_ = 0;  ///< part of the energy that does not depend on x, J
     std::vector<Lanes> step_targets_, step_stiffness_;
 
     solve::PaddedPoints x_, v_, gradient_;

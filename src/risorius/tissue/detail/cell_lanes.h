@@ -2,16 +2,17 @@
 /// \file
 /// The inner loop of a solid of trilinear cells: four cells at a time, without a loop over Gauss points.
 ///
-/// A trilinear map has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi = s / sqrt 3,
-/// s = +-1, are
+/// A trilinear map from xi to space has seven modes besides its mean. With xi in [-1,1]^3, its tangents at the Gauss points xi
+/// = s / sqrt 3, s = +-1, are
 ///   t1 = a + s2 d + s3 e + s2 s3 k     t2 = b + s1 d + s3 f + s1 s3 k     t3 = c + s1 e + s2 f + s1 s2 k
 /// Here a, b, c are the linear modes, d, e, f are the bilinear modes times 1/sqrt 3, and k is the trilinear mode times 1/3; all
-/// are scaled by 8. For fixed s3, t1 = p + s2 q and t2 = u + s1 q, hence
+/// of them are scaled by 8. For fixed s3, t1 = p + s2 q and t2 = u + s1 q with p = a + s3 e, q = d + s3 k and u = b + s3 f.
+/// Hence
 ///   t1.t1 = (p.p + q.q) + s2 2 p.q      t1.t2 = p.u + s1 p.q + s2 q.u + s1 s2 q.q
 /// lambda is constant in the cell, so the sum of squares over the four points is four times the sum of squares of these
-/// coefficients. This needs 36 numbers ("strains") instead of 48 metric entries, and no transform back. The volume is
+/// coefficients. This needs 36 numbers ("strains") instead of 48 metric entries, and no inverse transform. The volume is
 ///   64 V = a.(b x c) + a.(d x e) + b.(f x d) + c.(e x f)
-/// This is exact, because 1/3, the mean of xi^2, is the square of the scale of d, e, f.
+/// where V is the volume of the cell. This is exact, because the mean of xi^2 is 1/3, the square of the scale of d, e, f.
 #pragma once
 
 #include <cstdint>
@@ -92,7 +93,7 @@ inline Modes modes_of(const CellGroup& g, const solve::PaddedPoints& x) {
             square * (dd1 - dd0)};
 }
 
-/// Converts the derivative by the modes into one by the vertices and adds it.
+/// Converts the derivative `m` by the modes into the derivative by the vertices, and adds that to `gradient`.
 inline void scatter(const CellGroup& g, const Modes& m, solve::PaddedPoints& gradient) {
     const Lanes scale = Lanes{} + kGauss, square = Lanes{} + 1.0 / 3.0;
     const LaneVector d = scale * m.d, e = scale * m.e, f = scale * m.f, k = square * m.k;
@@ -117,7 +118,7 @@ inline void scatter(const CellGroup& g, const Modes& m, solve::PaddedPoints& gra
     }
 }
 
-/// The strains of one pair of axes at one sign of the third axis.
+/// The strains of one pair of axes at one sign of the third axis. `own` is the number of diagonal components that are written.
 inline void measure_pair(const LaneVector& p, const LaneVector& q, const LaneVector& u, int first,
                          int own, Lanes* strain) {
     const Lanes qq = dot(q, q), y = dot(q, u), z = dot(p, q);
@@ -136,6 +137,7 @@ inline void measure_pair(const LaneVector& p, const LaneVector& q, const LaneVec
     strain[k] = qq;
 }
 
+/// All kStrains strains of the modes.
 inline void measure(const Modes& m, Lanes* strain) {
     measure_pair(m.a + m.e, m.d + m.k, m.b + m.f, 0, 2, strain);
     measure_pair(m.a - m.e, m.d - m.k, m.b - m.f, 8, 2, strain);
@@ -145,7 +147,7 @@ inline void measure(const Modes& m, Lanes* strain) {
     measure_pair(m.b - m.d, m.f - m.k, m.c - m.e, 32, 0, strain);
 }
 
-/// Time derivative of the strains when the modes move at the rates `n`.
+/// Time derivative of the strains of measure_pair(), when p, q and u change at the rates dp, dq and du.
 inline void measure_rate_pair(const LaneVector& p, const LaneVector& q, const LaneVector& u,
                               const LaneVector& dp, const LaneVector& dq, const LaneVector& du,
                               int first, int own, Lanes* rate) {
@@ -168,6 +170,7 @@ inline void measure_rate_pair(const LaneVector& p, const LaneVector& q, const La
     rate[k] = qq;
 }
 
+/// Time derivative of all strains when the modes m change at the rates n.
 inline void measure_rate(const Modes& m, const Modes& n, Lanes* rate) {
     measure_rate_pair(m.a + m.e, m.d + m.k, m.b + m.f, n.a + n.e, n.d + n.k, n.b + n.f, 0, 2, rate);
     measure_rate_pair(m.a - m.e, m.d - m.k, m.b - m.f, n.a - n.e, n.d - n.k, n.b - n.f, 8, 2, rate);
@@ -181,7 +184,7 @@ inline void measure_rate(const Modes& m, const Modes& n, Lanes* rate) {
                       rate);
 }
 
-/// The strains of a parallelepiped that are not always zero.
+/// Indices of the strains that are not zero in a parallelepiped.
 constexpr int kConstantStrains[12] = {0, 2, 4, 8, 10, 12, 16, 18, 22, 24, 28, 32};
 constexpr bool is_constant(int strain) {
     for (const int k : kConstantStrains)
@@ -189,7 +192,7 @@ constexpr bool is_constant(int strain) {
     return false;
 }
 
-/// Target and stiffness of the strains.
+/// Stress of the strains, from their targets and stiffness.
 template <bool kTargets, bool kRates>
 struct CellLaw {
     const CellGroup& g;
@@ -219,7 +222,7 @@ struct CellLaw {
     }
 };
 
-/// Stress of one pair at one sign, converted to derivatives by p, q, u.
+/// Derivative of the energy of one pair of axes at one sign of the third axis, by p, q and u.
 template <int kFirst, int kOwn, class Law>
 inline void pull_pair(Law& law, const LaneVector& p, const LaneVector& q, const LaneVector& u,
                       LaneVector& dp, LaneVector& dq, LaneVector& du) {
@@ -282,7 +285,7 @@ inline Modes metric_gradient(Law& law, const Modes& m) {
     return out;
 }
 
-/// Adds the derivative of bulk (64 V - 64 V0)^2 by the modes. Returns the energy.
+/// Adds the derivative of the volume energy bulk (64 V - 64 V0)^2 by the modes to `out`. Returns this energy.
 inline Lanes add_volume_gradient(const CellGroup& g, const Modes& m, Modes& out) {
     const LaneVector da = cross(m.b, m.c) + cross(m.d, m.e);
     const LaneVector fd = cross(m.f, m.d), ef = cross(m.e, m.f);

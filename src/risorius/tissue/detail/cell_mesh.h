@@ -3,11 +3,11 @@
 /// Trilinear cells over material coordinates a in [0,1]^3: a grid of root cells, each of which may be split into eight,
 /// recursively. Neighbours across faces, edges and corners differ by one level at most.
 ///
-///   vertex   a corner of a cell. The first node_count() vertices are nodes, the others are hanging
-///   hanging  in the middle of an edge or face of a larger neighbour: the mean of 2 or 4 nodes, so that the body has no gaps
-///   x_full = P x,  gradient = P^T gradient_full,  P = identity on nodes, 1/2 or 1/4 on hanging vertices
+///   vertex   a corner of a cell. The first node_count() vertices are nodes, the others are hanging vertices
+///   hanging  a vertex in the middle of an edge or face of a larger neighbour: the mean of 2 or 4 nodes (no gaps)
+///   x_full = P x,  gradient = P^T gradient_full;  full: all vertices;  P = identity on nodes, 1/2 or 1/4 on hanging vertices
 ///
-/// In a closed grid the last cells along a1 join the last nodes to the first.
+/// In a closed grid the last cells along a1 connect the last nodes with the first.
 ///
 /// Sources for constraints at hanging vertices: Babuska & Rheinboldt 1978; Bangerth, Hartmann & Kanschat 2007, ACM TOMS 33(4).
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace risorius::tissue {
 
-/// Address of a cell: its level, and its index along each axis of the root grid halved `level` times.
+/// Address of a cell: its level, and its index along each axis in the root grid whose cells were halved `level` times.
 struct CellPlace {
     int level = 0;
     std::array<int, 3> at = {0, 0, 0};
@@ -43,7 +43,7 @@ class CellMesh {
         int count = 0;  ///< 2 or 4
         std::array<int, 4> node{};
     };
-    /// The nodes that a cell's corners depend on: corner c is sum_k weight(c, k) node[k].
+    /// The nodes that a cell's corners depend on: corner c is at sum_k weight(c, k) x[node[k]].
     struct Support {
         std::vector<int> node;                                             ///< distinct, K of them
         Eigen::Matrix<double, 8, Eigen::Dynamic, Eigen::RowMajor> weight;  ///< 8 x K
@@ -61,7 +61,7 @@ class CellMesh {
     int vertex_count() const { return static_cast<int>(material_.rows()); }
     const Points& material_coordinates() const { return material_; }  ///< of vertices, V x 3
     int deepest_level() const { return deepest_; }
-    bool uniform() const { return uniform_; }  ///< all cells of one level
+    bool uniform() const { return uniform_; }  ///< all cells have the same level
 
     Support support(const Cell& cell) const;
 
@@ -71,7 +71,8 @@ class CellMesh {
     /// Adds the hanging rows to the rows of their nodes: the transpose of spread().
     void gather(solve::PaddedPoints& vertices) const;
 
-    /// Index of the cell that contains material coordinates `a`, clamped to the cube. On a border it is the higher cell.
+    /// Index of the cell that contains material coordinates `a`, clamped to the cube. On the border between two cells it is the
+    /// one with the larger coordinates.
     int cell_at(const Vec3& a) const;
     /// Value at `a` of a field over the vertices, V x 3, trilinear within the cell.
     Vec3 interpolate(const Points& vertices, const Vec3& a) const;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One cell at its Gauss points, in scalar arithmetic: stiffness, secant, metric and strain, which are not inner loops.
+/// Stiffness, secant matrix, metric and strain of one cell from its Gauss points, in scalar arithmetic. These are not inner
+/// loops.
 ///
-///   s_ij  stress on material coordinates: dE/dr_i = sum_j s_ij r_j at a Gauss point, times its weight
+///   s_ij  stress over material coordinates: dE/dr_i = sum_j s_ij r_j at a Gauss point, times its weight
 #pragma once
 
 #include "risorius/solve/energy_term.h"
@@ -23,7 +24,7 @@ struct CellCorners {
     }
 };
 
-/// The law of one cell: the thesis' parameters or moduli.
+/// The law of one cell: the parameters of the thesis (cell_body.h) or moduli.
 struct CellMaterialLaw {
     explicit CellMaterialLaw(const CellParameters& p) : parameters(p) {}
     explicit CellMaterialLaw(const CellModuli& m) : physical(true), moduli(m) {}
@@ -33,7 +34,7 @@ struct CellMaterialLaw {
     CellModuli moduli;
 };
 
-/// Start of an implicit step. Strain rates are differences from it.
+/// The start of an implicit step. The strain rate is rate_hz times the change of strain since then.
 struct RateReference {
     double rate_hz = 0;
     CellCorners start;
@@ -47,16 +48,18 @@ Mat3 metric_at(const CellCorners& corners, const Vec3& size, int g);    ///< G
 /// psi_c / (h1 h2 h3), for either law.
 double volume_stiffness(const CellMaterialLaw& law, const Vec3& size, double rest_volume);
 
-/// Second derivative of the cell's energy, and of h R when `rate` is given; 24 x 24.
+/// Second derivative of the cell's energy, and of h R when `rate` is given; 24 x 24, N/m.
 void cell_stiffness(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest,
                     const CellCorners& now, const RateReference* rate, solve::Curvature curvature,
                     CellStiffness& stiffness);
 
-/// Bound of the stiffness at the rest shape, as one scalar matrix that serves x, y and z.
+/// Bound of the stiffness at the rest shape, N/m: an 8 x 8 matrix with one number per pair of corners, used for x, y and z
+/// alike.
 CellScalarMatrix cell_metric(const CellMaterialLaw& law, const Vec3& size, const CellCorners& rest,
                              double rate_hz);
 
-/// The metric term as a force -matrix x. The volume term, and damping unless its rate is lagged, as a force.
+/// The force on the corners of a cell, - matrix x + force, N. `matrix` is the metric term. `force` is the volume term, and the
+/// damping unless its rate is lagged; then `matrix` contains the damping.
 struct CellSecant {
     CellScalarMatrix matrix;
     Eigen::Matrix<double, 8, 3> force;

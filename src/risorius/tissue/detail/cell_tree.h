@@ -20,8 +20,8 @@ class CellTree {
     bool is_split(const CellPlace& cell) const { return split_.contains(cell); }
     bool exists(const CellPlace& cell) const;  ///< as a leaf or split
 
-    /// Splits a cell into eight. Larger neighbours are split first, and so is whatever contains the cell if it does not exist
-    /// yet. Throws std::invalid_argument for a place outside the root grid.
+    /// Splits a cell into eight. Larger neighbours are split first, and so are the cells that contain this one, if it does not
+    /// exist yet. Throws std::invalid_argument for a place outside the root grid.
     void split(const CellPlace& cell);
     /// Merges the eight children of a cell. Returns false and changes nothing when the cell is not split, when its children are
     /// not all leaves, or when a neighbour is too fine.

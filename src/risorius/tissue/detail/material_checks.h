@@ -11,7 +11,7 @@ namespace risorius::tissue {
 
 /// The number as messages show it, with six digits.
 std::string shown(double value);
-/// "[x, y, z]"
+/// The point as messages show it: "[x, y, z]".
 std::string shown(const Vec3& point);
 
 /// Throws Error at `place` unless the value is finite and positive, or zero where that is allowed.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Stretch and shear of curves and surfaces. In each element the tangents r_i are fixed differences of at most three nodes. The
-/// forward differences of a grid are such elements, and so are triangles.
+/// Stretch and shear of curves and surfaces. In each element the tangents r_i are fixed differences of at most three nodes, as
+/// the forward differences of a grid are, and the tangents of a triangle.
 ///
 ///   r_i = sum_k d_ik x_k      G_ij = r_i . r_j
 ///   E = 1/4 sum eta_ij (G_ij - G0_ij)^2        R = 1/4 sum phi_ij (dG_ij/dt)^2
@@ -20,7 +20,7 @@ class MetricElements {
     struct Element {
         int count = 0;
         int node[3] = {};
-        double d[2][3] = {};              ///< a curve has no second tangent: that row is zero
+        double d[2][3] = {};              ///< d_ik; row 1 of a curve is zero
         Mat2 eta = Mat2::Zero();          ///< symmetric, per element
         Mat2 phi = Mat2::Zero();          ///< symmetric, per element
         Mat2 rest_metric = Mat2::Zero();  ///< G0
@@ -38,7 +38,7 @@ class MetricElements {
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
     void add_metric(double step_s, solve::MetricBuilder& metric) const;
-    /// K contains the stress. Damping is added to `force` unless its rate is lagged.
+    /// K contains the elastic stress. Damping is added to `force` unless its rate is lagged.
     void add_secant(const Points& x, const Points& v, bool lag_rate, solve::MetricBuilder& K,
                     Points& force) const;
 

@@ -25,11 +25,11 @@ inline void store8(float* to, const Lanes8& lanes) { std::memcpy(to, &lanes, siz
 struct PaddedGrid {
     GridShape nodes;
 
-    /// Loops run to here, in steps of eight.
+    /// End of the loops, which run in steps of eight.
     int size() const { return (nodes.size() + 7) / 8 * 8; }
     int distance(int i, int j, int k) const { return (i * nodes.n + j) * nodes.o + k; }
     int halo() const { return distance(1, 1, 1) + 8; }
-    /// Corner 4 b1 + 2 b2 + b3 of a cell.
+    /// Distance in the array from a cell to its corner v = 4 b1 + 2 b2 + b3.
     int corner(int v) const { return distance(v >> 2 & 1, v >> 1 & 1, v & 1); }
 };
 

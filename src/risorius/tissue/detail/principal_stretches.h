@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy in their frame.
+/// Principal stretches of a deformation gradient, and the second derivative of an isotropic energy psi in the frame of these
+/// stretches.
 ///
 ///   F = U diag(sigma) V^T,  U and V rotations; one sigma is negative where F is inverted
 ///
-/// In that frame the second derivative of psi(sigma) splits into a 3 x 3 block A_ij for the stretches and, for each pair
-/// (i, j), two numbers for its symmetric and antisymmetric off-diagonal change:
+/// psi_i is dpsi/dsigma_i. In the frame U, V the second derivative of psi(sigma) splits into a 3 x 3 block A_ij for the
+/// stretches and, for each pair (i, j), two numbers for its symmetric and antisymmetric off-diagonal change:
 ///   symmetric (psi_i - psi_j) / (sigma_i - sigma_j)      antisymmetric (psi_i + psi_j) / (sigma_i + sigma_j)
 /// Clamping these at zero removes exactly the negative part. Source: Smith, De Goes & Kim 2019, "Analytic eigensystems for
 /// isotropic distortion energies", ACM TOG 38(1).
@@ -27,10 +28,11 @@ struct StretchModes {
     Vec3 antisymmetric;  ///< in the same order
 };
 
-/// Removes the negative part.
+/// Removes the negative part of the 3 x 3 block and of the numbers.
 void clamp(StretchModes& modes);
 
-/// The 3 x 3 block, in the frame U, between two points whose shape functions have the gradients a and b in the frame V.
+/// The 3 x 3 block of the second derivative between two nodes, in the frame U. a and b are the gradients of their shape
+/// functions in the frame V.
 Mat3 stretch_block(const StretchModes& modes, const Vec3& a, const Vec3& b);
 
 }  // namespace risorius::tissue::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Adaptive resolution of surfaces on any triangle mesh. Triangles are bisected where strain and curvature require it; the
-/// material and the rest shape, with its facets, do not change.
+/// Adaptive resolution of surfaces on any triangle mesh. Triangles are bisected where their estimated error is too large. The
+/// material and the rest shape do not change; the rest shape keeps its facets.
 ///
 ///   dG   metric strain of a triangle, constant      b - b0   its change of curvature (triangle_sheet.h)
-///   dG*, b*   continuous: means over the triangles around a node, interpolated
+///   dG*, b*   smoothed and continuous: means over the triangles around each node, interpolated
 ///   eta_t^2 = A (1/4 sum lambda_ij (dG_ij - dG*_ij)^2 + 1/2 sum zeta_ij (b_ij - b*_ij)^2), means over the triangle, J
 ///
 /// The means are taken of components in the coordinates a. So the coordinates of neighbouring triangles must have the same
@@ -41,7 +41,7 @@ Eigen::VectorXd squared_error(const TriangleSurface& surface, const TriangleShee
                               const Points& x);
 
 struct SurfaceRefineOptions {
-    /// Target: estimated error in the energy norm, as a fraction of the norm of the deformation    (0, 1)
+    /// Allowed error of the whole surface: estimated error in the energy norm, divided by that of the deformation (0, 1)
     double tolerance = 0.1;
     int max_bisections = 4;  ///< bisections of one triangle; two of them halve its edges    [0, 16]
 };
@@ -62,11 +62,12 @@ class AdaptiveSurface {
     bool refine_where(const std::function<bool(int triangle)>& wanted,
                       solve::MotionState* state = nullptr);
 
-    /// Bisects triangles according to the strain of `state`; new nodes lie at the midpoints of edges. When it returns true,
-    /// systems and terms of the old surface must be made anew. Triangles are never merged.
+    /// Bisects triangles according to the strain of `state`; new nodes lie at the midpoints of edges. Returns true when the
+    /// mesh has changed; then the caller must build its systems and terms again with the new term(). Triangles are never
+    /// merged.
     bool refine(solve::MotionState& state);
 
-    /// At the last refine(); see AdaptiveSolid::estimated_error.
+    /// Estimated relative error at the last refine(), before it changed the mesh; see AdaptiveSolid::estimated_error.
     double estimated_error() const { return error_; }
 
   private:
@@ -79,11 +80,11 @@ class AdaptiveSurface {
     double error_ = 0;
 };
 
-/// See SolveSolid.
+/// Moves `state` to equilibrium under the loads on the surface; see SolveSolid.
 using SolveSurface = std::function<bool(const AdaptiveSurface& surface, SolveStage stage,
                                         solve::MotionState& state)>;
 
-/// See solve_and_refine() for solids.
+/// Solves for equilibrium and refines in turn; see refine_rounds(). On return, `state` is the equilibrium on the last mesh.
 RefineRounds solve_and_refine(AdaptiveSurface& surface, const SolveSurface& solve, int rounds,
                               solve::MotionState& state);
 

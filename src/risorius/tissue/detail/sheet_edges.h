@@ -16,7 +16,7 @@ inline Vec3 point(const Points& x, int node) { return x.row(node).transpose(); }
 struct EdgeSide {
     int low, high;  ///< nodes of the edge, low < high
     int triangle;
-    int edge;  ///< runs from corner `edge` to `edge` + 1; the corner after that is opposite
+    int edge;  ///< it runs from corner `edge` to corner `edge` + 1 (mod 3) of the triangle
 };
 
 /// All edges with exactly two triangles, sorted by their nodes. The triangle with the lower number comes first.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Groups tetrahedra around a common edge in fans of three. A fan has six nodes, where three separate tets have twelve.
+/// Groups tetrahedra around a common edge in fans of three. A fan has six nodes; three separate tets have twelve.
 ///
-/// A fan has nodes a, b (the edge) and r_0 .. r_3 around it. Its tets are (a, b, r_i, r_i+1). The three tets of a cut prism
-/// form a fan.
+/// A fan has nodes a, b (the edge) and r_0 .. r_3 around it. Its tets are (a, b, r_i, r_i+1). The three tets into which a prism
+/// is cut form a fan.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct TetFans {
     std::vector<int> alone;  ///< tets that are in no fan, ascending
 };
 
-/// Finds fans greedily: those whose tets have the closest numbers come first.
+/// Finds fans one after the other; the fan whose tets have the closest indices is taken first.
 TetFans find_fans(const Tets& tets);
 
 }  // namespace risorius::tissue
