@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Least squares with bounds and an L1 weight (`price`) on every unknown. A search for muscle activations solves one such
-/// problem in each round.
+/// Least squares with bounds and an L1 weight (the field `price`) on every unknown. A search for muscle activations solves one
+/// such problem in each round.
 ///
-///   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  min_i <= x_i <= max_i
+///   minimise  1/2 x^T A x + b^T x + sum_i price_i |x_i|    subject to  min_i <= x_i <= max_i
 ///
 /// A is symmetric and positive semidefinite. The method is coordinate descent, exact in one coordinate at a time; for lasso
-/// problems see Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). When a sweep has changed no unknown's status (at a
-/// bound, at 0, or free on either side of it), all free unknowns are solved for at once.
+/// problems see Friedman, Hastie & Tibshirani 2010, J. Stat. Softw. 33(1). An unknown is at a bound, at 0, or free with a
+/// positive or negative value. When a sweep over all unknowns has changed none of these states, all free unknowns are solved
+/// for at once.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace risorius::solve {
 
-/// The problem: A is n x n, the others have n entries; price >= 0, min <= max.
+/// The problem. A is n x n, and the others have n entries; price >= 0, min <= max.
 struct BoxQuadratic {
     Eigen::MatrixXd A;
     Eigen::VectorXd b, price, min, max;

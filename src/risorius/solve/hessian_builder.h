@@ -14,11 +14,12 @@
 
 namespace risorius::solve {
 
-/// Lower triangle, column by column of nodes. Each column starts with its diagonal block; rows ascend.
+/// The lower triangle of a symmetric matrix of 3 x 3 blocks, stored by columns; one row and one column per node. Each column
+/// starts with its diagonal block, and rows ascend.
 struct SymmetricBlocks {
-    std::vector<int> begin;  ///< of each column, then the end of the last one
-    std::vector<int> row;
-    std::vector<Mat3> value;
+    std::vector<int> begin;  ///< index of the first block of each column, then the number of blocks
+    std::vector<int> row;    ///< row of each block
+    std::vector<Mat3> value;  ///< the blocks, N/m
 
     int nodes() const { return static_cast<int>(begin.size()) - 1; }
 };
@@ -35,7 +36,8 @@ class HessianBuilder {
     /// Forgets the values and keeps the memory. The next build() may have another pattern.
     void clear();
 
-    /// Adds `block` at (i, j) and, when i != j, its transpose at (j, i). Each pair of nodes must be added in one order only.
+    /// Adds `block` at (i, j) and, when i != j, its transpose at (j, i). A pair of nodes must always be added in the same
+    /// order.
     void add(int i, int j, const Mat3& block);
     void add_diagonal(int node, double w);  ///< w times the 3 x 3 identity
 
@@ -59,7 +61,7 @@ class HessianBuilder {
 
     int nodes_;
     std::vector<char> fixed_;
-    /// Of the calls, in order; those from used_ on are from the previous assembly.
+    /// Places of the blocks in the order of the calls. Those from used_ on are from the previous assembly.
     std::vector<Place> places_;
     std::size_t used_ = 0;
     std::vector<Mat3> new_blocks_;

@@ -2,7 +2,7 @@
 /// \file
 /// Time integration of a system of nodes: eight explicit methods, three implicit ones and equilibrium, behind one interface.
 ///
-///   y = (x, v)      h   step, s
+///   h   length of a step, s     order   power of h to which the error of the motion is proportional
 ///
 /// Sources: Press et al., Numerical Recipes; Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I; Cash & Karp
 /// 1990, ACM TOMS 16(3); Bulirsch & Stoer with Gragg's modified midpoint rule; Terzopoulos, Platt, Barr & Fleischer 1987;
@@ -21,13 +21,13 @@ namespace risorius::solve {
 
 /// The methods of integration.
 enum class Method {
-    kEuler,          ///< explicit, order 1
-    kVerlet,         ///< Stoermer's two-step form; damping uses the velocity by backward difference
-    kRungeKutta2,    ///< midpoint
-    kRungeKutta4,    ///< classic
+    kEuler,          ///< explicit Euler, order 1
+    kVerlet,         ///< Stoermer's two-step form; for damping, velocities are backward differences
+    kRungeKutta2,    ///< midpoint rule, order 2
+    kRungeKutta4,    ///< classic, order 4
     kCashKarp,       ///< order 5; with a tolerance, the embedded order 4 controls the step
     kBulirschStoer,  ///< modified midpoint rule with extrapolation; controls its step
-    kAdamsBashforth,  ///< 4 steps, started by Runge-Kutta 4
+    kAdamsBashforth,  ///< order 4: uses 4 steps; started by Runge-Kutta 4
     kAdamsMoulton,    ///< predictor-corrector (PECE) of order 4
     kTerzopoulos,     ///< semi-implicit: stiffness at the start of the step, one linear solve
     kBaraffWitkin,    ///< implicit Euler with one linear solve
@@ -48,41 +48,43 @@ enum class LinearSolver {
     kConjugate  ///< conjugate gradients, for large systems
 };
 
-/// Options of all methods. Each method uses those that apply to it.
+/// Options of all methods. A method ignores those that are meant for other methods.
 struct IntegratorOptions {
     Method method = Method::kImplicitEuler;
-    double step_s = 1.0 / 60;  ///< the first step when the method controls its step   (0, inf)
-    /// Cash-Karp and Bulirsch-Stoer: allowed error of one step, as a fraction of the scale of each coordinate (length_scale_m
-    /// for positions, length_scale_m / step for velocities). 0: fixed step (Bulirsch-Stoer: 1e-6).
+    double step_s = 1.0 / 60;  ///< first step if the method controls its step   (0, inf)
+    /// Allowed error of one step of Cash-Karp and Bulirsch-Stoer, as a fraction of length_scale_m for positions and of
+    /// length_scale_m / step for velocities. With 0, Cash-Karp has a fixed step and Bulirsch-Stoer uses 1e-6.
     double tolerance = 0;
     double length_scale_m = 1;  ///< size of the body; the unit of errors and of divergence
     double min_step_s = 1e-9;   ///< a controlled step that falls below this counts as divergence
-    double diverged_at = 1e3;   ///< a node is this many length scales from its start: diverged
-    /// Maximum per implicit step; ten times as many per equilibrium, which goes through pseudo-time.
+    double diverged_at = 1e3;   ///< divergence: a node is this many length scales from its start
+    /// Maximum number of Newton iterations per implicit step; an equilibrium may take ten times as many.
     int newton_iterations = 20;
     /// Stop when no node moves more than this fraction of the length scale.
     double newton_tolerance = 1e-8;
-    /// For implicit Euler; kBaraffWitkin tries the exact one first.
+    /// Which second derivative implicit Euler uses; kBaraffWitkin tries kExact first.
     Curvature curvature = Curvature::kPositive;
     LinearSolver linear = LinearSolver::kDirect;
-    /// Terzopoulos: the stiffness contains the strain rate of the step's start.
+    /// Terzopoulos: the stiffness contains the viscous stress at the start of the step.
     bool lag_rate = false;
 };
 
-/// Cost and outcome of advancing. No convergence and divergence are results, not errors.
+/// Cost and outcome of advance(). Divergence and missing convergence are results; no exception is thrown.
 struct IntegratorReport {
     long steps = 0;
     long evaluations = 0;  ///< of forces, or of the potential with its gradient
-    /// Number of steps that were repeated with a smaller size. For Newton, halvings of the line search and rejected moves. For
-    /// kBaraffWitkin, steps whose exact curvature was singular and that were solved with the positive one.
+    /// Number of steps that were repeated with a smaller size. For Newton's method: number of halvings of the line search and
+    /// of rejected moves. For kBaraffWitkin: number of steps that were solved with kPositive because kExact was singular.
     long rejections = 0;
     long linear_solves = 0;  ///< factorisations or conjugate-gradient runs
-    /// Maximum of the accepted steps; implicit: last Newton move, as a fraction of the length scale.
+    /// Maximum error of the accepted steps, as a fraction like `tolerance`. Implicit methods: length of the last Newton move,
+    /// as a fraction of the length scale.
     double error_estimate = 0;
     bool diverged = false;
     double diverged_at_s = std::numeric_limits<double>::quiet_NaN();
     bool converged = true;  ///< every Newton solve met its tolerance
 
+    /// Adds the report of a later advance().
     void add(const IntegratorReport& later);
 };
 
@@ -91,12 +93,13 @@ class Integrator {
   public:
     virtual ~Integrator() = default;
 
-    /// Forgets the history of multi-step methods and where the motion began. Must be called after the state was changed from
-    /// outside. A state whose time differs from where the last advance ended counts as a restart.
+    /// Forgets the history of multi-step methods and where the motion began. Call it after the state was changed by anything
+    /// but advance(). A state whose time is not the end of the last advance() restarts the motion by itself.
     virtual void restart() = 0;
 
-    /// Advances to `until_s` in whole steps; the last step is shortened to end there exactly. Stops when the motion diverges
-    /// and leaves the state as it is. An object serves one system and keeps its buffers from step to step.
+    /// Advances `state` to the time `until_s`. All steps have the length step_s, or the length that the method chooses; only
+    /// the last one is shortened, so that it ends exactly at `until_s`. When the motion diverges, it stops and does not change
+    /// the state further. Use one object for one system only: it keeps buffers from step to step.
     virtual IntegratorReport advance(const MotionSystem& system, MotionState& state,
                                      double until_s) = 0;
 };

@@ -17,7 +17,8 @@ typedef double Lanes __attribute__((vector_size(32)));
 typedef float FloatLanes __attribute__((vector_size(32)));
 typedef float FloatPoint __attribute__((vector_size(16)));
 
-/// Precision of steps of motion. Float halves the memory traffic and doubles the lanes; equilibria and derivatives need double.
+/// Precision of the arithmetic in steps of motion. Float halves the memory traffic and doubles the lanes; equilibria and
+/// derivatives need double.
 enum class Precision { kDouble, kSingle };
 
 template <class Real>
@@ -35,10 +36,10 @@ struct LanesOf<float> {
     static constexpr int kWidth = 8;
 };
 
-/// Sum of the lanes, always in this order.
+/// Sum of the lanes, in a fixed order.
 inline double sum_lanes(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
-/// Sums over many groups are kept in double.
+/// Adds lanes to a sum that is kept in double.
 inline void add_lanes(Lanes& sum, const Lanes& a) { sum += a; }
 inline void add_lanes(Lanes& sum, const FloatLanes& a) {
     sum += __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1, 2, 3), Lanes);
@@ -114,7 +115,7 @@ inline void lanes_to_rows(const Lanes& x, const Lanes& y, const Lanes& z, Lanes&
     r3 = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// The same for as many rows as there are lanes.
+/// The same for an array of as many rows as there are lanes.
 inline void rows_to_lanes(const Lanes (&r)[4], Lanes& x, Lanes& y, Lanes& z) {
     rows_to_lanes(r[0], r[1], r[2], r[3], x, y, z);
 }
@@ -150,7 +151,8 @@ inline void lanes_to_rows(const FloatLanes& x, const FloatLanes& y, const FloatL
     }
 }
 
-/// Rows of four numbers (x y z 0), one for each point, so that a point is one aligned load. Memory is kept between calls.
+/// Rows of four numbers (x y z 0), one for each point, so that a point is loaded by one aligned instruction. Memory is kept
+/// between calls.
 template <class Real>
 class PaddedRows {
   public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Assembles a symmetric scalar n x n matrix over the nodes, N/m: the metric of the quasi-Newton solver, or a Laplacian. One
-/// scalar matrix serves x, y and z.
+/// Assembles the metric of the quasi-Newton solver or a Laplacian, N/m: a symmetric n x n matrix with one number per pair of
+/// nodes, used for x, y and z alike.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -2,7 +2,7 @@
 /// \file
 /// Nodes with masses and the forces between them, as the integrators advance them. Nothing here is specific to faces.
 ///
-///   m a = sum of the terms' forces       fixed nodes stand still or have a prescribed motion
+///   m a = sum of the forces of all terms       fixed nodes are at rest or have a prescribed motion
 #pragma once
 
 #include <functional>
@@ -38,26 +38,29 @@ class MotionSystem {
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per node
     const std::vector<std::shared_ptr<EnergyTerm>>& terms() const { return terms_; }
 
-    /// Puts fixed nodes at their places at time t: as prescribed, or with v = 0.
+    /// Sets the positions and velocities of the fixed nodes to those at time t. Without a prescribed motion, only sets v = 0.
     void place_fixed(double t_s, Points& x, Points& v) const;
+    /// Calls begin_step() of all terms.
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) const;
 
     void force(double t_s, const Points& x, const Points& v, Points& force) const;  ///< N
-    /// m/s^2; zero on fixed nodes.
+    /// Writes the acceleration of every node, m/s^2, to `a`; it is zero on fixed nodes.
     void acceleration(double t_s, const Points& x, const Points& v, Points& a) const;
     double energy(double t_s, const Points& x) const;  ///< stored energy, J
     double kinetic_energy(const Points& v) const;      ///< of free nodes, J
 
-    /// Sum of the terms without inertia. The gradient is overwritten; it is zero on fixed nodes.
+    /// Returns the sum of E + h R over the terms, J, without inertia. `gradient`, n x 3, N, is overwritten; it is zero on fixed
+    /// nodes.
     double potential(const ImplicitStep& step, const Points& x, Points& gradient) const;
-    /// Adds the terms, without inertia.
+    /// Adds the second derivatives of all terms, without inertia.
     void add_hessian(const ImplicitStep& step, const Points& x, Curvature curvature,
                      HessianBuilder& hessian) const;
+    /// Adds the metrics of all terms, without inertia.
     void add_metric(double step_s, MetricBuilder& metric) const;
 
   private:
     Eigen::VectorXd mass_kg_;
-    Points inverse_mass_;  ///< of each coordinate, 1/kg; 0 on fixed nodes
+    Points inverse_mass_;  ///< n x 3, of each coordinate, 1/kg; 0 on fixed nodes
     std::vector<char> fixed_;
     std::vector<int> fixed_nodes_;
     std::vector<std::shared_ptr<EnergyTerm>> terms_;

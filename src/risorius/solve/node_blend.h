@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A point carried by nodes, or the difference of two such points: p = sum of w_i x_i. Forces on p act on the nodes with the
-/// same weights, so that work and net force are preserved.
+/// A point that is a weighted sum of nodes, or the difference of two such points: p = sum of w_i x_i. A force on p is
+/// distributed to the nodes with the same weights, so that work and net force are preserved.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace risorius::solve {
 /// The nodes and weights of a point.
 class NodeBlend {
   public:
-    /// Enough for a point of a cell and one of a triangle, with one to spare.
+    /// Maximum number of nodes. A point of a cell has 8 and a point of a triangle has 3.
     static constexpr int kMax = 12;
 
     NodeBlend() = default;
@@ -57,18 +57,19 @@ class NodeBlend {
         return p;
     }
 
-    /// Distributes a force (or gradient) on the point to its nodes.
+    /// Adds a force (or gradient) on the point to its nodes in `out`, n x 3.
     void scatter(const Vec3& force, Points& out) const {
         for (int i = 0; i < count_; ++i) out.row(nodes_[i]) += weights_[i] * force.transpose();
     }
 
-    /// Distributes the second derivative by the point, a symmetric matrix, to its nodes.
+    /// Adds the second derivative by the point, a symmetric matrix, N/m, to the blocks of its nodes.
     void scatter(const Mat3& block, HessianBuilder& out) const {
         for (int i = 0; i < count_; ++i)
             for (int j = 0; j <= i; ++j)
                 out.add(nodes_[i], nodes_[j], weights_[i] * weights_[j] * block);
     }
 
+    /// Adds the metric of a stiffness of the point, N/m.
     void scatter(double stiffness, MetricBuilder& out) const {
         out.add_outer(nodes_.data(), weights_.data(), count_, stiffness);
     }

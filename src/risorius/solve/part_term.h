@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The energy term of one body in a system of several bodies. It sees only its own rows, numbered from 0.
+/// Adds the energy term of one body to a system of several bodies. The term works only on the rows of its own body, numbered
+/// from 0.
 #pragma once
 
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace risorius::solve {
 
-/// Passes rows of the system to a term that knows only its own body.
+/// Passes the rows of one body of a system to a term of that body.
 class PartTerm : public EnergyTerm {
   public:
     /// Rows [first, first + count) of the system belong to the term.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Sums over all nodes in a fixed order, so that equal numbers give equal bits.
+/// Sums over all nodes in a fixed order. So equal input gives equal results to the last bit.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,14 @@ inline Lanes load_lanes(const float* p) {
     return __builtin_convertvector((FloatPoint{p[0], p[1], p[2], p[3]}), Lanes);
 }
 
-/// Points, or similar rows of floats. Sums are in double.
+/// Points, or an array of rows like it in float. Sums are in double.
 template <class T>
 concept PointRows = requires(const T& rows) {
     load_lanes(rows.data());
 };
 
-/// Uses its own loop instead of Eigen's, so that the order of the sum does not depend on the memory address of the arrays.
+/// Sum over all coordinates of a times b. Unlike in Eigen, the order of the sum does not depend on the memory address of the
+/// arrays.
 double dot(const PointRows auto& a, const PointRows auto& b) {
     const auto* p = a.data();
     const auto* q = b.data();
@@ -40,7 +41,7 @@ double dot(const PointRows auto& a, const PointRows auto& b) {
     return sum;
 }
 
-/// Adds scale a to `sum` and returns the product of the new sum with b, in one pass. b may be `sum`.
+/// Adds scale times a to `sum` and returns the dot product of the new sum with b, in one pass. b may be `sum`.
 double add_and_dot(Points& sum, double scale, const PointRows auto& a, const PointRows auto& b) {
     double* s = sum.data();
     const auto* p = a.data();
@@ -66,7 +67,7 @@ double add_and_dot(Points& sum, double scale, const PointRows auto& a, const Poi
     return product;
 }
 
-/// Maximum length of a row.
+/// Maximum of the lengths of the rows.
 inline double longest_row(const Points& d) {
     double longest = 0;
     for (long i = 0; i < d.rows(); ++i) {

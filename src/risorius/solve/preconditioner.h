@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Approximate inverse of the second derivative of an implicit step's potential, the initial metric of a quasi-Newton method.
+/// Approximate inverse of the second derivative of the potential of an implicit step (energy_term.h). A quasi-Newton method
+/// uses it as its initial metric.
 ///
 ///   H  second derivative of Phi = sum m |x - y|^2 / (2 h^2) + E + h R, 3n x 3n, N/m
 #pragma once
@@ -15,7 +16,8 @@ class Preconditioner {
   public:
     virtual ~Preconditioner() = default;
 
-    /// Called before a step is solved, with the state it starts from. Constant preconditioners ignore it.
+    /// Prepares for a step. It is called before a step is solved, with the positions x from which the step starts. Constant
+    /// preconditioners ignore it.
     virtual void refresh(const ImplicitStep& /*step*/, const Points& /*x*/) {}
 
     /// x = B b, where B approximates H^-1 and is symmetric and positive definite; n x 3 each. Rows of fixed nodes of b are
@@ -23,8 +25,8 @@ class Preconditioner {
     virtual void apply(const Points& b, Points& x) const = 0;
 };
 
-/// The scalar matrix M/h^2 plus the sum of the terms' add_metric, factored once for steps of one length. It works on any
-/// system.
+/// Preconditioner for any system: the mass matrix M/h^2 plus the sum of add_metric() of the terms, factored once for steps of
+/// length h. It is an n x n matrix with one number per pair of nodes, used for x, y and z alike.
 class PrefactoredMetric : public Preconditioner {
   public:
     PrefactoredMetric(const MotionSystem& system, double step_s);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Sparse Cholesky factor whose columns of similar pattern are stored together as dense panels (supernodes). The 3 x 3 blocks
-/// of nodes in space make such panels everywhere.
+/// Sparse Cholesky factor in which columns with similar patterns are stored together as dense panels (supernodes). Matrices of
+/// 3 x 3 blocks have such columns everywhere.
 ///
 ///   A   symmetric, given by its lower triangle, n x n     P^T L L^T P = A,  P a nested-dissection ordering
 ///
-/// The dense operations are in this library, because the bits of a BLAS depend on which one is installed.
+/// The dense operations are in this library (detail/dense_panels.h) and not from a BLAS, because the last bits of its results
+/// depend on which BLAS is installed.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -13,7 +14,7 @@
 
 namespace risorius::solve {
 
-/// The factor of one matrix after another.
+/// Factors one matrix after another and solves with the last one.
 class SupernodalCholesky {
   public:
     SupernodalCholesky();
@@ -21,15 +22,16 @@ class SupernodalCholesky {
     SupernodalCholesky(SupernodalCholesky&&) noexcept;
     SupernodalCholesky& operator=(SupernodalCholesky&&) noexcept;
 
-    /// A is ordered again only when its pattern differs from the last one. Groups of `block` consecutive rows belong to one
-    /// node and are ordered together. Returns false when A is not positive definite or not finite; then there is no factor.
+    /// Factors A. Its rows are ordered again only when its pattern differs from the last one. Groups of `block` consecutive
+    /// rows belong to one node and are ordered together. Returns false when A is not positive definite or not finite; then
+    /// there is no factor.
     bool factorise(const Eigen::SparseMatrix<double>& A, int block);
 
-    /// x = A^-1 b, n each. x may be b. Keeps a scratch array, so only one thread at a time may call it.
+    /// Computes x = A^-1 b, n numbers each. x may be b. It uses a scratch array, so only one thread at a time may call it.
     void solve(const double* b, double* x) const;
 
-    long nonzeros() const;   ///< of the panels
-    long orderings() const;  ///< number of times the pattern was new
+    long nonzeros() const;   ///< number of entries of the panels
+    long orderings() const;  ///< number of times that rows were ordered
 
   private:
     struct Impl;

@@ -9,7 +9,7 @@
 
 namespace risorius::solve::detail {
 
-/// View of the lower triangle of an Eigen matrix. Nothing is copied.
+/// Returns a view of the lower triangle of an Eigen matrix. Nothing is copied, so the matrix must outlive the view.
 inline cholmod_sparse view_of(const Eigen::SparseMatrix<double>& A) {
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(A.rows());

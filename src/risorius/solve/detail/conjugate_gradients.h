@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Conjugate gradients for a symmetric matrix of 3 x 3 blocks, with the inverses of the diagonal blocks as preconditioner.
+/// Conjugate gradients for a symmetric matrix of 3 x 3 blocks, with the inverses of the diagonal blocks as the preconditioner.
 ///
 ///   A   3n x 3n, should be positive definite      b, x   n x 3
 #pragma once
@@ -15,11 +15,11 @@ namespace risorius::solve {
 struct ConjugateGradientReport {
     int iterations = 0;
     bool converged = false;
-    /// A is indefinite; x is the last iterate before that was found.
+    /// True when A was found to be indefinite; x is then the last iterate before that.
     bool negative_curvature = false;
 };
 
-/// Keeps its buffers between calls.
+/// The solver. It keeps its buffers between calls.
 class ConjugateGradients {
   public:
     /// Starts from x = 0 and ends when |b - A x| <= tolerance |b| in the norm of the preconditioner.
@@ -31,7 +31,7 @@ class ConjugateGradients {
     Points residual_, preconditioned_, direction_, product_;
 };
 
-/// y = A x
+/// Computes y = A x, n x 3 each.
 void multiply(const SymmetricBlocks& A, const Points& x, Points& y);
 
 }  // namespace risorius::solve

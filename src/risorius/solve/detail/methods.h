@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Factories, one for each family of methods. make_integrator() has checked the options.
+/// Functions that make an integrator, one for each family of methods. The options must be those that make_integrator() has
+/// checked.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,7 @@ std::unique_ptr<Integrator> make_runge_kutta_2(const IntegratorOptions& options)
 std::unique_ptr<Integrator> make_runge_kutta_4(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_cash_karp(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_bulirsch_stoer(const IntegratorOptions& options);
-/// kAdamsBashforth and kAdamsMoulton.
+/// Makes kAdamsBashforth and kAdamsMoulton.
 std::unique_ptr<Integrator> make_adams(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_terzopoulos(const IntegratorOptions& options);
 std::unique_ptr<Integrator> make_implicit_euler(const IntegratorOptions& options);

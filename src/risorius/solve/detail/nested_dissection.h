@@ -10,20 +10,21 @@
 
 namespace risorius::solve::detail {
 
-/// cholmod_analyze(), one thread at a time. METIS, which makes the nested dissection, seeds and uses the global rand() of the
-/// process. Two simultaneous orderings would differ from either alone, and another order of sums gives other bits.
+/// Calls cholmod_analyze(), by one thread at a time. METIS, which computes the nested dissection, seeds and uses the global
+/// rand() of the process. Two orderings at the same time would change each other, and another order of the sums would change
+/// the last bits of results.
 cholmod_factor* analyse(cholmod_sparse& A, cholmod_common& common);
 
-/// An order of the rows of A that keeps its factor sparse, in post-order. Groups of `block` consecutive rows belong to one node
-/// and stay together. Throws std::invalid_argument when no ordering is found.
+/// Returns an order of the rows of A with a sparse factor, in post-order of the elimination tree. Groups of `block` consecutive
+/// rows belong to one node and stay together. Throws std::invalid_argument when no ordering is found.
 std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A, int block);
 
-/// Panels: columns of the factor of A, after nested dissection, that have similar patterns.
+/// The panels of the factor of A after nested dissection. A panel consists of consecutive columns with similar patterns.
 struct PanelPattern {
-    std::vector<int> order;      ///< row of A at each position
+    std::vector<int> order;      ///< order[i]: the row of A that becomes row i of the factor
     std::vector<int> super;      ///< first column of each panel, then n
-    std::vector<int> row_begin;  ///< where each panel begins in `row`, then the end
-    std::vector<int> row;        ///< ascending within each panel; its own columns come first
+    std::vector<int> row_begin;  ///< index in `row` where each panel begins, then the size of `row`
+    std::vector<int> row;        ///< rows of each panel, ascending: its own columns, then others
 };
 PanelPattern panel_pattern(const Eigen::SparseMatrix<double>& A, int block);
 

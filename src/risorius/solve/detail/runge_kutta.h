@@ -9,7 +9,8 @@ namespace risorius::solve::detail {
 
 class RungeKutta4Step {
   public:
-    /// Steps x and v by h. `a` is the acceleration at t. Evaluates the acceleration three times.
+    /// Advances x and v by a step of h seconds. `a` is the acceleration at t, m/s^2. Evaluates the acceleration three more
+    /// times.
     void apply(const MotionSystem& system, double t_s, double h, const Points& a, Points& x,
                Points& v);
 

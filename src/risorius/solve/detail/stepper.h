@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What all methods have in common: the clock of whole steps, the start of the history, and the check for divergence.
+/// The common part of all methods: the times of the steps, the start of the history, and the check for divergence.
 #pragma once
 
 #include "risorius/solve/integrator.h"
 
 namespace risorius::solve::detail {
 
-/// Remembers where a motion began, and detects whether it is continued from where it was left.
+/// Stores where a motion began, and detects whether a state continues the last one.
 class ProgressMonitor {
   public:
     explicit ProgressMonitor(const IntegratorOptions& options);
@@ -18,7 +18,7 @@ class ProgressMonitor {
     bool begin(const MotionState& state);
     void end(const MotionState& state) { left_at_s_ = state.t_s; }
 
-    /// True when a value is not finite or a node is too far from where it began.
+    /// True when a value is not finite or a node is too far from its first position.
     bool diverged(const Points& x, const Points& v) const;
 
   private:
@@ -27,7 +27,8 @@ class ProgressMonitor {
     Points began_;
 };
 
-/// A method with fixed steps. Time runs on the grid origin + k h, so that advancing in several calls repeats the same steps.
+/// A method with fixed steps. Steps end at the times origin + k h. So several calls of advance() make the same steps as one
+/// call, when they end at such times.
 class Stepper : public Integrator {
   public:
     explicit Stepper(const IntegratorOptions& options);
@@ -37,8 +38,8 @@ class Stepper : public Integrator {
                              double until_s) override;
 
   protected:
-    /// One step of h from t, in place. Fixed nodes are at their places for t; the caller moves them to those for t + h
-    /// afterwards. May set report.diverged.
+    /// Advances x and v by one step of h seconds from t. The fixed nodes have their positions at t; the caller moves them to
+    /// those at t + h afterwards. The function may set report.diverged.
     virtual void step(const MotionSystem& system, Points& x, Points& v, double t_s, double h,
                       IntegratorReport& report) = 0;
     /// Drops the history of earlier steps.
@@ -63,16 +64,17 @@ class ControlledStepper : public Integrator {
 
   protected:
     struct Attempt {
-        /// Of the whole step, relative to the allowed error: accepted up to 1, never when NaN.
+        /// Error of the step divided by the allowed error. The step is accepted when it is at most 1; NaN is not accepted.
         double error;
         double next_s;  ///< size of the next step, or of the repetition of this one
     };
-    /// Tries a step of h from t. The result is left in trial_x_ and trial_v_. `first` is true when x and v are new.
+    /// Tries a step of h seconds from t. The result is in trial_x_ and trial_v_. `first` is true for the first attempt of a
+    /// step, and false for its repetitions.
     virtual Attempt attempt(const MotionSystem& system, const Points& x, const Points& v,
                             double t_s, double h, bool first, IntegratorReport& report) = 0;
     virtual void forget() {}
 
-    /// Error (dx, dv) of a step of h, relative to the allowed error. NaN if any entry is NaN.
+    /// The error (dx, dv) of a step of h seconds, divided by the allowed error. NaN if any entry is NaN.
     double scaled_error(const Points& dx, const Points& dv, double h) const;
 
     const IntegratorOptions options_;
