@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// From excitation to activation: how fast the force capacity of a muscle follows its neural drive.
+/// Activation dynamics: how fast the activation of a muscle follows its neural excitation.
 ///
 ///   u   neural excitation, fraction of the maximum          [min, 1]
 ///   a   activation, fraction of the maximum                 [min, 1]
@@ -9,14 +9,16 @@
 ///                r = s / t_deact                    while it returns
 ///   smooth       r = f / (t_act s) + (1 - f) s / t_deact,   f = 1/2 + 1/2 tanh(b (u - a)),   b the steepness
 ///
-/// The smooth law has no jump between growing and returning. Its steepness was published as 0.1. With that value f hardly
-/// differs from 1/2, and a falls to 0.1 within 37 ms instead of Thelen's 94 ms (t_act = 10 ms, t_deact = 40 ms). OpenSim
-/// recommends the correction to 10. Then the fall takes 82 ms, and reaching 0.5 takes 6.4 ms upwards and 17.9 ms downwards, as
-/// in Thelen's law.
+/// min is 0, or negative for muscles whose resting tone can be reduced (levator palpebrae superioris in a blink). Below 0 the
+/// laws are mirrored: a moves away from 0 when it falls. t_act and t_deact are the time constants, s.
 ///
-/// The step a += (u - a)(1 - exp(-h r)) is monotone and cannot overshoot for any h. Steps are at most 0.25 ms long, so that
-/// onset does not depend on the frame rate. Muscles whose resting tone can be reduced (u < 0: levator palpebrae superioris in a
-/// blink) follow the same law on the other side of 0.
+/// The rate r of the smooth law is continuous at u = a. Its steepness b was published as 0.1. With that value f hardly differs
+/// from 1/2, and a falls to 0.1 within 37 ms instead of Thelen's 94 ms (t_act = 10 ms, t_deact = 40 ms). OpenSim recommends 10
+/// instead, which is the default here. Then a falls to 0.1 within 82 ms. It reaches 0.5 after 6.4 ms from below and after 17.9
+/// ms from above, as in Thelen's law.
+///
+/// The integration step a += (u - a)(1 - exp(-h r)), with r at the start of the step, moves a towards u and never beyond it,
+/// for any h. Steps h are at most 0.25 ms long, so that the onset of activation does not depend on the frame rate.
 ///
 /// Sources: Thelen 2003, J. Biomech. Eng. 125(1), 70-77; De Groote et al. 2016, Ann. Biomed. Eng. 44(10), 2922-2936, eqs 1 and
 /// 2; OpenSim issue 3990 and pull request 4007 (A. van den Bogert, N. Bianco 2025) for the steepness.
@@ -41,28 +43,30 @@ struct ActivationLaw {
     double steepness = 10;  ///< b, of the smooth form                   (0, inf)
 };
 
-/// da/dt, 1/s.
+/// da/dt, 1/s, for the activation a and the excitation u.
 double activation_rate(double a, double u, const ActivationTimes& times,
                        const ActivationLaw& law = {});
 
-/// Activation after excitation u has acted for h seconds.
+/// Returns the activation after the excitation u has acted on the activation a for h seconds.
 double advance_activation(double a, double u, const ActivationTimes& times, double h,
                           const ActivationLaw& law = {});
 
-/// The activations of all muscle columns of a face. They start at zero.
+/// The activations of all muscles of a face, one entry (column) each. They start at zero.
 class ActivationDynamics {
   public:
-    /// Time constants for each column, s, > 0.
+    /// `t_act_s` and `t_deact_s`: time constants of each muscle, s, > 0.
     ActivationDynamics(Eigen::VectorXd t_act_s, Eigen::VectorXd t_deact_s,
                        const ActivationLaw& law = {});
 
     const Eigen::VectorXd& activation() const { return activation_; }
     void set_activation(const Eigen::VectorXd& activation);
 
-    /// Applies `excitation` for h seconds. `direct` sets the activation of the columns where it is not NaN; it may be empty.
+    /// Applies `excitation` for h seconds. Where `direct` is not NaN, it is the new activation of the muscle instead; it may be
+    /// empty.
     void advance(const Eigen::VectorXd& excitation, const Eigen::VectorXd& direct, double h);
 
-    /// Follows a changing excitation. It is evaluated at the middle of substeps of at most 1 ms between the two times.
+    /// Applies an excitation that changes in time, from `from_s` to `to_s`. This interval is cut into equal parts of at most 1
+    /// ms, and the excitation in a part is the one at the middle of the part. `direct` as above.
     using ExcitationAt = std::function<const Eigen::VectorXd&(double t_s)>;
     void advance(const ExcitationAt& excitation_at, const Eigen::VectorXd& direct, double from_s,
                  double to_s);

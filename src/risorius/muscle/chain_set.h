@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Fibres of a volume muscle with their tendons: chains of nodes. Each chain pulls along itself with one tension.
+/// Fibres of a volume muscle with their tendons. A chain is a sequence of nodes: fibres in series with a tendon. It has one
+/// tension along its whole length.
 ///
 ///   L    length of a chain, all segments     lT   tendon part of it; lTs when just slack     S = L - lT   fibre part of it
 ///   r    l/l0 in the rest pose      alpha   pennation at l0      S0   S in the rest pose, when the tendon is just slack
 ///   lam = sqrt( (S/S0)^2 (r^2 - sin^2 alpha) + sin^2 alpha )        fibre length / optimal length, for constant thickness
 ///   E(L) = min over lT of  F0 l0 [ a Ifl(lam) + Ifp(lam) ] + F0 lTs IfT((lT - lTs) / lTs),   l0 = S0 / sqrt(r^2 - sin^2 alpha)
 ///
-/// Fibres and tendon are in equilibrium, so dE/dL is the tension of both. The law depends on the length of the whole chain: so
-/// segments in series cannot diverge in length, and a stiff tendon does not make a stiff segment. A short tendon may be rigid:
-/// lT = lTs.
+/// F0 is the maximum isometric force of a chain, N, and a is its activation. l is the fibre length and l0 the optimal fibre
+/// length, m. Ifl, Ifp and IfT are the integrals of the active force-length curve, the passive force-length curve and the
+/// tendon curve (muscle_curves.h). Fibres and tendon are in equilibrium, so dE/dL is the tension of both, N. E depends only on
+/// the length of the whole chain. So segments in series cannot diverge in length, and a stiff tendon does not make any segment
+/// stiff. A short tendon may be rigid: then lT = lTs.
 #pragma once
 
 #include <vector>
@@ -43,20 +46,20 @@ class ChainSet {
     void set_f0(double f0_n) { properties_.f0_n = f0_n; }
     const ChainProperties& properties() const { return properties_; }
 
-    /// Returns E, J, and adds dE/dx to `gradient`, N.
+    /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is a.
     double add_energy(const Points& x, double activation, Points& gradient) const;
 
-    /// Adds a positive second derivative, segment by segment. The stiffness of a chain is distributed to its segments in
-    /// series. Node i is row `row[i]` of the builder.
+    /// Adds an approximation of the second derivative without negative part, N/m. The stiffness of a chain is distributed to
+    /// its segments, which are springs in series. Node i is row `row[i]` of the builder.
     void add_stiffness(const Points& x, double activation, const std::vector<int>& row,
                        solve::HessianBuilder& hessian) const;
 
-    /// Adds the second derivative of E itself: one stiffness of a chain couples all its nodes. kPositive: without the negative
-    /// part. Node i is row `row[i]` of the builder.
+    /// Adds the exact second derivative of E, N/m. The stiffness of a chain couples all its nodes. kPositive: without the
+    /// negative part. Node i is row `row[i]` of the builder.
     void add_hessian(const Points& x, double activation, solve::Curvature curvature,
                      const std::vector<int>& row, solve::HessianBuilder& hessian) const;
 
-    /// What a chain does at an activation, in equilibrium of its fibres and tendon.
+    /// The state of a chain at an activation, with its fibres and tendon in equilibrium.
     struct State {
         double length_m = 0;  ///< L
         double stretch = 1;   ///< lam

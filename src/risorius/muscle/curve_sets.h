@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The published sets of force curves by name, and how a file chooses and changes one:
+/// The published sets of force curves (force-length, force-velocity and tendon curves) by name, and how a file chooses and
+/// changes one:
 ///
 ///   "curves": "thelen2003"                                     as published
 ///   "curves": {"set": "zajac", "tendon_strain": 0.05}          with changed numbers; the keys are the fields of the shape
@@ -21,7 +22,7 @@
 
 namespace risorius::muscle {
 
-/// The set and its numbers.
+/// The numbers of one set.
 using CurveShape = std::variant<ZajacShape, ThelenShape, MillardShape>;
 
 /// "zajac", "thelen2003", "millard2013".
@@ -30,10 +31,11 @@ const std::vector<std::string_view>& curve_set_names();
 /// The set as published. Throws Error that names `place` for an unknown name.
 CurveShape curve_set_named(const std::string& name, const std::string& place = "curves");
 
-/// Reads a name or an object. Throws Error for everything that make_curves would reject.
+/// Reads a name or an object. Throws Error for all values with which make_curves() would throw.
 CurveShape read_curve_shape(const JsonCursor& json);
 
-/// Throws std::invalid_argument when numbers are outside their ranges or do not fit together.
+/// Returns the force curves of a set. Throws std::invalid_argument when numbers are outside their ranges or contradict each
+/// other.
 MuscleCurves make_curves(const CurveShape& shape);
 
 }  // namespace risorius::muscle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Equilibrium of a musculotendon of given length: fibre and tendon in series, in one dimension. Solid muscles are compared
-/// with it.
+/// Equilibrium of a musculotendon of given length: a fibre and a tendon in series, in one dimension. Solid muscles are compared
+/// with it. Symbols as in musculotendon.h.
 ///
 ///   L    from origin to insertion, m             l   fibre, m; s = sqrt(l^2 - w^2) its length along the tendon, m
 ///   w    thickness l0 sin alpha, m, constant     cos(alpha) = s / l
@@ -22,12 +22,13 @@ struct Equilibrium {
     double force_n = 0;  ///< along the tendon
 };
 
-/// A muscle that is shorter than its slack tendon has no force; its fibre then has the length at which its force is zero. Where
-/// the curve falls more steeply than the tendon allows, several equilibria exist, and the result is one of them.
+/// Computes the equilibrium at the length `length_m` from origin to insertion. A muscle that is shorter than its slack tendon
+/// has no force; its fibre then has the length at which its force is zero. Where the force-length curve falls more steeply than
+/// the force of the tendon rises, several equilibria exist, and the result is one of them.
 Equilibrium equilibrium(const MuscleParameters& parameters, const MuscleCurves& curves,
                         double activation, double length_m);
 
-/// Force of a fibre along itself at a length and a speed (> 0 lengthens): F0 [ a fl fv + fp + b v/(vmax l0) ], N.
+/// Force of a fibre along its own direction, at a length and a speed (> 0 lengthens): F0 [ a fl fv + fp + b v/(vmax l0) ], N.
 double fibre_force(const MuscleParameters& parameters, const MuscleCurves& curves,
                    double activation, double fibre_m, double fibre_m_per_s);
 

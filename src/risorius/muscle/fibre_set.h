@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Muscle fibres as polylines that pull along themselves. Their points are embedded in the tissue or ride on a bone.
+/// Muscle fibres as polylines with a tension along their segments. Their points are embedded in the tissue or fixed to a rigid
+/// body (a bone).
 ///
 ///   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   maximum force, N
-///   static      E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                    T = F0 [ a fl(lam) + fp(lam) ]
-///   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]   T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
+///   static      E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                   T = F0 [ a fl(lam) + fp(lam) ]
+///   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ]  T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
 ///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths per second
 ///
-/// fl and fp are the active and passive curves of muscle/detail/hill_shape.h, fv is Hill's curve as in muscle/muscle_curves.h,
-/// and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l, and a motion that comes to rest in steps (l = l_n,
-/// fv = 1) has reached a static equilibrium. fl is evaluated for each segment, not for the whole fibre. On the falling limb,
-/// segments in series would diverge in length, but the tissue around them prevents it.
+/// T is the tension, N. fl and fp are the active and passive force-length curves of muscle/detail/hill_shape.h, fv is the
+/// force-velocity curve of muscle/muscle_curves.h, and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l. When a
+/// motion in steps has come to rest (l = l_n, fv = 1), it has reached a static equilibrium. fl is evaluated for each segment,
+/// not for the whole fibre. Where fl falls with length, segments in series would diverge in length, but the tissue around them
+/// prevents it.
 #pragma once
 
 #include <cstdint>
@@ -31,26 +33,26 @@ class HessianBuilder;
 
 namespace risorius::muscle {
 
-/// A point of a fibre: embedded in the tissue, or riding on a body.
+/// A point of a fibre, embedded in the tissue or fixed to a rigid body.
 struct FibrePoint {
     int nodes[4] = {0, 0, 0, 0};
     double weights[4] = {0, 0, 0, 0};  ///< sum 1
-    int count = 0;                     ///< number of nodes, 1..4; 0: the point rides on a body
+    int count = 0;                     ///< number of nodes, 1..4; 0: the point is fixed to a body
     int body = 0;                      ///< index of the body when count is 0
-    Vec3 body_rest = Vec3::Zero();  ///< position of the point when the body is in its rest pose, m
+    Vec3 body_rest = Vec3::Zero();     ///< position in the rest pose of the body, m
 };
 
 /// A polyline through consecutive points.
 struct Fibre {
     int first_point = 0;
-    int point_count = 0;       ///< consecutive points, 2 or more
+    int point_count = 0;       ///< number of points, 2 or more
     int column = 0;            ///< index in the activation vector
     double f0_n = 0;           ///< F0                                       [0, inf)
     double rest_stretch = 1;   ///< lam in the rest pose: l0 = rest length / this     (0, inf)
     double max_speed_hz = 10;  ///< vmax                               (0, inf)
 };
 
-/// An object keeps scratch arrays, so only one thread at a time may use it.
+/// Energy and forces of a set of fibres. An object keeps scratch arrays, so only one thread at a time may use it.
 class FibreSet {
   public:
     /// `rest`: nodes in the rest pose, n x 3, m; bodies are in their rest pose too. Throws std::invalid_argument for a fibre
@@ -62,35 +64,37 @@ class FibreSet {
     const std::vector<Fibre>& fibres() const { return fibres_; }
     void set_f0(int fibre, double f0_n) { fibres_[static_cast<std::size_t>(fibre)].f0_n = f0_n; }
 
-    /// Moves the points that ride on bodies. `bodies` are motions from the rest pose, indexed by FibrePoint::body.
+    /// Moves the points that are fixed to bodies. `bodies` are the motions of the bodies from their rest poses, indexed by
+    /// FibrePoint::body.
     void set_body_positions(std::span<const Rigid> bodies);
 
-    /// Until end_step(), E is that of a step of length h from x, with the bodies in their present places. fl is taken at the
-    /// length at `expected`, the likely end of the step.
+    /// Begins a step. Until end_step(), E is that of a step of h seconds from x, with the bodies in their present places. fl is
+    /// taken at the lengths at `expected`, the expected positions at the end of the step.
     void begin_step(const Points& x, const Points& expected, double h);
     void begin_step(const Points& x, double h) { begin_step(x, x, h); }
-    /// Begins the same step as `whole`, of which this set is a part. `fibres` and `points` are the numbers of its fibres and
-    /// points in `whole`.
+    /// Begins the step that the set `whole` is in. This set is a part of `whole`. `fibres` and `points` are the numbers of its
+    /// fibres and points in `whole`.
     void go_on(const FibreSet& whole, std::span<const int> fibres, std::span<const int> points);
-    /// From here on E is the static one.
+    /// Ends the step. From here on E is the static one.
     void end_step() { step_s_ = 0; }
 
     /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is indexed by Fibre::column.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) const;
 
-    /// Adds the second derivative of the static E (not of a step). Slack segments are added too. kPositive: without the
-    /// negative part of each segment.
+    /// Adds the second derivative of the static E (not of a step), N/m. Segments without tension are added too. kPositive:
+    /// without the negative part of each segment.
     void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// dE/d(position of a point) in the last call of add_energy, N. The force of the point on its body is the negative of it.
+    /// dE/d(position of a point) in the last call of add_energy, N. Its negative is the force on the point, which acts on the
+    /// body to which the point is fixed.
     Vec3 point_gradient(int point) const {
         const solve::Lanes force = force_[point];
         return {force[0], force[1], force[2]};
     }
 
-    /// Adds F0/(2 l0) per segment on the difference of its ends. In a step of length h, it adds a tenth of F0 fv'(0) / (l0 vmax
-    /// h) to that.
+    /// Adds the stiffness F0/(2 l0), N/m, of each segment on the difference of its ends. In a step of h seconds, the stiffness
+    /// is larger by a tenth of F0 fv'(0) / (l0 vmax h).
     void add_metric(solve::MetricBuilder& builder, double h = 0) const;
 
     /// lam of each fibre: its length divided by the sum of its optimal lengths.
@@ -109,7 +113,7 @@ class FibreSet {
     Points positions(const Points& x) const;
 
   private:
-    /// A point as inner loops read it. Entries beyond `count` have weight zero.
+    /// A point in the form that inner loops read. Entries beyond `count` have weight zero.
     struct Embedding {
         std::int32_t nodes[4]{};
         std::int32_t count = 0;
@@ -132,7 +136,8 @@ class FibreSet {
     struct Pulls {
         solve::Lanes tension_n, energy_j;
     };
-    /// Values of the segments from `first` on, with lengths l. at_rest() computes only those before `last`.
+    /// Tension and energy of the kTogether segments from `first` on, with lengths l. at_rest() computes only those before
+    /// `last`.
     Pulls at_rest(const Fibre& fibre, double a, int first, int last, const solve::Lanes& l) const;
     Pulls in_step(const Fibre& fibre, double a, int first, const solve::Lanes& l) const;
 
@@ -143,8 +148,8 @@ class FibreSet {
     CurveTable velocity_table_, passive_table_;  ///< for steps
     std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at each point
     double step_s_ = 0;                          ///< h; 0 outside of steps
-    /// Arrays with one number per point, which belongs to the segment that begins there. They have kTogether extra entries, so
-    /// that several are read together.
+    /// Arrays with one number per point. It belongs to the segment that begins at the point. They have kTogether extra entries,
+    /// so that kTogether numbers can be read from any point on.
     struct StepSegments {
         std::vector<double> inverse_optimal;  ///< 1 / l0
         std::vector<double> start_m;          ///< l_n
@@ -161,7 +166,7 @@ class FibreSet {
     };
     StepSegments in_step_;
     std::vector<Embedding> embedding_;
-    solve::PaddedPoints body_place_;  ///< of points that ride on bodies; zero for the others
+    solve::PaddedPoints body_place_;  ///< of points that are fixed to bodies; zero for the others
     mutable solve::PaddedPoints x_, gradient_;      ///< nodes
     mutable solve::PaddedPoints position_, force_;  ///< points
 };

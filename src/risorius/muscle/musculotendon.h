@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Zajac's musculotendon in a grid solid: fibres between successive nodes along a1, and tendons from the ends of the belly to
-/// its anchors.
+/// Zajac's musculotendon in a grid solid of M x N x O nodes, which is the belly of the muscle. Fibres connect successive nodes
+/// along a1, and tendons connect the ends of the belly with its anchors. A chain is one row of fibres along a1 with its
+/// tendons.
 ///
 ///   F0   maximum isometric force, N        l0   optimal fibre length, m      lTs   slack length of both tendons together, m
 ///   vmax maximum shortening speed, l0/s    alpha  pennation at l0            a   activation, 0..1     b   damping
@@ -9,26 +10,28 @@
 ///           T = F0 [ a fl(mean of l/l0 along the chain) fv(l'/(vmax l0)) + fp(l/l0) + b l'/(vmax l0) ] along s: T s/l
 ///   tendon  T = F0 fT((lT - lTs/2) / (lTs/2)), one at either end of a chain
 ///
-/// (M-1) N O fibres and 2 N O tendons make up N O chains, and each chain has an equal part of F0. l0 is the mean over the
-/// chains. They divide it in proportion to their rest lengths, so that every fibre has the same stretch in the rest shape.
+/// T is the tension, N, l' = dl/dt, and lT is the length of one tendon, m. fl and fp are the force-length curves, fv is the
+/// force-velocity curve, and fT is the tendon curve (muscle_curves.h). (M-1) N O fibres and 2 N O tendons make up N O chains,
+/// and each chain has an equal part of F0. l0 is the mean over the chains. The l0 of a chain is proportional to its rest
+/// length, so every fibre has the same stretch in the rest shape.
 ///
-/// The force-length curve is evaluated at the mean length of the whole chain. Evaluated segment by segment, segments in series
-/// on the falling limb would diverge in length. In an implicit step, fl is that of the step's start and fv is implicit, which
-/// makes the potential convex. In an equilibrium fl has a potential of its own.
+/// The force-length curve is evaluated at the mean length of the whole chain. If it were evaluated for each segment, segments
+/// in series would diverge in length where the curve falls. In an implicit step, fl is taken at the start of the step and fv at
+/// its end, so the potential is convex. In an equilibrium, the potential contains the integral of fl.
 ///
-/// An end without anchor points is free; its nodes are held by what the muscle runs into, such as skin. A closed grid (a
-/// sphincter) has M N O fibres and no ends; l0 and s are then lengths of one round. With only one anchored end, lTs belongs to
-/// that end alone.
+/// An end without anchor points is free. Its nodes are then held by the tissue into which the muscle inserts, such as skin. A
+/// closed grid (a sphincter) has M N O fibres and no ends; l0 and s are then lengths of one round. With only one anchored end,
+/// lTs is the slack length of the tendons at that end.
 ///
-/// At a plane, lT is the distance of the tendon's node from the plane, and the tendon pulls only along the normal. So a belly
-/// may narrow and swell up to its ends. This leaves drift and rotation along the plane free, so a weak spring of stiffness
-/// F0 / l0 holds them (detail/plane_guide.h). At points of a plate, tendons become oblique when the belly swells, and squeeze its
-/// ends together.
+/// An anchor may be a plane. Then lT is the distance of the last node of the belly from the plane, and the tendon pulls only
+/// along the normal. So the ends of the belly can become narrower and wider. They could also move and rotate along the plane,
+/// so a weak spring of stiffness F0 / l0 prevents this (detail/plane_guide.h). An anchor may also be points of a plate. Then
+/// the tendons become oblique when the belly swells, and compress its ends.
 ///
-/// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly are then points of
-/// the anchor and no unknowns: the system must fix those nodes (tied_nodes) and move them (place_tied). The fibre length is
-/// that of the path from anchor to anchor minus lTs, and the outermost fibres pull on the anchor itself. Nothing is stiff and
-/// no step is limited. lTs may be 0, as for short facial muscles that begin on the bone.
+/// Rigid tendons keep their length and their direction in the frame of their anchor. Their ends at the belly then move with the
+/// anchor and are no unknowns: the system must fix these nodes (tied_nodes) and move them (place_tied). The fibre length is
+/// that of the path from anchor to anchor minus lTs, and the outermost fibres pull on the anchor itself. So no tendon is stiff,
+/// and none limits the length of a step. lTs may be 0, as for short facial muscles that begin on the bone.
 ///
 /// Sources: F. E. Zajac, Crit. Rev. Biomed. Eng. 17(4), 1989; M. Dobsik, Computer Animation of Soft Tissues, Brno 2005, 4.2.
 #pragma once
@@ -50,32 +53,33 @@ namespace risorius::muscle {
 /// Whether tendons stretch.
 enum class TendonModel { kElastic, kRigid };
 
-/// The parameters of a muscle. Field names are keys of a muscle in a file.
+/// The parameters of a muscle. The field names are the keys of a muscle in a file.
 struct MuscleParameters {
     double f0_n = 0;              ///< F0                                        (0, inf)
     double optimal_length_m = 0;  ///< l0                                        (0, inf)
     double tendon_slack_m = 0;    ///< lTs; > 0 with elastic tendons            [0, inf)
     double max_speed_hz = 10;     ///< vmax, optimal lengths per second          (0, inf)
     double pennation_deg = 0;     ///< alpha                                     [0, 90)
-    double damping = 0.05;        ///< b, damping force at vmax / F0             [0, inf)
+    double damping = 0.05;        ///< b: damping force at vmax, divided by F0      [0, inf)
     TendonModel tendon = TendonModel::kElastic;  ///< "elastic", "rigid"
-    CurveShape curves = {};                      ///< for make_curves
+    CurveShape curves = {};                      ///< argument of make_curves()
 };
 
-/// Throws Error that names the field below `place`.
+/// Throws Error when a value is outside its range. The message names the field by its path, which begins with `place`.
 void check(const MuscleParameters& parameters, const std::string& place);
-/// Reads an object whose keys are the fields; the first two are required. Throws Error.
+/// Reads an object whose keys are the field names. The first two are required. Throws Error for wrong or missing values.
 MuscleParameters read_muscle_parameters(const JsonCursor& json);
 
-/// Activation at a time.
+/// The activation at time t, 0..1.
 using ActivationAt = std::function<double(double t_s)>;
 
 /// Energy and forces of the fibres and tendons of one muscle.
 class Musculotendon final : public solve::EnergyTerm {
   public:
-    /// The nodes are those of the grid. Segments divide l0 in proportion to their lengths in `rest`. Throws Error, with a name
-    /// below `place`, for parameters outside their ranges, an elastic tendon of zero length, and a rigid tendon at a plane.
-    /// Throws std::invalid_argument for arrays of wrong size, a segment of zero length, and a ring with anchors.
+    /// The nodes of the system are those of the grid. The optimal length of a segment is proportional to its length in `rest`.
+    /// Throws Error, with a path that begins with `place`, for parameters outside their ranges, an elastic tendon of zero
+    /// length, and a rigid tendon at a plane. Throws std::invalid_argument for arrays of wrong size, a segment of zero length,
+    /// and a ring with anchors.
     Musculotendon(const MuscleParameters& parameters, MuscleCurves curves,
                   const tissue::GridShape& grid, const Points& rest, Anchors anchors,
                   ActivationAt activation, const std::string& place = "muscle");
@@ -85,7 +89,7 @@ class Musculotendon final : public solve::EnergyTerm {
     void set_activation(ActivationAt activation) { activation_ = std::move(activation); }
 
     void add_force(double t_s, const Points& x, const Points& v, Points& force) const override;
-    /// J; its negative gradient is the isometric force: fv = 1, no damping.
+    /// Stored energy, J. Its negative gradient is the isometric force, with fv = 1 and no damping.
     double energy(double t_s, const Points& x) const override;
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
@@ -93,28 +97,29 @@ class Musculotendon final : public solve::EnergyTerm {
                      solve::HessianBuilder& hessian) const override;
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
-    /// Nodes that rigid tendons make part of an anchor, ascending; none with elastic tendons.
+    /// The nodes that move with an anchor because of rigid tendons, ascending; none with elastic tendons.
     std::vector<int> tied_nodes() const;
-    /// Puts the tied nodes at the places of their anchors. It can serve as a solve::PrescribedMotion.
+    /// Moves the tied nodes with their anchors. It can serve as a solve::PrescribedMotion.
     void place_tied(double t_s, Points& x, Points& v) const;
 
     bool anchored(End end) const { return anchor(end).rest.rows() > 0; }
     Points anchor_points(End end, double t_s) const;  ///< N O x 3, m; no rows for a free end
-    /// Where the tendons meet the anchor: its points, or the projections of the nodes onto its plane. N O x 3, m.
+    /// The points where the tendons meet the anchor, N O x 3, m: the points of the anchor, or the projections of the nodes onto
+    /// its plane.
     Points tendon_feet(End end, double t_s, const Points& x) const;
-    /// Force of each tendon on its anchor, N O x 3, N, and their sum. At a plane the forces of the plane guide are included,
-    /// and torques are those of forces that act at the nodes. With rigid tendons these are the isometric forces of the
-    /// outermost fibres; the belly's own stress at tied nodes is not included.
+    /// Force of each tendon on its anchor, N O x 3, N. At a plane the forces of the plane guide are included, and the forces
+    /// act at the positions of the nodes. With rigid tendons these are the isometric forces of the outermost fibres; the
+    /// belly's own stress at tied nodes is not included.
     Points anchor_forces(End end, double t_s, const Points& x) const;
-    Vec3 anchor_pull(End end, double t_s, const Points& x) const;
+    Vec3 anchor_pull(End end, double t_s, const Points& x) const;  ///< sum of the above, N
 
     /// Mean of l/l0 along each chain, N O.
     Eigen::VectorXd stretch(const Points& x) const;
-    /// Maximum minus minimum l/l0 among the segments of a chain, for the worst chain.
+    /// The maximum of l/l0 among the segments of a chain minus the minimum. The result is the largest over all chains.
     double segment_spread(const Points& x) const;
 
   private:
-    /// The present geometry of a fibre segment or tendon.
+    /// Direction and length of a fibre segment or tendon at x.
     struct Line {
         Vec3 direction = Vec3::Zero();  ///< from its first node to its second
         double span = 0;                ///< s, distance between its nodes
@@ -123,14 +128,14 @@ class Musculotendon final : public solve::EnergyTerm {
         double curvature = 0;           ///< d2l/ds2
     };
     struct Segment {
-        double optimal_m;    ///< its part of l0
-        double thickness_m;  ///< its part of w
+        double optimal_m;    ///< its fraction of l0, m
+        double thickness_m;  ///< its fraction of w, m
     };
-    /// a fl of a chain. Slope and integral by l/l0 are set only in an equilibrium, in which fl varies with x.
+    /// a fl of a chain, with slope and integral by l/l0. These two are set only in an equilibrium, in which fl varies with x.
     struct Active {
         double force = 0, slope = 0, integral = 0;
     };
-    /// U(l) of a segment in a step: J, dU/dl, d2U/dl2.
+    /// The potential U(l) of a segment in a step, J, and dU/dl, N, and d2U/dl2, N/m.
     struct Pull {
         double energy = 0, tension = 0, slope = 0;
     };
@@ -155,14 +160,14 @@ class Musculotendon final : public solve::EnergyTerm {
         return segments_[static_cast<std::size_t>(node(m, chain))];
     }
     static Line line(const Vec3& from, const Vec3& to, double thickness_m);
-    /// The anchor of an end in its present place.
+    /// The anchor of an end at a time.
     struct Plate {
         Points points;
         Vec3 normal;  ///< zero for anchors of points
     };
     Plate plate(End end, double t_s) const;
-    /// From the tendon's node of the belly to its point of the anchor. At a plane it goes to the projection of the node, and
-    /// the span is the distance, negative beyond the plane.
+    /// The line from the end of the belly to the point of the anchor. At a plane it ends at the projection of the node, and the
+    /// span is the distance from the plane, negative beyond it.
     Line tendon(const Points& x, const Plate& plate, End end, int chain) const;
     Line fibre(const Points& x, int m, int chain) const;
     double mean_stretch(const Points& x, int chain) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Anchors: what the ends of a muscle are attached to. These are points of plates across them, planes, points of bones, or
+/// Anchors, to which the ends of a muscle are attached: points of a plate across the end, a plane, points of a bone, or
 /// nothing.
 #pragma once
 
@@ -19,8 +19,8 @@ struct Anchor {
     /// Motion of the plate from its rest pose; empty: it stands still.
     std::function<Rigid(double t_s)> motion = {};
     Eigen::VectorXd slack_m = {};  ///< of each tendon; empty: the anchored ends divide lTs equally
-    /// Zero: tendons end at the points. Otherwise a unit vector out of the belly: tendons are perpendicular to planes through
-    /// the points, wherever their nodes lie beside the points.
+    /// Zero for an anchor of points: tendons end at the points. For a plane, its unit normal out of the belly: tendons are
+    /// perpendicular to the plane through their point, and may meet it beside the point.
     Vec3 normal = Vec3::Zero();
 
     bool is_plane() const { return !normal.isZero(); }
@@ -35,12 +35,13 @@ struct Anchors {
 Vec3 outward_at(End end, const tissue::GridShape& grid, const Points& rest);
 /// Points of a plate across an end of a belly in its rest shape, at the distance `away_m` along outward_at.
 Anchor planar_anchor(End end, const tissue::GridShape& grid, const Points& rest, double away_m);
-/// The same plate as a plane.
+/// The same as planar_anchor(), but as a plane (is_plane()).
 Anchor plane_anchor(End end, const tissue::GridShape& grid, const Points& rest, double away_m);
-/// Plates of points for both ends, each half the slack length away.
+/// Plates of points for both ends, each at half the slack length.
 Anchors planar_anchors(const tissue::GridShape& grid, const Points& rest, double tendon_slack_m);
-/// Tendons, just slack in the rest shape, to points of a bone: one point for all chains, one per chain (N O), or a polyline
-/// that is divided evenly over the width a2. Throws std::invalid_argument without points.
+/// Anchor at points of a bone. `bone` has one point for all chains, one per chain (N O), or the points of a polyline along
+/// which the ends of the tendons are evenly spaced in the order of a2. In the rest shape the tendons have their slack length.
+/// Throws std::invalid_argument without points.
 Anchor bone_anchor(End end, const tissue::GridShape& grid, const Points& rest, const Points& bone);
 
 }  // namespace risorius::muscle

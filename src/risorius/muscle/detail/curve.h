@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A function of one variable in closed-form pieces, with its slope and its integral. The force curves of muscle and tendon are
-/// made of it. The integral is exact, because the line search of a solver needs an energy that agrees with the forces.
+/// A function of one variable in closed-form pieces, with its slope and its integral. The force-length, force-velocity and
+/// tendon curves are such functions. The integral is exact, because the line search of a solver needs an energy that agrees
+/// with the forces.
 ///
 ///   u = x - origin of the piece
 ///   cubic         c0 + c1 u + c2 u^2 + c3 u^3
@@ -49,14 +50,14 @@ class Curve {
         double value = 0, slope = 0, integral = 0;
     };
 
-    /// The pieces from left to right. The first also holds left of its origin, and the last has no end. The integral is zero at
-    /// `zero`. Throws std::invalid_argument unless the ends grow and the last one is infinite.
+    /// The pieces from left to right. The first piece is also used left of its origin, and the last has no end. The integral is
+    /// zero at x = `zero`. Throws std::invalid_argument unless the ends ascend and the last one is infinite.
     Curve(std::vector<CurvePiece> pieces, double zero);
 
     double value(double x) const;
     Value at(double x) const;
 
-    /// The places where pieces meet.
+    /// The values of x where pieces meet.
     std::vector<double> joints() const;
 
   private:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// A curve as a table for inner loops. Its integral is stored as cubics on equal cells and its value is their slope, so that
-/// energy and force agree to rounding for any width of the cells.
+/// energy and force agree up to rounding for any width of the cells.
 ///
-/// At the ends of cells, value and integral are those of the curve. Between them the error of the value is below f''' w^2 / 70,
-/// where w is the width of a cell. Outside the table the curve itself is evaluated.
+/// At the ends of cells, value and integral are those of the curve. Between them the error of the value is at most |f'''| w^3 /
+/// 124, where f''' is the third derivative of the curve and w is the width of a cell. Outside the range of the table the curve
+/// itself is evaluated.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ class CurveTable {
     struct Values {
         solve::Lanes value, integral;
     };
-    /// The same for four numbers, with the same bits.
+    /// The same for four numbers. The results are equal to the last bit.
     Values at(const solve::Lanes& x) const {
         const solve::Lanes place = (x - low_) * cells_per_unit_;
         const auto within = (place >= 0.0) & (place < static_cast<double>(cells_.size()));
@@ -58,7 +59,7 @@ class CurveTable {
 
     Curve curve_;
     double low_, width_, cells_per_unit_;
-    /// c0 .. c3: c0 + c1 u + c2 u^2 + c3 u^3, u from the start of the cell.
+    /// c0 .. c3 of each cell: the integral is c0 + c1 u + c2 u^2 + c3 u^3, with u = x - start of the cell.
     std::vector<solve::Lanes> cells_;
 };
 

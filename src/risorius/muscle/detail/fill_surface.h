@@ -7,7 +7,8 @@
 
 namespace risorius::muscle::detail {
 
-/// Nodes of `grid` inside shape.surface_m, MNO x 3, m. Throws Error with a place below shape.place.
+/// Returns the nodes of `grid` inside the surface of `shape` (surface_m, triangles), MNO x 3, m. Throws Error with a place that
+/// begins with shape.place.
 Points fill_surface(const MuscleShape& shape, const tissue::GridShape& grid);
 
 }  // namespace risorius::muscle::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The force curves of Millard's muscle, dimensionless, with the symbols of muscle_curves.h. Fifth-order Bezier corners join
-/// points of given slope. The curves are C2, except where they continue straight; there they are C1. So nothing has to be
-/// smoothed.
+/// The force-length, force-velocity and tendon curves of Millard's muscle, dimensionless, with the symbols of muscle_curves.h.
+/// Bezier curves of fifth order connect points of given slope. The curves are C2, except where they become straight; there they
+/// are C1. So they need no smoothing.
 ///
 /// The values are those of OpenSim's Millard2012EquilibriumMuscle with a damped fibre, whose active curve falls to 0.
 /// `curviness` is OpenSim's measure of how round a corner is, 0 to 1.
@@ -22,7 +22,7 @@ struct MillardShape {
     double active_longest = 1.8123;  ///< maximum l with active force   (1.1, inf)
     /// Slope of the shallow ascent   (0, (1 - active_minimum) / (1 - active_transition))
     double active_shallow_slope = 0.8616;
-    double active_minimum = 0;    ///< f outside of these lengths                       [0, 1)
+    double active_minimum = 0;    ///< active f outside these lengths                       [0, 1)
     double passive_strain = 0.7;  ///< strain at which passive f is 1                   (0, inf)
     double passive_low_stiffness = 0.2;  ///< slope at the start   (0, 1 / passive_strain)
     double passive_steepness = 2;     ///< slope at f = 1, times passive_strain             (1, inf)
@@ -39,7 +39,7 @@ struct MillardShape {
     double tendon_curviness = 0.5;     ///<                                                  [0, 1]
 };
 
-/// Throws std::invalid_argument when numbers are outside their ranges or do not fit together.
+/// Returns the curves. Throws std::invalid_argument when numbers are outside their ranges or contradict each other.
 MuscleCurves millard_curves(const MillardShape& shape = {});
 
 }  // namespace risorius::muscle

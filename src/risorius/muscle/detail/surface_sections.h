@@ -12,22 +12,24 @@
 
 namespace risorius::muscle::detail {
 
-/// Corners in the plane of a frame, (across, outward) from its origin, m. They run counter-clockwise as seen against the path.
+/// A closed polygon in the plane of a frame: coordinates (across, outward) of its corners from the origin of the frame, m. The
+/// corners are counter-clockwise when one looks against the direction of the path.
 using Loop = std::vector<Vec2>;
 
-double loop_area(const Loop& loop);
-Vec2 loop_centroid(const Loop& loop);
+double loop_area(const Loop& loop);    ///< m^2
+Vec2 loop_centroid(const Loop& loop);  ///< m
 /// Second moments of area about the centroid along both axes, divided by the area, m^2.
 Vec2 loop_spread(const Loop& loop);
-/// The angle by which the axes must be rotated so that the first is along the widest direction of the loop, rad.
+/// The angle by which the axes must be rotated so that the first axis is along the direction in which the loop is widest, rad.
 double loop_tilt(const Loop& loop);
 bool crosses_itself(const Loop& loop);
 bool encloses(const Loop& loop, const Vec2& point);
 
+/// A closed surface that can be cut by planes.
 class SectionedSurface {
   public:
-    /// Throws Error below `place` ("/triangles", "/points_m") unless the surface is closed, manifold, connected and oriented
-    /// outward.
+    /// Throws Error, with a path that begins with `place` ("place/triangles", "place/points_m"), unless the surface is closed,
+    /// manifold, connected and oriented outward.
     SectionedSurface(const Points& points, const Triangles& triangles, const std::string& place);
 
     double volume_m3() const { return volume_; }
@@ -48,7 +50,7 @@ class SectionedSurface {
     std::vector<std::array<int, 2>> edges_;
     double volume_ = 0;
     Vec3 centroid_ = Vec3::Zero();
-    /// Second moments of volume about the centroid, divided by the volume.
+    /// Second moments of volume about the centroid, divided by the volume, m^2.
     Mat3 spread_ = Mat3::Zero();
 };
 
