@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Rigid obstacles that soft bodies touch: shapes given by signed distances, with a place that may move.
+/// Rigid obstacles that soft bodies touch. A shape is given by its signed distance, and its place may move.
 ///
 ///   gap   signed distance from the surface, m, negative inside
 #pragma once
@@ -17,11 +17,11 @@ namespace risorius::contact {
 /// The gap at a point, and its gradient.
 struct Distance {
     double gap_m;
-    /// Of the gap, pointing out of the shape; its length is 1, or nearly 1 where the gap is interpolated.
+    /// Gradient of the gap. It points out of the shape. Its length is 1, or nearly 1 where the gap is interpolated.
     Vec3 gradient;
 };
 
-/// A shape in its own frame. Queries may run in parallel.
+/// A shape in its own frame; p is a point in this frame, m. Several threads may call the functions.
 class Shape {
   public:
     virtual ~Shape() = default;
@@ -38,26 +38,26 @@ std::shared_ptr<const Shape> make_sphere(double radius_m, const std::string& pla
 std::shared_ptr<const Shape> make_capsule(const Vec3& start, const Vec3& end, double radius_m,
                                           const std::string& place = "capsule");
 
-/// Place and velocity of a rigid body.
+/// Place and velocity of a rigid body at one time.
 struct RigidState {
     Rigid place = Rigid::Identity();
-    Vec3 velocity_m_per_s = Vec3::Zero();  ///< of the origin of its place
+    Vec3 velocity_m_per_s = Vec3::Zero();  ///< of the origin of `place`
     Vec3 spin_rad_per_s = Vec3::Zero();    ///< in world axes
 };
 using RigidMotion = std::function<RigidState(double t_s)>;
 
-/// Stays at `place`.
+/// A body that stays at `place`.
 RigidMotion standing(const Rigid& place);
-/// At `start` at time 0, moving at constant velocity and rotating about its own origin at a constant rate.
+/// A body that is at `start` at time 0, moves at constant velocity and rotates about its own origin at a constant rate.
 RigidMotion steady(const Rigid& start, const Vec3& velocity_m_per_s,
                    const Vec3& spin_rad_per_s = Vec3::Zero());
-/// Stays at `from`, moves to `to` between the two times with a smooth start and end, and stays there.
+/// A body that stays at `from` until `start_s`, moves to `to` with a smooth start and end until `end_s`, and stays there.
 RigidMotion gliding(const Rigid& from, const Rigid& to, double start_s, double end_s);
 
-/// The place that moves the plane z = 0 to the plane through `point` whose `normal` points out of the solid.
+/// The place for make_plane(): it moves the plane z = 0 to the plane through `point`. `normal` points out of the obstacle.
 Rigid plane_place(const Vec3& point, const Vec3& normal);
 
-/// A shape at its place at one time.
+/// A shape at its place at one time. Points p are in world coordinates, m.
 class PlacedShape {
   public:
     PlacedShape(const Shape& shape, const RigidState& state)
@@ -74,7 +74,7 @@ class PlacedShape {
     Rigid to_shape_;
 };
 
-/// A shape with its motion.
+/// A shape and its motion.
 class Obstacle {
   public:
     explicit Obstacle(std::shared_ptr<const Shape> shape, RigidMotion motion);

@@ -4,12 +4,13 @@
 ///
 ///   E = sum over samples of A k w(g(p))     A  area of the sample, m^2     p  its position
 ///
-/// In implicit steps friction is lagged: the normal force and the tangent plane are those of the step's start. This makes
-/// friction a potential mu N f0(|u|) of the slip u relative to the obstacle's own motion. Explicit steps use the present normal
-/// force. Damping acts only on approach, so that surfaces do not stick; its strength is lagged in the same way. An equilibrium
-/// has neither friction nor damping.
+/// In implicit steps friction is lagged: the normal force and the tangent plane are those at the start of the step. So friction
+/// has the potential mu N f0(|u|), where u is the slip relative to the moving obstacle. Explicit steps use the normal force at
+/// the present positions. Damping acts only while surfaces approach each other, so that they do not stick; its coefficient is
+/// lagged in the same way. An equilibrium has neither friction nor damping.
 ///
-/// A sample that crosses a thin obstacle completely within one step is not detected.
+/// A sample is a point of the surface with its area (surface_samples.h). A sample that passes through a thin obstacle within
+/// one step is not detected.
 #pragma once
 
 #include <memory>
@@ -35,7 +36,7 @@ class ObstacleContact : public solve::EnergyTerm {
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// Every sample may touch at some time, so each contributes half its stiffness, whether it touches or not.
+    /// Adds half of the stiffness of every sample, whether it touches or not, because every sample may touch at some time.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
     double min_gap_m(double t_s, const Points& x) const;  ///< negative: penetration
@@ -54,7 +55,8 @@ class ObstacleContact : public solve::EnergyTerm {
         double friction_n;  // mu N
         double damping;     // N s/m
     };
-    /// Motion of a lagged sample in the step relative to the obstacle: its slip, and its separation (negative on approach), m.
+    /// Motion of a sample in the step relative to the obstacle, m: its slip, and the change of its distance (negative on
+    /// approach).
     struct Slip {
         Vec3 along;
         double apart;

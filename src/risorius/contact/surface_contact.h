@@ -2,12 +2,14 @@
 /// \file
 /// Contact between two soft bodies of one system, with friction. contact_law.h explains the symbols.
 ///
-///   E = sum over pairs of A k w(n . xi)     xi  coordinates of a sample in the frame of the other body's nearest triangle
+///   E = sum over pairs of A k w(n . xi)     A  area of a sample, m^2     n  normal of the pair in the frame of the triangle
+///   xi  coordinates of the sample in the frame of the nearest triangle of the other body, m
 ///
-/// Samples of each body's surface are paired with triangles of the other body, and each side has half of the stiffness. Pairs
-/// and their normals are found at the start of a step and stay constant in the frame of the triangle (carried_frame.h). So net
-/// force and torque are zero up to rounding in every state, with friction and damping too. Friction and damping are lagged as
-/// in obstacle_contact.h; the slip is measured in the frame of the triangle.
+/// Samples of the surface of each body (surface_samples.h) are paired with triangles of the other body. The pairs of either
+/// direction have half of the stiffness. Pairs and their normals are found at the start of a step and stay constant in the
+/// frame of the triangle (detail/carried_frame.h). So the net force and torque of a pair are zero up to rounding in every
+/// state, also with friction and damping. Friction and damping are lagged as in obstacle_contact.h; the slip is measured in the
+/// frame of the triangle.
 #pragma once
 
 #include <array>
@@ -24,7 +26,7 @@ namespace risorius::contact {
 /// Density of the samples, and the range of the search.
 struct SurfaceContactOptions {
     int per_side = 2;  ///< number of parts of each side of a triangle, for samples     [1, inf)
-    /// Search distance for pairs in addition to the thickness, inside and outside, and to the motion of the step; 0: 4
+    /// Pairs are searched inside and outside within this distance plus the thickness plus the motion in the step, m. 0: 4
     /// thicknesses.
     double search_m = 0;
 };
@@ -37,7 +39,7 @@ class SurfaceContact : public solve::EnergyTerm {
     /// Contact between two closed surfaces over the nodes of one system. Throws Error unless both are closed in the rest shape.
     SurfaceContact(const Points& rest, const Triangles& first, const Triangles& second,
                    const ContactMaterial& material, const SurfaceContactOptions& options = {});
-    /// Contact of a surface without an inside (a cloth, a curve) with a closed one.
+    /// Contact of samples of a body without an inside (a cloth, a curve) with a closed surface.
     SurfaceContact(const Points& rest, std::vector<ContactSample> samples, const Triangles& closed,
                    const ContactMaterial& material, const SurfaceContactOptions& options = {});
 
@@ -51,21 +53,21 @@ class SurfaceContact : public solve::EnergyTerm {
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const override;
-    /// Every node of either surface may touch at some time, so each contributes half its part of the stiffness, whether it
-    /// touches or not.
+    /// Adds half of the stiffness of every node of either surface, whether it touches or not, because every node may touch at
+    /// some time.
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
 
-    /// Minimum gap among the pairs of the step, m; negative: penetration; infinite without pairs.
+    /// Minimum gap of the pairs of the step, m. It is negative when there is penetration, and infinite without pairs.
     double min_gap_m(const Points& x) const;
     int pair_count() const { return static_cast<int>(pairs_.size()); }
-    /// Force on the first body (or on the samples) at positions x without velocity, N.
+    /// Force on the first body (or on the samples) at the positions x, without friction and damping, N.
     Vec3 force_on_first(const Points& x) const;
 
   private:
     /// The samples of one surface and the triangles of another.
     struct Side {
         std::vector<ContactSample> samples;
-        int own = -1;  // surface of the samples; -1: none
+        int own = -1;  // index of the surface that has the samples; -1: none
         int other = 0;
         double fraction = 1;  // of the stiffness
     };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A closed triangle surface that distinguishes inside from outside and may be deformed: exact signed distances.
+/// Exact signed distances to a closed triangle surface, which may be deformed. They are negative inside.
 ///
-/// The sign comes from the distance along the angle-weighted normal of the nearest face, edge or vertex. It is right at corners
-/// too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
+/// The sign comes from the distance along the angle-weighted normal of the nearest triangle, edge or vertex. It is correct at
+/// edges and vertices too (Baerentzen & Aanaes 2005, IEEE Trans. Vis. Comput. Graph. 11(3)).
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@
 
 namespace risorius::contact {
 
-/// The point of the surface that is nearest to p.
+/// The point of the surface that is nearest to a point p.
 struct Nearest : geom::SurfacePoint {
     double gap_m = 0;             ///< signed distance of p, negative inside
     Vec3 normal = Vec3::UnitZ();  ///< angle-weighted normal out of the surface, length 1
@@ -32,7 +32,7 @@ class ClosedSurface {
     /// Moves the surface. The triangles stay the same.
     void refit(const Points& positions);
 
-    /// Empty when nothing lies within `max_distance_m`. Queries may run in parallel.
+    /// Returns the nearest point, or nothing when the surface is farther than `max_distance_m`. Several threads may call it.
     std::optional<Nearest> nearest(
         const Vec3& p, double max_distance_m = std::numeric_limits<double>::infinity()) const;
 
@@ -49,7 +49,7 @@ class ClosedSurface {
     Points face_normals_, edge_normals_, vertex_normals_;  // length 1; 0 where there is no area
 };
 
-/// Volume inside the surface, m^3; negative when it faces inwards.
+/// Volume inside the surface, m^3; negative when its triangles face inwards.
 double enclosed_volume(const Points& positions, const Triangles& triangles);
 
 }  // namespace risorius::contact

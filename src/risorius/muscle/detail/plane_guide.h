@@ -5,7 +5,7 @@
 ///
 ///   x   nodes of the end      c, n   middle and normal of the plate       r   points of the plate minus c, in the plane
 ///   E = k/2 [ |u|^2 + p^2 w^2 ]      u  mean of x from c, along the plane    w  mean rotation about n, sum (n x r).x / sum r^2
-///                                    p^2 = mean r^2                             k  stiffness, N/m
+///                                    p^2 = mean r^2                          k  stiffness, N/m
 ///
 /// u (two components) and w are three linear functions ("forms") of x, which are orthogonal. So the end can become narrower and
 /// wider about its middle without force, and no force acts along n.

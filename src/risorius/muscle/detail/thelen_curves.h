@@ -28,7 +28,7 @@ struct ThelenShape {
     double passive_strain = 0.6;     ///< e0, strain at which passive f is 1     (0, inf)
     double passive_exponent = 5;     ///< k                                      (1, inf)
     double hill_curvature = 0.25;    ///< Af, a / F0 of Hill's hyperbola         (0, inf)
-    double lengthening_force = 1.4;  ///< Flen, limit of f for large v > 0               (1, inf)
+    double lengthening_force = 1.4;  ///< Flen, limit of f for large v > 0       (1, inf)
     double tendon_strain = 0.04;     ///< eps0, at which fT is 1                 (0, inf)
     double tendon_toe_force = 0.33;  ///< Ftoe                                   (0, 1)
     double tendon_toe_exponent = 3;  ///< k of the tendon                        (1, inf)
