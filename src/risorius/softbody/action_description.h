@@ -8,7 +8,7 @@
 ///                 {"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
 ///                 {"capsule": {"start_m": [0, 0, 0], "end_m": [1, 0, 0], "radius_m": 0.2}}]
 ///
-/// "at" gives material coordinates, so that it names the same point at any resolution.
+/// "at" gives material coordinates, each in [0, 1], so it is the same point of the body at any resolution.
 #pragma once
 
 #include <memory>
@@ -25,13 +25,13 @@ namespace risorius::softbody {
 /// An entry of "springs".
 struct SpringDescription {
     Vec3 at;                     ///< material coordinates
-    tissue::PointSpring spring;  ///< its own `at` is set when the body is built
+    tissue::PointSpring spring;  ///< spring.at is set when the body is built
 };
 
 /// An entry of "pulses".
 struct PulseDescription {
-    Vec3 at;  ///< material coordinates
-    tissue::ForceGenerator generator;
+    Vec3 at;                           ///< material coordinates
+    tissue::ForceGenerator generator;  ///< generator.at is set when the body is built
 };
 
 /// An entry of "obstacles".
@@ -40,12 +40,12 @@ struct ObstacleDescription {
     contact::ContactMaterial contact;
 };
 
-/// Reads lists of loads. `axes`: number of material axes of the body, 2 or 3. Throws Error.
+/// Read lists of loads. `axes` is the number of material axes of the body. Throw Error for wrong values.
 std::vector<SpringDescription> read_springs(const JsonCursor& json, int axes);
 std::vector<PulseDescription> read_pulses(const JsonCursor& json, int axes);
 ObstacleDescription read_obstacle(const JsonCursor& json);
 std::vector<ObstacleDescription> read_obstacles(const JsonCursor& json);
-/// Reads the fields of ContactMaterial. Fields that are left out have their defaults. Throws Error.
+/// Reads the fields of ContactMaterial. Fields that are left out have their default values. Throws Error for wrong values.
 contact::ContactMaterial read_contact(const JsonCursor& json);
 
 }  // namespace risorius::softbody

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A soft object as an experiment file describes it: its kind, grid, rest shape, material, fixed nodes and loads. Field names
-/// are the keys; read_body checks every one.
+/// A soft object as an experiment file describes it: its kind, grid, rest shape, material, fixed nodes and loads. The field
+/// names are the keys; read_body() checks every key.
 ///
 ///   {"kind": "solid", "discretisation": "differences", "grid": [7, 7, 7],
 ///    "rest": {"block_m": [3, 3, 3]},
@@ -9,13 +9,13 @@
 ///    "regions": [{"nodes": {"a1": "first"}, "factors": {"elastic": {"22": 0.1}}}],
 ///    "fixed": [{"a3": "last"}], "gravity_m_per_s2": [0, 0, -9.81]}
 ///
-/// - Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers, and "bending_n_per_m" instead of the
-///   incompressibility. Their discretisations are "differences" and "triangles". "irregular": {"share": 0.35, "seed": 1} moves
-///   the nodes of triangles off the grid by up to that fraction of its spacing.
+/// - Surfaces ("kind": "surface") and tubes ("cylinder") have a grid of two numbers of nodes, and "bending_n_per_m" instead of
+///   the incompressibility. Their discretisations are "differences" and "triangles". "irregular": {"share": 0.35, "seed": 1}
+///   moves the nodes of triangles away from the grid points by up to that fraction of the spacing.
 /// - Curves ("curve") have one number of nodes, numbers instead of tensors, and no discretisation.
 /// - Solid blocks may have {"shear_pa", "bulk_pa", "density_kg_per_m3"} or {"young_pa", "poisson_ratio", ..} as material.
-/// - "parameters": "per-node" uses lambda and omega as they are, without eq. (10). "bending_parameters" does so for the bending
-///   of surfaces.
+/// - With "parameters": "per-node", lambda and omega are the values of each node, without eq. (10) of the thesis (M. Dobsik,
+///   Computer Animation of Soft Tissues, Brno 2005). "bending_parameters" has the same meaning for the bending of surfaces.
 #pragma once
 
 #include <optional>
@@ -37,23 +37,23 @@ namespace risorius::softbody {
 
 /// How a body is discretised.
 enum class Discretisation {
-    kDifferences,  ///< A, the thesis' finite differences
-    kCells,        ///< B, trilinear cells with exact volume
-    kTriangles     ///< for surfaces
+    kDifferences,  ///< A: finite differences, as in the thesis
+    kCells,        ///< B: trilinear cells with exact volume
+    kTriangles     ///< triangles, for surfaces
 };
 
-/// An isotropic material given by its moduli. It is converted to lambda, omega and psi of the block it fills.
+/// An isotropic material given by its moduli. It is converted to lambda, omega and psi for the size of the block.
 struct ModuliDescription {
     tissue::IsotropicModuli elastic;
     double density_kg_per_m3 = 1000;  ///< (0, inf)
-    /// Shear viscosity; resists strain rate as mu resists strain           [0, inf)
+    /// Shear viscosity: multiplies the strain rate as mu multiplies the strain           [0, inf)
     double viscosity_pa_s = 0;
     double drag_ns_per_m = 0;  ///< c of each node                       [0, inf)
 };
 
-/// Triangles that are moved off the grid; see tissue::irregularly_triangulated.
+/// Triangles whose nodes are moved away from the grid points; see tissue::irregularly_triangulated().
 struct IrregularDescription {
-    double fraction = 0;  ///< of the spacing      [0, 0.45]
+    double fraction = 0;  ///< maximum move / spacing      [0, 0.45]
     unsigned seed = 1;    ///< of the random positions
 };
 
@@ -66,7 +66,7 @@ struct BodyDescription {
     tissue::GridShape grid;  ///< one layer for surfaces, one line of nodes for curves
     RestDescription rest;
 
-    /// The material before regions change it. That of a surface is in `surface`, that of a curve in `curve`.
+    /// Material of a solid before regions change it. `surface` is the material of a surface, `curve` that of a curve.
     tissue::SolidMaterial material;
     std::optional<ModuliDescription> moduli;  ///< replaces `material`
     tissue::SurfaceMaterial surface;
@@ -82,18 +82,19 @@ struct BodyDescription {
     std::vector<ObstacleDescription> obstacles;
 };
 
-/// Throws Error with file and JSON pointer for everything that does not fit the description above.
+/// Reads a body. Throws Error for everything that does not agree with the description above; the message names the file and the
+/// JSON pointer.
 BodyDescription read_body(const JsonCursor& json);
 
-/// The checked solid, surface or curve, with its rest shape in place and a material per node. Throws Error below
-/// description.place, for instance for a folded rest shape or an index outside the grid.
+/// Return the solid, surface or curve with its rest shape at its place and a material per node. They check it and throw Error,
+/// with a path that begins with description.place, for instance for a folded rest shape or an index outside the grid.
 tissue::GridSolid grid_solid(const BodyDescription& description);
 tissue::GridSurface grid_surface(const BodyDescription& description);
 tissue::TriangleSurface triangle_surface(const BodyDescription& description);
 tissue::GridCurve grid_curve(const BodyDescription& description);
 
-/// Logarithm of the mean stiffness of each node, for colour. It is the bending stiffness when regions change that. Empty for
-/// curves, and when no region changes the material.
+/// Logarithm of the mean stiffness of each node, to colour the body. It is the bending stiffness when regions change the
+/// bending. Empty for curves, and when no region changes the material.
 std::vector<double> relative_stiffness(const BodyDescription& description);
 
 /// One flag per node; true when any entry of `fixed` selects it.

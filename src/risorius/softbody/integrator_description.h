@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The integrator as an experiment file describes it: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
+/// The description of an integrator in an experiment file: {"method": "rkck", "step_s": 1e-3, "tolerance": 1e-6}.
 #pragma once
 
 #include "risorius/core/json_cursor.h"
@@ -8,8 +8,8 @@
 
 namespace risorius::softbody {
 
-/// Keys are the fields of solve::IntegratorOptions, except length_scale_m, which comes from the body. "method" is required.
-/// Throws Error for values out of range.
+/// Reads an integrator. The keys are the fields of solve::IntegratorOptions, except length_scale_m, which is determined by the
+/// body. "method" is required. Throws Error for values out of range.
 solve::IntegratorOptions read_integrator(const JsonCursor& json);
 
 }  // namespace risorius::softbody

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A soft object that is ready to move: its equations of motion, its initial state, and what is drawn and measured.
+/// A soft object that is ready to move: its equations of motion, its initial state, and the data for drawing and measuring it.
 #pragma once
 
 #include <array>
@@ -20,25 +20,26 @@ struct SoftBody {
     Points rest;             ///< MNO x 3, m
     /// Copies of this body share its terms, so only one thread at a time may use them.
     solve::MotionSystem system;
-    double length_scale_m = 1;  ///< longest edge of the bounding box of the rest shape
+    double length_scale_m = 1;  ///< longest edge of the bounding box at rest, m
 
-    double weight_n = 0;  ///< of the whole body
+    double weight_n = 0;  ///< of the whole body, N
 
     Triangles surface = {};                      ///< boundary, facing outward
     std::vector<std::array<int, 2>> wires = {};  ///< pairs of neighbouring nodes
     std::vector<std::array<int, 2>> edges = {};  ///< wires along the edges of the rest shape
-    std::vector<int> fixed = {};                 ///< rows
+    std::vector<int> fixed = {};                 ///< indices of the fixed nodes
 
-    /// The rest shape without velocity, t = 0.
+    /// Returns the initial state: the rest shape without velocity at t = 0.
     solve::MotionState start() const;
 
-    /// Enclosed volume of trilinear cells, m^3. This function and the next are for solids.
+    /// Volume of the trilinear cells, m^3. Only for solids, as the next function.
     double volume(const Points& x) const;
-    /// The thesis' sum over nodes of dV by forward differences, m^3, for any discretisation.
+    /// Sum over nodes of dV by forward differences as in the thesis (difference_solid.h), m^3, for any discretisation of a
+    /// solid.
     double volume_element_sum(const Points& x) const;
 };
 
-/// Throws Error when grid_solid does.
+/// Builds the body. Throws the same errors as grid_solid() and the other functions of body_description.h.
 SoftBody build_body(const BodyDescription& description);
 
 }  // namespace risorius::softbody

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Parts of a body with a different material: a selection of nodes, and what is multiplied or set there. The change is uniform
-/// or grows along one axis.
+/// A region: a part of a body with a different material. It is a selection of nodes, with the quantities that are multiplied or
+/// replaced there. The change is uniform or grows along one axis.
 ///
 ///   {"nodes": {"a1": {"from": 0.5, "to": 1}}, "factors": {"elastic": {"22": 0.1, "23": 0.1}, "damping": 0.5}}
 ///   {"nodes": {"a2": {"from": 0.46, "to": 1}}, "values": {"elastic_n_per_m3": 0.5}, "graded": "a2"}
@@ -31,22 +31,24 @@ struct MaterialChange {
     std::string quantity;  ///< Quantity::name
     bool factor = true;    ///< true: multiplies the value; false: replaces it
     Mat3 number = Mat3::Ones();
-    /// 1 for the entries of `number` that count; all of them when a plain number is given.
+    /// 1 for the entries of `number` that are given in the file, 0 for the others; all 1 for a plain number.
     Mat3 given = Mat3::Zero();
 };
 
 struct MaterialRegion {
     NodeSelection nodes;
     std::vector<MaterialChange> changes;
-    /// The change grows linearly along this axis, from zero at `from` to all of it at `to`; -1: uniform.
+    /// The change increases linearly along this axis, from none at `from` to the whole change at `to`; -1: uniform.
     int graded_axis = -1;
 };
 
+/// Reads the list "regions". `axes` is the number of material axes of the body. Throws Error for wrong values.
 std::vector<MaterialRegion> read_regions(const JsonCursor& json,
                                          const std::vector<Quantity>& quantities, int axes);
 
-/// Reads a non-negative number for an isotropic tensor, or {"11": .., "22": .., "12": ..}, with `axes` rows. Off-diagonal
-/// entries that are left out are the mean of their diagonals, as in eq. (10). Throws Error.
+/// Reads a non-negative number for an isotropic tensor, or {"11": .., "22": .., "12": ..}, with `axes` rows. An off-diagonal
+/// entry that is left out is the mean of the two diagonal entries, as in eq. (10) of the thesis (solid_material.h). Throws
+/// Error for wrong values.
 Mat3 read_tensor(const JsonCursor& json, int axes);
 
 /// Calls `change` for every node of every region, in order, with the fraction 0..1 of the change that applies.
@@ -54,7 +56,7 @@ void for_each_change(
     const std::vector<MaterialRegion>& regions, const tissue::GridShape& grid,
     const std::function<void(int node, const MaterialChange& change, double fraction)>& change);
 
-/// The value `before` after a fraction of the change.
+/// Returns the value `before` after a fraction (0..1) of the change.
 Mat3 changed(const Mat3& before, const MaterialChange& change, double fraction);
 double changed(double before, const MaterialChange& change, double fraction);
 

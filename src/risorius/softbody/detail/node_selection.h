@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Selection of grid nodes by planes, ranges and corners, as experiment files write it. Ends and material coordinates select
+/// Selects nodes of a grid by planes, ranges and corners, in the form of experiment files. Ends and material coordinates select
 /// the same part of a body at any resolution.
 ///
 ///   {"a3": "last"}                                  the plane of nodes where a3 is maximum
@@ -20,7 +20,8 @@
 
 namespace risorius::softbody {
 
-/// A range of one axis, both ends included. `from` may be greater than `to`: a graded change then grows in that direction.
+/// A range along one axis, both ends included. `from` may be greater than `to`; then a graded change increases towards lower
+/// coordinates.
 struct AxisRange {
     bool coordinates = false;  ///< material coordinates instead of node indices
     double from = 0, to = 0;   ///< indices may be negative: -1 is the last node
@@ -33,10 +34,11 @@ struct NodeSelection {
     int reach = 0;  ///< number of nodes beside each corner, along each axis
 };
 
-/// `axes`: number of material axes of the body, 1 to 3. Throws Error.
+/// Reads a selection. `axes` is the number of material axes of the body, 1 to 3. Throws Error for wrong values.
 NodeSelection read_node_selection(const JsonCursor& json, int axes);
 
-/// Rows of the selected nodes, ascending. Throws Error at the place of an index outside the grid.
+/// Returns the indices of the selected nodes, ascending. Throws Error for an index outside the grid; the message names its
+/// place in the file.
 std::vector<int> select(const NodeSelection& selection, const tissue::GridShape& grid);
 
 /// Position of a selected node within the range of one axis: 0 at its `from`, 1 at its `to`. It is 1 when that axis is not

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Readers of numbers with a half-open range, and the maximum number of nodes.
+/// Functions that read positive and non-negative numbers, and the maximum number of nodes. They throw Error for other values.
 #pragma once
 
 #include "risorius/core/json_cursor.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The undeformed shape of a body as a file describes it: a block, a cylinder, a sheet, a tube, a path, or a list of all nodes.
+/// The rest shape of a body as a file describes it: a block, a cylinder, a sheet, a tube, a path, or a list of all nodes.
 ///
 ///   {"block_m": [3, 3, 3]}                              solid; edges along x, y, z, which are a1, a2, a3
 ///   {"cylinder": {"radius_m": 0.5, "length_m": 3}}      solid; its axis is a1 and x; the square of a2, a3 is mapped to a disc
 ///   {"sheet_m": [3, 3]}                                 surface; edges along x, y, which are a1, a2
 ///   {"path_m": [[0, 0, 0], [3, 0, 0]]}                  curve; straight from point to point, with evenly spaced nodes
 ///   {"tube": {"radius_m": 0.5, "length_m": 3}}          cylinder; its axis is a1 and x, a2 goes round from y towards z
-///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] in row (m N + n) O + o; fits one grid only
+///   {"points_m": [[0, 0, 0], ...]}                      any; node [m, n, o] is row (m N + n) O + o; for one grid only
 ///
 /// Each may have "turn": {"axis": [0, 1, 0], "angle_deg": 90}, a rotation about the shape's own origin, and then
 /// "at_m": [0, 0, 1], a translation.
@@ -38,10 +38,11 @@ struct RestDescription {
     Rigid placed = Rigid::Identity();
 };
 
-/// Throws Error unless the form fits the kind.
+/// Reads a rest shape. Throws Error when the form is not for bodies of this kind.
 RestDescription read_rest(const JsonCursor& json, Kind kind);
 
-/// All nodes of a grid, N x 3, m (one layer for surfaces). Throws Error when the number of points is not that of the nodes.
+/// All nodes of a grid, N x 3, m (one layer for surfaces). Throws Error when the number of points in the file is not the number
+/// of nodes.
 Points rest_points(const RestDescription& rest, const tissue::GridShape& grid);
 
 }  // namespace risorius::softbody
