@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Counter-based random numbers: each depends only on its key, so that it is the same on every machine and in any order.
+/// Counter-based random numbers. Each number depends only on its key, so it is the same on every machine and in any order of
+/// calls.
 ///
-/// Source: splitmix64 of Steele, Lea, Flood 2014, OOPSLA, 453-472; one step for every part of the key.
+/// Source: splitmix64 of Steele, Lea & Flood 2014, OOPSLA, 453-472, with one step for every part of the key.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ class CounterRng {
     std::uint64_t state_;
 };
 
-/// A sequence of random numbers, for cases where the key would only be a running number.
+/// A sequence of random numbers, for cases in which the key would only count the numbers.
 class RandomSequence {
   public:
     explicit RandomSequence(std::uint64_t seed) : state_(seed) {}

@@ -7,7 +7,7 @@
 
 namespace risorius {
 
-/// The folder that holds `rigs`, `models` and `samples`. The places are searched in this order:
+/// Returns the folder that contains `rigs`, `models` and `samples`. These places are searched in this order:
 ///   1. the folder given to set_data_folder(),
 ///   2. the environment variable RISORIUS_DATA,
 ///   3. `share/risorius` beside the folder of the library or program that contains this code (an installation),
@@ -17,7 +17,8 @@ namespace risorius {
 /// Throws Error that names the places when none of them holds the files.
 std::filesystem::path data_folder();
 
-/// For programs that bring the data files along. An empty path makes data_folder() search again.
+/// Sets the folder that data_folder() searches first, for programs that come with their own data files. An empty path removes
+/// it.
 void set_data_folder(const std::filesystem::path& folder);
 
 }  // namespace risorius

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Decompositions of dense matrices of any size. They are compiled once, here, because every file that uses those of Eigen
-/// takes seconds longer to compile.
+/// Decompositions of dense matrices of any size. They are compiled only once, because each file that uses the decompositions of
+/// Eigen takes seconds longer to compile.
 #pragma once
 
 #include <complex>
@@ -27,12 +27,12 @@ Eigen::MatrixXd positive_part(const Eigen::MatrixXd& matrix);
 /// Eigenvalues of any square matrix.
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// X of matrix X = right, one solution per column. Uses complete pivoting, for nearly singular matrices.
+/// Solves matrix X = right for X, one solution per column. It uses complete pivoting, for nearly singular matrices.
 Eigen::MatrixXd solved_for(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
-/// The inverse of a regular matrix.
+/// The inverse of a matrix that is not singular.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
-/// x of matrix x = right. The matrix is symmetric and may be singular.
+/// Solves matrix x = right for x. The matrix is symmetric and may be singular.
 Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 }  // namespace risorius

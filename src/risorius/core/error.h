@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The one exception for input that a person can correct. Its message names the place, then what was expected, then what was
+/// Error, the exception for input that the user can correct. Its message names the place, then what was expected, then what was
 /// found:
 ///   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
 #pragma once
@@ -12,13 +12,13 @@
 
 namespace risorius {
 
-/// Thrown for wrong input; exit code 2.
+/// Thrown for wrong input. Programs then return the exit code 2.
 class Error : public std::runtime_error {
   public:
     Error(const std::string& place, const std::string& expected, const std::string& found)
         : Error(place + ": expected " + expected + ", found " + found) {}
 
-    /// The message, with each option that option_name() marks in it replaced by `word_for(field)`.
+    /// The message, in which each name of an option that option_name() has marked is replaced by `word_for(field)`.
     std::string worded(const std::function<std::string(const std::string&)>& word_for) const {
         return put_words(marked_, word_for);
     }
@@ -46,11 +46,13 @@ class Error : public std::runtime_error {
     std::string marked_;
 };
 
-/// Marks the name of an option in the message of an Error. A library gives the field of its options struct, and what() shows
-/// it. A program may show its own word instead, such as a flag of its command line; see Error::worded().
+/// Marks the name of an option in the message of an Error. A function of the library passes the name of the field in its struct
+/// of options, and what() contains this name. A program can replace it by its own word, such as a flag of its command line; see
+/// Error::worded().
 inline std::string option_name(const std::string& field) { return "\x01" + field + "\x02"; }
 
-/// The run itself failed although the input was right, for instance because of a full disk or a failed encoder. Exit code 1.
+/// Thrown when a run failed although the input was correct, for instance because of a full disk or a failed encoder. Programs
+/// then return the exit code 1.
 class RunError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A file that a JSON file names. When it is missing, the message names the key that asks for it.
+/// Finds a file that a JSON file names. When it is missing, the message of the Error gives the key with its name.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace risorius {
 
-/// The path that the string gives, relative to the folder of its own file. Throws Error when nothing is there.
+/// Returns the path in the string `json`, which is relative to the folder of the JSON file. Throws Error when no such file
+/// exists.
 std::filesystem::path existing_file(const JsonCursor& json);
 
 }  // namespace risorius

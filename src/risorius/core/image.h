@@ -13,7 +13,7 @@ struct Image {
     int width_px = 0;
     int height_px = 0;
     std::vector<std::uint8_t> rgba;   ///< height x width x 4, rows from the top
-    std::vector<std::uint16_t> deep;  ///< the same in 16 bits, or empty
+    std::vector<std::uint16_t> deep;  ///< the same with 16 bits per channel, or empty
 
     Image() = default;
     Image(int width, int height)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Tells a program that links an installed static library where the data of that installation lie.
+/// For programs that link an installed static library: gives data_folder() the folder with the data of that installation.
 ///
-/// The target risorius::core of find_package(risorius) defines RISORIUS_INSTALLED_DATA. A program that includes any header of the library
-/// then names this folder to data_folder() before main() begins.
+/// The target risorius::core of find_package(risorius) defines RISORIUS_INSTALLED_DATA. In a program that includes any header
+/// of the library, this folder is then added before main() begins.
 #pragma once
 
 namespace risorius {
 
-/// Makes data_folder() look in `folder` too, last of all. Returns true.
+/// Makes data_folder() search `folder` too, after all other places. Returns true.
 bool add_installed_data(const char* folder);
 
 #ifdef RISORIUS_INSTALLED_DATA

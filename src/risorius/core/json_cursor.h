@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A place in a JSON file. It reads values and reports errors: the file, the place in it (JSON pointer), what was expected and
-/// what was found. Unknown keys are errors, so every reader lists the keys it knows.
+/// A value in a JSON file with its place. It is read through a cursor, which also reports errors: the file, the place in it
+/// (JSON pointer), what was expected and what was found. Unknown keys are errors, so every function that reads an object lists
+/// the keys it knows.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,8 @@
 
 namespace risorius {
 
-/// Keys keep the order of the file. The type is only declared here: files that look into a value include <nlohmann/json.hpp>,
-/// which takes seconds to compile.
+/// A JSON value, whose keys keep the order of the file. The type is only declared here. Files that use its members must include
+/// <nlohmann/json.hpp>, which takes seconds to compile.
 using Json = nlohmann::ordered_json;
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -30,17 +31,17 @@ struct Range {
     double max;
 };
 
-/// A value of a JSON document that knows its place. Copies share the document.
+/// A value of a JSON document with its place. Copies share the document.
 class JsonCursor {
   public:
     /// Reads and parses a file. Throws Error when the file is missing, when the JSON is malformed (with line and column), or
     /// when a key is given twice.
     static JsonCursor read_file(const std::filesystem::path& file);
 
-    /// For tests and for tables that are in memory. `name` replaces the file's path in messages.
+    /// Makes a cursor for JSON in memory, for tests and tables. `name` replaces the path of the file in messages.
     static JsonCursor from_json(Json json, const std::string& name);
 
-    /// The file this value came from (as given).
+    /// The path of the file with this value, as it was passed to read_file().
     const std::filesystem::path& file() const;
     std::filesystem::path folder() const { return file().parent_path(); }
     /// The place of this value, "file:/json/pointer".
@@ -49,9 +50,10 @@ class JsonCursor {
 
     bool has(std::string_view key) const;
     JsonCursor at(std::string_view key) const;  ///< throws Error when the key is missing
-    std::optional<JsonCursor> find(std::string_view key) const;
+    std::optional<JsonCursor> find(std::string_view key) const;  ///< empty when the key is missing
 
-    /// Throws Error when this is not an object, or when it has a key outside the list. The message names the nearest known key.
+    /// Throws Error when this is not an object, or when it has a key outside the list. The message contains the known key that
+    /// is most similar.
     void allow_keys(const std::vector<std::string_view>& known) const;
     std::vector<std::string> keys() const;  ///< throws Error when this is not an object
     std::vector<JsonCursor> items() const;  ///< throws Error when this is not an array
@@ -69,10 +71,10 @@ class JsonCursor {
     std::string one_of(const std::vector<std::string_view>& choices) const;
     Vec3 vec3() const;
 
-    /// A path that is written in this file, relative to the file's folder.
+    /// The path in this string, which is relative to the folder of this file.
     std::filesystem::path path() const;
 
-    /// Throws Error at this place.
+    /// Throws Error with this place.
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
     [[noreturn]] void fail(const std::string& expected) const;  ///< found: this value, shortened
 
@@ -86,14 +88,15 @@ class JsonCursor {
     const Json* value_;
 };
 
-/// When `table` is a string, it names another JSON file, relative to the folder of its own file. Otherwise it is the table
-/// itself.
+/// Returns a table that may be in another file. When `table` is a string, it is the path of a JSON file, relative to the folder
+/// of its own file, and the result is the content of that file. Otherwise the result is `table` itself.
 JsonCursor follow_table(const JsonCursor& table);
 
-/// The name of `known` that is nearest by edit distance, or empty when none is near. For "did you mean" in messages.
+/// The name in `known` with the smallest edit distance from `name`, or empty when none is similar. For "did you mean" in
+/// messages.
 std::string nearest_name(std::string_view name, const std::vector<std::string_view>& known);
 
-/// Shortest decimal form of a number that reads back the same.
+/// The shortest decimal form of a number from which the same number is read again.
 std::string format_number(double value);
 
 }  // namespace risorius

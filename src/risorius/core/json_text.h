@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// JSON that is first read as text, so that the same bytes can be parsed and hashed.
+/// Reads JSON as text and then parses it, so that the same bytes can also be hashed.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace risorius {
 /// is empty.
 std::string read_json_text(const std::filesystem::path& file);
 
-/// Parses text that is in memory. `name` replaces the path of a file: in messages, and as the start of relative paths. Throws
-/// Error when the JSON is malformed (with line and column) or when a key is given twice.
+/// Parses text that is in memory. `name` replaces the path of a file in messages, and relative paths begin at its folder.
+/// Throws Error when the JSON is malformed (with line and column) or when a key is given twice.
 JsonCursor parse_json_text(const std::string& text, const std::filesystem::path& name);
 
 }  // namespace risorius

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Names that a person may mistype: the list of known names, and which one was probably meant.
+/// Finds the name that the user probably meant in a list of known names.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace risorius {
 
-/// " (did you mean "muscles"?)", or an empty text when no known name is near.
+/// Returns a text such as " (did you mean "muscles"?)", or an empty one when no known name is similar.
 std::string did_you_mean(std::string_view found, const std::vector<std::string>& names);
 
-/// Index of a name among the known ones. Throws Error when it is none of them; the message names `place`, all known names and
-/// the nearest one.
+/// Returns the index of the name `found` in `names`. Throws Error when it is not there; the message contains `place`, all known
+/// names and the most similar one.
 std::size_t index_of_name(const std::string& place, const std::string& found,
                           const std::vector<std::string>& names);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Loops on several threads. Nested loops share one pool of spare threads, so that a loop that ends early lends its threads to
-/// others.
+/// Loops on several threads. Nested loops share one pool of spare threads. So other loops can use the threads of a loop that
+/// has ended.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace risorius {
 
-/// The number of threads that loops may still take from a pool. Several threads may use it.
+/// A pool of spare threads: the number of threads that loops may still start. Several threads may call its functions.
 class SpareThreads {
   public:
     explicit SpareThreads(int count) : count_(count) {}
@@ -21,11 +21,13 @@ class SpareThreads {
         --count_;
         return true;
     }
+    /// Returns a thread to the pool.
     void give() {
         const std::lock_guard<std::mutex> lock(mutex_);
         ++count_;
     }
-    /// Takes back a thread that was lent. The lent thread continues, even if there is one too many for a while.
+    /// Takes a thread back that was given to the pool, even if another loop uses it. Then there is one thread too many for a
+    /// while.
     void take_back() {
         const std::lock_guard<std::mutex> lock(mutex_);
         --count_;
@@ -36,7 +38,7 @@ class SpareThreads {
     int count_;
 };
 
-/// How many threads to use. A plain number converts to it.
+/// The number of threads to use. An int converts to it.
 struct ThreadLimit {
     int max = 0;  ///< 0: as many as the machine has
     /// The pool of additional threads; the calling thread is not taken from it.
@@ -48,8 +50,9 @@ struct ThreadLimit {
     int count() const;
 };
 
-/// Calls body(i) for i in [0, count) on several threads, lowest i first. Each call must only write its own data. The first
-/// exception (by i) is thrown again after all calls have ended. Calls may be nested when they share their spare threads.
+/// Calls body(i) for i in [0, count) on several threads, lowest i first. A call must not write data that other calls use. After
+/// an exception no further calls begin; when the running ones have ended, the exception with the lowest i is thrown again.
+/// Calls may be nested when they share their spare threads.
 void parallel_for(int count, const ThreadLimit& threads, const std::function<void(int)>& body);
 
 }  // namespace risorius

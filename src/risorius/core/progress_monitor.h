@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Progress and interruption of a long run. The caller hands in two functions; the run calls them between its steps.
+/// Progress and interruption of a long run. The caller passes two functions, and the run calls them between its steps.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace risorius {
 
-/// Thrown when the caller asked the run to stop. Everything the run had begun to write is removed.
+/// Thrown when the caller has asked the run to stop. All files that the run had begun to write are removed.
 class Interrupted : public std::exception {
   public:
     const char* what() const noexcept override { return "interrupted"; }
@@ -17,7 +17,7 @@ class Interrupted : public std::exception {
 
 /// The two functions of the caller. Both may be empty.
 struct ProgressMonitor {
-    /// Receives the fraction of the run that is done, 0 to 1, and the name of what is being done.
+    /// Receives the fraction of the run that is done, 0 to 1, and the name of the present task.
     std::function<void(double fraction, const std::string& what)> progress;
     std::function<bool()> stopped;  ///< returns true when the run should stop
 
@@ -30,7 +30,7 @@ struct ProgressMonitor {
         throw_if_stopped();
         if (progress) progress(fraction, what);
     }
-    /// A monitor for a part of the run. Its 0 to 1 is `from` to `to` of the whole.
+    /// Returns a monitor for a part of the run. Its fractions 0 to 1 become `from` to `to` of the whole run.
     ProgressMonitor subrange(double from, double to) const {
         ProgressMonitor out = *this;
         if (progress)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Types of the arrays that modules exchange. Arrays have one row per element. Units are SI unless a name says otherwise.
+/// Types of vectors, matrices and arrays. An array has one row per element: V points, C texture coordinates, F
+/// triangles and T tetrahedra; the entries of triangles and tetrahedra are the indices of their corners. Units are SI units
+/// unless a name contains another unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +30,7 @@ using TexCoords = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  //
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;     ///< F x 3
 using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;          ///< T x 4
 
-/// Sides are those of the subject: left is +x in the head frame.
+/// The side of the face or body, as the subject sees it: left is +x in the head frame.
 enum class Side { kLeft = 0, kRight = 1 };
 
 }  // namespace risorius

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The version of the toolkit, as run records name it. It is set in one place, the project() line of CMakeLists.txt.
+/// The version of the toolkit, as it is written in run records. It is set in the project() line of CMakeLists.txt.
 #pragma once
 
 namespace risorius {
