@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds the data files that the library itself reads: the standard anatomy, the embedded head and the figures of the thesis.
+/// Finds the data files that the library itself reads: the standard anatomy, the embedded head, and the figures of
+/// M. Dobsik, Computer Animation of Soft Tissues, Brno 2005.
 #pragma once
 
 #include <filesystem>

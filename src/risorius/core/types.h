@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Types of vectors, matrices and arrays. An array has one row per element: V points, C texture coordinates, F
-/// triangles and T tetrahedra; the entries of triangles and tetrahedra are the indices of their corners. Units are SI units
-/// unless a name contains another unit.
+/// Types of vectors, matrices and arrays. An array has one row per element: V points, C texture coordinates, F triangles or T
+/// tetrahedra. The entries of triangles and tetrahedra are the indices of their corners. Units are SI units unless a name
+/// contains another unit.
 #pragma once
 
 #include <Eigen/Core>

@@ -43,7 +43,8 @@ class MotionSystem {
     /// Calls begin_step() of all terms.
     void begin_step(double t_s, double step_s, const Points& x, const Points& v) const;
 
-    void force(double t_s, const Points& x, const Points& v, Points& force) const;  ///< N
+    void force(double t_s, const Points& x, const Points& v,
+               Points& force) const;  ///< N; overwritten
     /// Writes the acceleration of every node, m/s^2, to `a`; it is zero on fixed nodes.
     void acceleration(double t_s, const Points& x, const Points& v, Points& a) const;
     double energy(double t_s, const Points& x) const;  ///< stored energy, J

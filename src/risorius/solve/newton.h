@@ -18,7 +18,7 @@ namespace risorius::solve {
 
 /// Limits and choices of a solve.
 struct NewtonOptions {
-    int iterations = 20;        ///< maximum
+    int iterations = 20;        ///< maximum number
     double tolerance_m = 1e-8;  ///< stop when Newton's move is at most this long on every node
     /// The second derivative that is tried first. kPositive is replaced by kExact where that is positive definite and
     /// convergence is slow. kExact is replaced by kPositive where it is indefinite.

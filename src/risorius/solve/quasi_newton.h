@@ -28,7 +28,7 @@ using InverseMetric = std::function<void(const Points& b, Points& x)>;
 
 /// Limits and choices of a minimisation.
 struct QuasiNewtonOptions {
-    int iterations = 6;                    ///< maximum
+    int iterations = 6;                    ///< maximum number
     int min_iterations = 0;                ///< number of iterations before the tolerance is tested
     int memory = 6;                        ///< number of pairs of L-BFGS that are kept
     Precision pairs = Precision::kDouble;  ///< precision of the stored pairs

@@ -24,6 +24,7 @@
 
 namespace risorius::tissue {
 
+/// Options of the multigrid for the pressures.
 struct CellPreconditionerOptions {
     /// Degree of the polynomials that smooth before and after the correction on the coarser grid [1, ...)
     int degree = 12;

@@ -48,13 +48,13 @@ class Contacts {
         Vec3 point = Vec3::Zero();         ///< p, m
         Vec3 normal = Vec3::UnitZ();       ///< n, length 1, towards node a
         double rest_gap_m = 0;             ///< g <= 0
-        double stiffness_n_per_m = 0;      ///< kc
+        double stiffness_n_per_m = 0;      ///< kc, N/m
         int body = 0;                      ///< the body that p belongs to, numbered by the caller
         /// How well the plane represents the real surface, [0, 1]. It is a factor of the penetration in depth() only.
         double fraction = 1;
         int slot = -1;                     ///< number of the contact in memory; -1: it has none
         double stick_n = 0;                ///< Tmax; 0: no adhesion
-        double stick_m = 0;                ///< dc
+        double stick_m = 0;                ///< dc, m
         double shift_m = 0;                ///< s >= 0, from memory
         double hardens_m = 0;              ///< h; 0: the law is linear
         std::optional<double> let_go_m{};  ///< remembered gap at which it was last pressed, m
@@ -77,7 +77,7 @@ class Contacts {
     /// set_firm().
     void remember_firm(const Points& x);
 
-    static double gap(const Contact& contact, const Points& x);  ///< m
+    static double gap(const Contact& contact, const Points& x);  ///< the gap at x, m
     /// dE/dgap, N. Negative values push the sides apart, positive values pull them together.
     static double pull_n(const Contact& contact, const Points& x);
 

@@ -52,8 +52,8 @@ Points line_rest(int nodes, const Vec3& from, const Vec3& to);
 /// back on the one before. The message names the field by its path, which begins with `place`.
 void check(const GridCurve& curve, const std::string& place);
 
-Eigen::VectorXd node_mass(const GridCurve& curve);  ///< kg
-Eigen::VectorXd node_drag(const GridCurve& curve);  ///< N s/m
+Eigen::VectorXd node_mass(const GridCurve& curve);  ///< of each node, kg
+Eigen::VectorXd node_drag(const GridCurve& curve);  ///< c of each node, N s/m
 
 /// Energy and forces of the curve. Weight and drag are terms of their own.
 class GridCurveTerm : public solve::EnergyTerm {

@@ -46,7 +46,7 @@ class AdaptiveSolid {
 
     /// Splits every leaf for which `wanted` is true, and the new leaves too, until `wanted` is false for every leaf above the
     /// deepest level. Use it for regions that are pushed or held, where the mesh must be fine. These splits are never merged.
-    /// `state` is carried over to the new mesh. Returns true when anything changed.
+    /// Positions and velocities of `state` are interpolated on the new mesh. Returns true when the mesh has changed.
     bool refine_where(const std::function<bool(const CellMesh::Cell& cell)>& wanted,
                       solve::MotionState* state = nullptr);
 

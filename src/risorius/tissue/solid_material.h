@@ -78,7 +78,7 @@ Mat3 per_node_tensor(const Mat3& tensor, const GridShape& grid);
 /// The material of a node. `solid` has one material for all nodes or one for each node.
 const SolidMaterial& material_of(const GridSolid& solid, int node);
 
-Eigen::VectorXd node_mass(const GridSolid& solid);  ///< kg; for MotionSystem and Gravity
+Eigen::VectorXd node_mass(const GridSolid& solid);  ///< of each node, kg
 Eigen::VectorXd node_drag(const GridSolid& solid);  ///< c, N s/m; for the term Drag
 
 }  // namespace risorius::tissue

@@ -86,8 +86,8 @@ void check(const SurfaceMaterial& material, const std::string& place);
 
 /// The material of a node. `surface` has one material for all nodes or one for each node.
 const SurfaceMaterial& material_of(const GridSurface& surface, int node);
-Eigen::VectorXd node_mass(const GridSurface& surface);  ///< kg
-Eigen::VectorXd node_drag(const GridSurface& surface);  ///< N s/m
+Eigen::VectorXd node_mass(const GridSurface& surface);  ///< of each node, kg
+Eigen::VectorXd node_drag(const GridSurface& surface);  ///< c of each node, N s/m
 
 /// Factors of lambda and omega of one node, eq. (10) of the thesis (solid_material.h) in two dimensions: w_ij = (w_i + w_j) / 2
 /// with w_1 = 1/((M-1) N) and w_2 = 1/(M (N-1)), the inverse of the number of links along the axis. All are 1 for kPerNode.

@@ -22,6 +22,7 @@ struct Nearest : geom::SurfacePoint {
     Vec3 normal = Vec3::UnitZ();  ///< angle-weighted normal out of the surface, length 1
 };
 
+/// A closed surface that answers queries for the nearest point.
 class ClosedSurface {
   public:
     /// Throws Error unless every edge joins exactly two triangles that run along it in opposite directions, the volume is

@@ -27,6 +27,7 @@ struct Anchor {
     Rigid at(double t_s) const { return motion ? motion(t_s) : Rigid::Identity(); }
 };
 
+/// The anchors of both ends of a muscle.
 struct Anchors {
     Anchor origin, insertion;
 };

@@ -21,6 +21,7 @@
 
 namespace risorius::muscle {
 
+/// One piece of a curve, with the symbols of the formulas above.
 struct CurvePiece {
     enum class Form { kCubic, kExponential, kHyperbola, kGaussian, kCorner };
 
@@ -44,6 +45,7 @@ CurvePiece toe_piece(double x0, double x1, double height, double k);
 CurvePiece corner_piece(double x0, double f0, double s0, double x1, double f1, double s1,
                         double roundness);
 
+/// A curve of pieces.
 class Curve {
   public:
     struct Value {

@@ -16,6 +16,7 @@
 
 namespace risorius::muscle {
 
+/// The table of one curve.
 class CurveTable {
   public:
     struct Value {

@@ -20,6 +20,7 @@
 
 namespace risorius::muscle {
 
+/// The frame t, b, n at one point of a path.
 struct PathFrame {
     Vec3 at = Vec3::Zero();
     Vec3 along = Vec3::UnitX(), across = Vec3::UnitY(), outward = Vec3::UnitZ();
@@ -28,6 +29,7 @@ struct PathFrame {
     double knot = 0;  ///< index of the point before it, plus the fraction of the way to the next
 };
 
+/// A path through given points.
 class FramedPath {
   public:
     /// Needs at least 2 points, or 3 for a closed path, which does not repeat its first point. `outward` has a row per point,

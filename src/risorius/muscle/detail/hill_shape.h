@@ -23,6 +23,7 @@
 
 namespace risorius::muscle {
 
+/// The numbers of the force-length curves of a fibre of the face.
 struct HillShape {
     double active_width = 0.45;     ///< width                                     (0, inf)
     double passive_strain = 0.7;    ///< strain at which passive f is 1           (0, inf)

@@ -14,6 +14,7 @@
 
 namespace risorius::muscle {
 
+/// The numbers of Millard's curves. The field names are the keys of "curves" in a file.
 struct MillardShape {
     /// Minimum l with active force                            (0, inf)
     double active_shortest = 0.4441;

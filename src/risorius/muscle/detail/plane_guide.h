@@ -16,6 +16,7 @@
 
 namespace risorius::muscle {
 
+/// The spring of one end of a muscle.
 class PlaneGuide {
   public:
     PlaneGuide() = default;

@@ -23,6 +23,7 @@
 
 namespace risorius::muscle {
 
+/// The numbers of Thelen's curves. The field names are the keys of "curves" in a file.
 struct ThelenShape {
     double active_width = 0.45;      ///< gamma, square of a width               (0, inf)
     double passive_strain = 0.6;     ///< e0, strain at which passive f is 1     (0, inf)

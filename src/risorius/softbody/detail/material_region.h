@@ -27,6 +27,7 @@ struct Quantity {
     int axes = 0;           ///< 0 for a number, else the rows of the tensor
 };
 
+/// A change of one quantity in a region.
 struct MaterialChange {
     std::string quantity;  ///< Quantity::name
     bool factor = true;    ///< true: multiplies the value; false: replaces it
@@ -35,6 +36,7 @@ struct MaterialChange {
     Mat3 given = Mat3::Zero();
 };
 
+/// The fields of a region in a file.
 struct MaterialRegion {
     NodeSelection nodes;
     std::vector<MaterialChange> changes;

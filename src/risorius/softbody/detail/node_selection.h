@@ -28,6 +28,7 @@ struct AxisRange {
     std::string place;         ///< the place in the file
 };
 
+/// The fields of a selection in a file.
 struct NodeSelection {
     std::array<std::optional<AxisRange>, 3> axes;  ///< a node must lie in all given ranges
     std::vector<std::array<int, 3>> corners;  ///< each 0 or 1 per axis; used when no axis is given

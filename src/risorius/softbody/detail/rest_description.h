@@ -21,6 +21,7 @@
 
 namespace risorius::softbody {
 
+/// The kind of a body, which gives the number of its material axes.
 enum class Kind {
     kSolid,     ///< a grid over three material axes
     kSurface,   ///< a grid over two material axes
@@ -28,6 +29,7 @@ enum class Kind {
     kCurve      ///< a grid over one material axis
 };
 
+/// The fields of a rest shape in a file.
 struct RestDescription {
     enum class Form { kBlock, kCylinder, kSheet, kTube, kPath, kPoints };
     Form form = Form::kBlock;

@@ -12,6 +12,7 @@
 
 namespace risorius::solve {
 
+/// Outcome of a solve.
 struct ConjugateGradientReport {
     int iterations = 0;
     bool converged = false;

@@ -7,6 +7,7 @@
 
 namespace risorius::solve::detail {
 
+/// Makes single steps. It keeps its buffers between steps.
 class RungeKutta4Step {
   public:
     /// Advances x and v by a step of h seconds. `a` is the acceleration at t, m/s^2. Evaluates the acceleration three more

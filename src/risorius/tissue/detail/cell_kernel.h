@@ -12,6 +12,8 @@
 
 namespace risorius::tissue::detail {
 
+/// The cells of one body in the form that the inner loops read. An object keeps scratch arrays, so only one thread at a time
+/// may use it.
 class CellKernel {
   public:
     CellKernel(const CellBody& body, const Points& rest_vertices,

@@ -44,6 +44,7 @@ struct alignas(64) CellGroup {
     std::int32_t vertex[8][4];  ///< [corner][lane]
 };
 
+/// A vector of each of four cells.
 struct LaneVector {
     Lanes x, y, z;
 };
@@ -64,6 +65,7 @@ inline LaneVector cross(const LaneVector& a, const LaneVector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The seven modes of each of four cells, as in the formulas above.
 struct Modes {
     LaneVector a, b, c, d, e, f, k;
 };

@@ -30,6 +30,7 @@ struct CellPlace {
     auto operator<=>(const CellPlace&) const = default;
 };
 
+/// A mesh of cells with its nodes and hanging vertices.
 class CellMesh {
   public:
     struct Cell {

@@ -14,6 +14,7 @@ namespace risorius::tissue::detail {
 using CellStiffness = Eigen::Matrix<double, 24, 24, Eigen::RowMajor>;
 using CellScalarMatrix = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
 
+/// Positions of the eight corners of a cell, m.
 struct CellCorners {
     Eigen::Matrix<double, 3, 8> x;  ///< a column per corner
 

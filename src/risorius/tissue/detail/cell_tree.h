@@ -12,6 +12,7 @@
 
 namespace risorius::tissue {
 
+/// The split cells over one root grid.
 class CellTree {
   public:
     explicit CellTree(const GridShape& root) : root_(root) {}

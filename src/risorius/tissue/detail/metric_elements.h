@@ -15,6 +15,7 @@
 
 namespace risorius::tissue {
 
+/// The list of elements, with their energy and forces.
 class MetricElements {
   public:
     struct Element {

@@ -22,6 +22,7 @@ inline Lanes8 load8(const float* from) {
 }
 inline void store8(float* to, const Lanes8& lanes) { std::memcpy(to, &lanes, sizeof lanes); }
 
+/// The layout of the array: numbers of nodes and distances between neighbours.
 struct PaddedGrid {
     GridShape nodes;
 
@@ -33,6 +34,7 @@ struct PaddedGrid {
     int corner(int v) const { return distance(v >> 2 & 1, v >> 1 & 1, v & 1); }
 };
 
+/// One number per cell or node of a PaddedGrid, with zeros before and behind.
 class Field {
   public:
     Field() = default;

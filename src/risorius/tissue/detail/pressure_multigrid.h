@@ -20,6 +20,7 @@
 
 namespace risorius::tissue::detail {
 
+/// The solver for the pressures of one grid. An object keeps scratch arrays, so only one thread at a time may use it.
 class PressureMultigrid {
   public:
     PressureMultigrid(const GridShape& nodes, int coarsest_cells);

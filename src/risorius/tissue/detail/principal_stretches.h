@@ -16,12 +16,14 @@
 
 namespace risorius::tissue::detail {
 
+/// U, V and sigma of one deformation gradient.
 struct PrincipalStretches {
     Mat3 u, v;
     Vec3 sigma;
 };
 PrincipalStretches principal_stretches(const Mat3& f);
 
+/// The second derivative of psi in the frame U, V.
 struct StretchModes {
     Mat3 along;          ///< A
     Vec3 symmetric;      ///< entry k belongs to the pair of axes other than k

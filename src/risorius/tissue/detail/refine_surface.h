@@ -25,6 +25,7 @@
 
 namespace risorius::tissue {
 
+/// A surface after bisection.
 struct Bisected {
     TriangleSurface surface;  ///< the old nodes come first
     /// For each new node: the two nodes it lies between.
@@ -40,12 +41,14 @@ Bisected bisected(const TriangleSurface& surface, const std::vector<char>& marke
 Eigen::VectorXd squared_error(const TriangleSurface& surface, const TriangleSheetTerm& term,
                               const Points& x);
 
+/// When triangles are bisected.
 struct SurfaceRefineOptions {
     /// Allowed error of the whole surface: estimated error in the energy norm, divided by that of the deformation (0, 1)
     double tolerance = 0.1;
     int max_bisections = 4;  ///< bisections of one triangle; two of them halve its edges    [0, 16]
 };
 
+/// A surface whose mesh adapts to its strain. It makes a new TriangleSheetTerm for each mesh.
 class AdaptiveSurface {
   public:
     /// `surface` has passed check(). Throws std::invalid_argument for options outside their ranges.
@@ -57,8 +60,8 @@ class AdaptiveSurface {
     /// The rest state on the present mesh.
     solve::MotionState start() const;
 
-    /// Bisects every triangle for which `wanted` is true, once. `state` is carried over to the new mesh. Returns true when
-    /// anything changed.
+    /// Bisects every triangle for which `wanted` is true, once. Positions and velocities of `state` are interpolated on the new
+    /// mesh. Returns true when the mesh has changed.
     bool refine_where(const std::function<bool(int triangle)>& wanted,
                       solve::MotionState* state = nullptr);
 

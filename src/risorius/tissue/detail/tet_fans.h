@@ -15,11 +15,13 @@ namespace risorius::tissue {
 
 inline constexpr int kFanTets = 3;
 
+/// Three tets around a common edge.
 struct TetFan {
     std::array<int, kFanTets> tets;
     std::array<int, kFanTets + 3> nodes;  ///< a, b, r_0 .. r_3
 };
 
+/// All tets of a mesh, in fans or alone.
 struct TetFans {
     std::vector<TetFan> fans;
     std::vector<int> alone;  ///< tets that are in no fan, ascending
