@@ -104,7 +104,8 @@ class DifferenceSolid : public solve::EnergyTerm {
     int stride_;                         ///< distance from the x to the y and z arrays in x_ and v_
     int q_stride_;                       ///< distance between the components of q_
     mutable std::vector<double> x_, v_;  ///< x, y, z as contiguous arrays, followed by zeros
-    /// Stress vectors sum_j s_ij r_j / h_i of all nodes, component by component, with zeros before and behind.
+    /// dE/d(r_i) / h_i of all nodes, with damping (the sum of s_ij r_j over j plus the volume part), component by component,
+    /// with zeros before and behind.
     mutable std::vector<double> q_;
 };
 

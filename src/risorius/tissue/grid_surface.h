@@ -5,7 +5,7 @@
 ///
 ///   D_i r   forward difference along a_i, absent at the upper border         G_ij = D_i r . D_j r
 ///   D_11, D_22   central second difference, absent at borders     D_12   cross difference of a cell
-///   t_k   tangent along a_k, by a difference centred at the same point as D_ij where nodes exist     n = t_1 x t_2 / |t_1 x t_2|
+///   t_k   tangent along a_k, by a difference centred at the same point as D_ij where nodes exist   n = t_1 x t_2 / |t_1 x t_2|
 ///
 ///   E = sum over nodes  1/4 sum eta_ij (G_ij - G0_ij)^2  +  1/2 sum zeta_ij |D_ij r - c^k t_k - c^n n|^2
 ///   R = sum over nodes  1/4 sum phi_ij (dG_ij/dt)^2
