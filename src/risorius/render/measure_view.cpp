@@ -15,7 +15,7 @@ constexpr int kSamples = 2;  // per pixel side
 constexpr int kLargest_px = 8192;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// x to the right, y down, depth growing towards the viewer; in samples and metres.
+/// X to the right, y down, depth growing towards the viewer; in samples and metres.
 struct Canvas {
     int width, height;
     std::vector<Vec3> colour;

@@ -233,7 +233,7 @@ bool SurfacePasses::is_seen(const SeenSurface& seen, const Vec3& place, double a
                  w_slope = clip_from_world_.row(3).head<3>().norm();
     double w = 1;
     if (w_slope > 0) {
-        // z = (A d + B) / d for the distance d along the axis; A is the limit at infinity.
+        // Z = (A d + B) / d for the distance d along the axis; A is the limit at infinity.
         const Eigen::RowVector4d zr = clip_from_world_.row(2), wr = clip_from_world_.row(3);
         const double slope = zr.head<3>().dot(wr.head<3>()) / (w_slope * w_slope);
         w = (zr[3] - slope * wr[3]) / (z - slope);

@@ -119,7 +119,7 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
         std::max(frame_top - frame_bottom, 2 * half_width * (1 + kMarginBeside) / aspect);
 
     camera.portrait_height_m = camera.frame_height_m;
-    // seen from above, the depth of a head is about its height in a front view
+    // Seen from above, the depth of a head is about its height in a front view
     if (named.elevation_deg > 80) target.y() = (top + bottom) / 2;
     if (named.height_mm > 0 && marked && landmarks.contains(named.middle[0]) &&
         landmarks.contains(named.middle[1])) {

@@ -92,7 +92,7 @@ void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, const Pic
                              const std::vector<std::uint8_t>& layer, int shaded, Image& image) {
     using Kind = PictureCells::Kind;
     constexpr int kSide = PictureCells::kSide_px;
-    // gaps of up to this many cells are read too, which is faster than a new read
+    // Gaps of up to this many cells are read too, which is faster than a new read
     constexpr int kGap = 4;
     const auto n = static_cast<std::size_t>(supersampling_), s = static_cast<std::size_t>(shaded);
     const std::size_t layer_row = static_cast<std::size_t>(tile.width) * s * 4;

@@ -99,7 +99,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
         Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
         view.block<3, 3>(0, 0) = turn;
         view.block<3, 1>(0, 3) = -turn * camera;
-        // x and y divided by depth, and shifted. Depth itself is not needed because parts are drawn in order.
+        // X and y divided by depth, and shifted. Depth itself is not needed because parts are drawn in order.
         Eigen::Matrix4d project = Eigen::Matrix4d::Zero();
         project(0, 0) = across;
         project(0, 2) = -across * (place - extents[i].left);

@@ -275,7 +275,7 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
     const FrontOfEye front = front_between(scene, eye, *corner);
 
     for (const bool upper : {true, false}) {
-        // the same seed for both eyes, which are mirror images
+        // The same seed for both eyes, which are mirror images
         RandomSequence random(scene.appearance.seed * 131U + (upper ? 1U : 2U));
         // Counts of lashes; none grow near the inner corner (textbooks: 90-160 upper and 75-80 lower lashes in several rows).
         const int count = upper ? 126 : 66;
