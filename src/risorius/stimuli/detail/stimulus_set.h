@@ -16,7 +16,7 @@
 
 namespace risorius::stimuli {
 
-/// All clips must be made. Files of clips that an earlier design had are removed.
+/// Writes the files. All clips must exist. Removes files of clips that only an earlier design had.
 void write_set(const BatchPlan& plan, const std::filesystem::path& design,
                const std::filesystem::path& folder);
 
