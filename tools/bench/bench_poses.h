@@ -2,7 +2,7 @@
 /// \file
 /// Benchmark of static equilibria on shells of increasing size: iterations, time and remaining error.
 ///
-///   left    maximum motion of a node when the equilibrium is solved again from the solution, with a tolerance 100 times smaller
+///   left    maximum displacement of a node when the equilibrium is solved again, from the solution, with a tolerance 100 times smaller
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ namespace risorius::bench {
 
 struct PoseBench {
     std::vector<int> shell_vertices{800, 1700, 3300,
-                                    6600};  ///< about 2, 5, 10 and 20 thousand nodes
+                                    /// Shells that give about 2, 5, 10 and 20 thousand nodes
+                                    6600};
     std::vector<std::string> units{"AU12", "AU9", "AU26", "AU18", "AU28_lower"};
 };
 
