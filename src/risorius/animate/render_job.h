@@ -18,7 +18,7 @@ namespace risorius::animate {
 
 /// A complete plan of one render.
 struct RenderJob {
-    // What it reads
+    // Inputs
     InputFile script_file;
     /// As written in the file; the fields below hold the changes of the request
     track::ScriptDescription script;
@@ -28,7 +28,7 @@ struct RenderJob {
     /// For show "error": the script to compare with
     std::optional<track::ScriptDescription> reference;
 
-    // Which frames
+    // Frames
     int fps = 60, frames = 0;
     double first_frame_s = 0;     ///< 0 except for a still, a turntable and given times
     std::vector<double> times_s;  ///< times of the frames if they are not evenly spaced; else empty
@@ -49,7 +49,7 @@ struct RenderJob {
         return turntable ? first_frame_s : first_frame_s + static_cast<double>(frame) / fps;
     }
 
-    // How it is simulated and drawn
+    // Simulation and view
     std::string quality;  ///< a name of face::quality_named()
     render::ViewOptions view;
     std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
@@ -57,7 +57,7 @@ struct RenderJob {
     bool flipped_motion = false;  ///< see RenderRequest
     int threads = 2;
 
-    // What it writes
+    // Outputs
     std::filesystem::path out;
     std::filesystem::path passes_folder;
     std::vector<std::string> passes;  ///< names of pass_names()

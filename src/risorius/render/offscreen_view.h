@@ -65,7 +65,7 @@ struct ViewOptions {
     int supersampling = 2;
     /// Fast skin: lit at its vertices, without pores and wrinkles finer than the mesh
     bool draft = false;
-    /// Llvmpipe worker threads; 0: draw on the calling thread. The driver reads it once, so the first view of a process decides
+    /// Worker threads of llvmpipe; 0: draw on the calling thread. The driver reads it once, so the first view of a process decides
     /// for all. Pictures do not depend on it.
     int threads = 0;
     bool operator==(const ViewOptions&) const = default;

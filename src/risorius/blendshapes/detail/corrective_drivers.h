@@ -17,9 +17,9 @@ namespace risorius::blendshapes {
 /// Width of the strip in the middle of the face where the sides merge
 constexpr double kSharedStrip_mm = 15;
 
-/// Frequency of a pair: the fraction of the frames with one of the shapes in which both have weights above 0. A fifth is more
-/// than for random weights of four of 52 shapes, and for most pairs in speech and emotion. And the mean square of the product of
-/// the weights in those frames.
+/// kPairIsMet: of the frames in which one of two shapes has a weight above 0, the fraction in which both do. It is lower for random
+/// weights of four of 52 shapes, and for most pairs in speech and emotion. kSquareOfProduct: mean square of the product of the two
+/// weights in those frames.
 constexpr double kPairIsMet = 0.2, kSquareOfProduct = 1.0 / 9.0;
 
 /// A shape, or both halves of a shape, treated as one.

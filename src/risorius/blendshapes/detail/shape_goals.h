@@ -4,7 +4,7 @@
 ///
 ///   arkit52   the 52 names of ARKit face tracking, by the rig's own table
 ///   facs      every action unit of the rig's table that moves the face, .l and .r where it has sides
-///   muscles   every muscle at full activation by itself, and the channels that no muscle drives
+///   muscles   each muscle alone at full activation, and the channels that no muscle drives
 ///   visemes   the mouth shapes of speech, by the rig's own table
 #pragma once
 

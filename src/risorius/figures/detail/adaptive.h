@@ -4,17 +4,17 @@
 /// its cost.
 ///
 ///   "integrator": {"method": "quasi-static", "linear": "conjugate", ..}
-///   "cases": [{"name": "cube", "caption": "...", "body": {...},          its grid's cells are the roots
-///              "push": {"nodes": {...}, "move_m": [0, 0, -0.1]},          nodes held where they are moved; may be left out
-///              "watch": {"a3": "first"},                                  the end whose outward move is an answer
-///              "uniform_levels": 2,                                       halvings of every cell, each started from the last
+///   "cases": [{"name": "cube", "caption": "...", "body": {...},          the cells of its grid are the coarsest
+///              "push": {"nodes": {...}, "move_m": [0, 0, -0.1]},          optional: nodes that are moved and held
+///              "watch": {"a3": "first"},                                  the end whose outward displacement is an answer
+///              "uniform_levels": 2,                                       number of halvings; each solve starts from the previous one
 ///              "refine": {"tolerance": 0.1, "merge_below": 0.02, "deepest_level": 2, "rounds": 4},
-///              "reference": {...}}]                                       as "refine"; its last answers are taken for true
+///              "reference": {...}}]                                       as "refine"; its last answers are the reference
 ///
 /// The answers are the mean outward displacement of the watched end, the force of the push (N) and the change of volume. The
 /// error is the largest difference of the answers, in per cent. Work is counted as assemblies of cell Hessians and as
 /// multiplications of conjugate gradients, coarser meshes included, so it is the same on any machine; a fraction of work is the
-/// larger one of both counts. A mesh that will be refined again is solved until Newton's method moves no node by more than 1/1000
+/// larger of the two ratios. A mesh that will be refined again is solved until Newton's method moves no node by more than 1/1000
 /// of the body's length.
 ///
 /// Measures per case: difference_percent (the last adaptive mesh against the finest uniform one, maximum over the answers),

@@ -2,10 +2,10 @@
 /// \file
 /// The input of a muscle over time: its length, and its activation, which is given directly or follows an excitation.
 ///
-///   "drive": {"activation": [[0, 0], [0.001, 1]]}                      held from each time on
+///   "drive": {"activation": [[0, 0], [0.001, 1]]}                      piecewise constant: [time, value], ...
 ///            {"excitation": [[0, 0], [0.01, 1]], "t_act_s": 0.010, "t_deact_s": 0.040}
-///            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     of excitation 1
-///   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), straight between times
+///            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     pulses of excitation 1
+///   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), piecewise linear
 #pragma once
 
 #include <functional>

@@ -4,9 +4,9 @@
 /// thesis (quick release), and twitches that fuse to a tetanus.
 ///
 ///   "muscle": {...}, "phases": [{"until_s": 0.2, "step_s": 0.01}, {"until_s": 0.5, "step_s": 1e-3}],
-///   "drive": {...}, "length": [[0, 1], ...],                     muscle_drive.h; a run may have its own of both
+///   "drive": {...}, "length": [[0, 1], ...],                     see muscle_drive.h; a run may replace both
 ///   "runs": [{"name": "v-10", "label": "10 l0/s", "change": {...}, "drive": {...}, "length": [...],
-///             "mark": "line"}],                                    or "dashed", of its curves
+///             "mark": "line"}],                                    or "dashed": the style of its curves
 ///   "release_s": 0.2,
 ///   "shows": [{"quantity": "tension", "name": "recovery", "from_s": 0.19, "to_s": 0.3}]
 ///

@@ -41,7 +41,7 @@ constexpr double kMarginAbove = 0.10;
 constexpr double kMarginBelow = 0.22;
 constexpr double kMarginBeside = 0.10;
 
-// Distance over frame height: 24 mm of film height times 4 is a 96 mm lens.
+// Distance over frame height. On a sensor 24 mm high, 4 corresponds to a lens of 96 mm.
 constexpr double kDistancePerHeight = 4.0;
 constexpr double kNearestDistance_m = 1.0;
 

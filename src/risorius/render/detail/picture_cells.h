@@ -46,7 +46,7 @@ class PictureCells {
 
     /// Skin that has been shaded lies here.
     void touch(const ClipBox& box) { add(box, kTouched); }
-    /// Something lies here that is drawn in samples.
+    /// Something that is drawn in samples lies here.
     void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
     void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
 

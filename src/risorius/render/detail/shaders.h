@@ -11,7 +11,7 @@ namespace risorius::render {
 struct FrameUniforms {
     float clip_from_world[16];
     float mouth_centre[4];  ///< xyz m of the gap between the lips, w its area in m^2
-    float mouth_axis[4];    ///< half its width, m
+    float mouth_axis[4];    ///< half axis of that gap, m
     // The same in all frames of a view; programs may have them as constants instead.
     float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
     float shadow_places[4];       ///< x: texels per side of the map; y: m per texel

@@ -7,7 +7,7 @@
 ///   triggers.tsv                         event, code, clip, frame, time_s: for the device that sends triggers
 ///   code/design.json                     the design
 ///   index.html                           five frames of every clip, with its values
-///   SHA256SUMS                           of every file above and below, for sha256sum -c
+///   SHA256SUMS                           checksums of all files of the set, for sha256sum -c
 #pragma once
 
 #include <filesystem>
