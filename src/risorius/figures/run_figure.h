@@ -3,10 +3,10 @@
 /// Runs experiments of samples/figures, or of the user's own file, and writes folders of results:
 ///
 ///   DIR/results.json     id, checks, parameters, what was run, the list of all files
-/// DIR/experiment.json  the input
-/// DIR/index.html       published and measured values side by side
+///   DIR/experiment.json  the input
+///   DIR/index.html       published and measured values side by side
 ///   DIR/*.csv *.svg *.png *.gp
-/// DIR/timing.json      run time: the only file that differs between two runs
+///   DIR/timing.json      run time: the only file that differs between two runs
 ///
 /// With several figures, each has such a folder below DIR, and DIR itself has a page of all.
 #pragma once

@@ -2,9 +2,12 @@
 /// \file
 /// The named values of a condition, which are filled into the template of a script.
 ///
-/// A string of a template may be   "${name}"            the value itself, of any type: number, text, list, null
-///                            "= name * 2 + 0.1"  a number, see arithmetic.h
-///                            "happy_${name}.wav" text with values in it
+/// A string of a template may be
+///
+///   "${name}"            the value itself, of any type: number, text, list, null
+///   "= name * 2 + 0.1"   a number, see arithmetic.h
+///   "happy_${name}.wav"  text with values in it
+///
 /// Values of parameters may use the same forms, with the names of other parameters.
 #pragma once
 

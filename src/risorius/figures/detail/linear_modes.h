@@ -3,7 +3,7 @@
 /// Small motions of a body about a state, and the linear stability of explicit methods for them.
 ///
 ///   M d'' = - K d - D d'     lambda   eigenvalues of [0 1; -M^-1 K  -M^-1 D], 1/s     z = h lambda
-/// a method multiplies a mode by R(z) in every step
+///   a method multiplies a mode by R(z) in every step
 ///
 /// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I and II: stability domains.
 #pragma once

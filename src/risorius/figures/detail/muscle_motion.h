@@ -3,7 +3,7 @@
 /// A muscle simulated with implicit Euler steps and the forces on its plates. The plates are held at prescribed lengths, or the
 /// muscle pulls a weight.
 ///
-/// m x'' = T - W      x   displacement of the load, m      T   tension, N       W   weight of the load, N       m   its mass
+///   m x'' = T - W      x   displacement of the load, m      T   tension, N       W   weight of the load, N       m   its mass
 ///
 /// Load and muscle are stepped in turn: the speed of the load moves the plate during the muscle's step, and the tension at the
 /// end of that step accelerates the load (symplectic Euler, stable while h < 2 sqrt(m / k) with the tendons' stiffness k).
