@@ -124,7 +124,7 @@ struct Pose {
     Points positions;  ///< V x 3, m, world; equal to the head frame at rest
     /// Rotation from the rest pose of the eye to the world
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
-    double jaw_open = 0.0;  ///< opening of the jaw, 0..1; sets the brightness inside the mouth
+    double jaw_open = 0.0;  ///< 0..1; gives the gap of the lips on a head without lip landmarks
     Points fold_depth;      ///< V x 3, m, depth of the wrinkles along fold_phase; no rows: none
     /// M x 3, m; this and activations are read only when muscles are shown
     Points muscle_positions;

@@ -71,9 +71,9 @@ struct TissueDescription {
     double bulk_pa = 22000;
     double density_kg_m3 = 1000;
     double damping_s = 0.008;  ///< stiffness-proportional damping
-    /// Stiffness of contact between deep tissue and bone or teeth, and between the lips
+    /// Stiffness of contact, pressure per depth: deep tissue on bone and teeth, lip on lip, lid on eyeball
     double contact_pa_per_m = 5e6;
-    double lid_shear_ratio = 0.12;  ///< shear modulus of lid tissue over that of other tissue
+    double lid_shear_ratio = 0.12;  ///< shear and bulk modulus of the lids over those of the rest
     /// Shear modulus of lip tissue over that of other tissue; soft lips follow a dropping jaw only at their corners
     double lip_shear_ratio = 0.2;
     double modiolus_shear_ratio = 3.8;
@@ -89,7 +89,7 @@ struct SkinDescription {
     double membrane_n_per_m = 11.4;
     double bending_n_m = 2.9e-5;
     double lid_membrane_ratio = 0.012;
-    /// Fraction of the folding that compressed skin could do; 0: no wrinkles
+    /// Depth of wrinkles in compressed skin relative to that of a young adult, 0..10: 0 none, 3 an old face
     double wrinkles = 1.0;
 };
 
