@@ -16,8 +16,7 @@ namespace risorius::bench {
 
 struct PoseBench {
     std::vector<int> shell_vertices{800, 1700, 3300,
-                                    /// Shells that give about 2, 5, 10 and 20 thousand nodes
-                                    6600};
+                                    6600};  ///< about 2, 5, 10 and 20 thousand nodes
     std::vector<std::string> units{"AU12", "AU9", "AU26", "AU18", "AU28_lower"};
 };
 

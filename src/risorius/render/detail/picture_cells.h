@@ -2,7 +2,6 @@
 /// \file
 /// Classifies the cells of a tile. Where a cell shows only smooth skin, the skin layer already is the picture; where nothing was
 /// drawn, the background is. The other cells need samples of their own.
-/// was drawn, the background is.
 #pragma once
 
 #include <algorithm>

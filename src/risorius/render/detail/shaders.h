@@ -84,9 +84,8 @@ std::string glass_shader();  ///< the glassy skin
 std::string eye_shader(bool own);
 std::string cornea_shader();
 std::string teeth_shader(bool own);
-std::string mucosa_shader(bool tongue,
-                          /// Gums and the wall of the mouth, or the tongue
-                          bool own);
+/// The tongue, or gums and the wall of the mouth.
+std::string mucosa_shader(bool tongue, bool own);
 std::string matte_shader();
 // Materials laid out on texture coordinates without light, see part_texture.h; linear.
 std::string part_texture_vertex_shader();
