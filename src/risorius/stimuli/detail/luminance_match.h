@@ -3,11 +3,9 @@
 /// Matches luminance and contrast over a set. All conditions are rendered and measured first. Then the pictures of all clips are
 /// mapped by one affine function of linear light, or those of each clip by its own. The report is
 ///
-///
 ///   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and the clipped fraction
 ///   luminance/luminance.json    for all conditions together, and the target
 ///   luminance/mean.svg, sd.svg  the clips in their order, before and after (also as .png, with the data of the charts)
-///
 ///
 /// Means and deviations are over all measured pixels of all frames: the whole picture, or the oval of the face.
 #pragma once
