@@ -83,8 +83,8 @@ struct ExperimentOptions {
     bool controls = true;           ///< whether controls are also shown
     int repetitions = 1;
     double fixation_s = 0.5;
-    std::string jspsych_from =
-        "https://cdn.jsdelivr.net/npm";  ///< packages of jsPsych: a URL or a folder
+    /// Packages of jsPsych: a URL or a folder
+    std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
 };
 
 /// The content of a design file.

@@ -87,9 +87,9 @@ void add_small_letters(Alphabet& of) {
 
 void add_capitals(Alphabet& of) {
     const Line stem{{0, 0}, {0, -1}};
-    const Line head = joined(
-        // The bowl of P and R
-        {{0, -1}}, joined(arc(0.30, -0.73, 0.27, 0.27, 270, 450), {{0, -0.46}}));
+    // The bowl of P and R
+    const Line head =
+        joined({{0, -1}}, joined(arc(0.30, -0.73, 0.27, 0.27, 270, 450), {{0, -0.46}}));
     of['A'] = {0.72, {{{0, 0}, {0.36, -1}, {0.72, 0}}, {{0.12, -0.34}, {0.60, -0.34}}}};
     of['B'] = {
         0.60,

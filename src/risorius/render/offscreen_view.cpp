@@ -108,9 +108,8 @@ Show show_named(const std::string& name, const std::string& place) {
 
 /// Results of expensive precomputation, shared by all views of a scene.
 struct Baked {
-    std::vector<float> sky,
-        /// Sky that each vertex sees, and whether it is inside the mouth
-        inside;
+    /// Sky that each vertex sees, and whether the vertex is inside the mouth
+    std::vector<float> sky, inside;
     std::optional<SkyAboutEyes> sky_about_eyes;
     std::vector<Strand> hair;
     bool mesh_lashes = true;

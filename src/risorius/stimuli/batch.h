@@ -21,9 +21,8 @@ namespace risorius::stimuli {
 struct BatchOptions {
     std::filesystem::path design, out;
     int workers = 2;  ///< number of clips that are made at the same time
-    int part = 1,
-        /// When several machines make the set: which part of the clips this one makes, from 1
-        parts = 1;
+    /// When several machines make the set: which part of the clips this one makes, from 1, and the number of parts
+    int part = 1, parts = 1;
     /// Called when a clip is "kept", "filmed" (rendered, to be matched in luminance later), "made" or "failed"; `why` is empty
     /// unless it failed. Calls come from several threads, one at a time.
     std::function<void(const std::string& clip, const std::string& state, const std::string& why)>

@@ -30,9 +30,8 @@ struct FigurePicture {
 
 /// Names of the files of one figure.
 struct FigureFiles {
-    std::vector<std::string> tables,
-        /// Tables by file name, such as "volume.csv"; charts by name, such as "volume" for volume.svg, .png, .gp and .data.csv
-        charts;
+    /// Tables by file name, such as "volume.csv"; charts by name, such as "volume" for volume.svg, .png, .gp and .data.csv
+    std::vector<std::string> tables, charts;
     std::vector<FigurePicture> pictures;
     std::vector<std::string> all;  ///< every file, sorted by name
 };

@@ -50,9 +50,8 @@ std::vector<Still> still_over(const softbody::MuscleDescription& muscle, double 
 
 /// The peak of an isometric force-length curve.
 struct TensionPeak {
-    double force_f0 = 0,
-           /// Vertex of the parabola through the largest value and its neighbours
-        length = 0;
+    /// Vertex of the parabola through the largest value and its neighbours
+    double force_f0 = 0, length = 0;
     double range = 0;  ///< range of lengths where the force is above a fraction of the peak
 };
 /// `fraction`: of the peak, for TensionPeak::range.

@@ -16,10 +16,8 @@ namespace {
 constexpr double kFarthestFromSkin_mm = 15, kOffSkin_mm = 5;
 constexpr double kMinFissure_mm = 3;  // minimum distance between the lids of an open eye
 constexpr double kSamePlace_mm = 0.2, kApart_mm = 5;
-constexpr double
-    kRefusedRatio = 4.5,
-    // Larger deviations are rejected; on heads of two sigma, required landmarks deviate by up to 2.5 mm
-    kRefused_mm = 12;
+// A required landmark is rejected when both are exceeded; on heads of two sigma, the ratio reaches 2.5.
+constexpr double kRefusedRatio = 4.5, kRefused_mm = 12;
 constexpr double kMovingFrom_m = 8e-3;  // z; nothing behind it moves
 
 // "(1.2, -3.45, 8.7)", rounded to a thousandth of the largest coordinate, the precision of landmarks.

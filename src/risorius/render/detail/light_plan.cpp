@@ -13,9 +13,8 @@ namespace {
 constexpr int kPresetHeight = 32;
 
 struct LampRecipe {
-    double aside_deg,
-        /// Relative to the camera; in mirrored views away from the side that the face looks to
-        up_deg;
+    /// Relative to the camera; in mirrored views away from the side that the face looks to.
+    double aside_deg, up_deg;
     Vec3 card;
 };
 

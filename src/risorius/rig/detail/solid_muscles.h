@@ -21,9 +21,8 @@ struct SolidMuscle {
     double thickness_m = 0;
     /// Widths at origin and insertion over the width of the belly
     std::array<double, 2> ends{0.7, 0.7};
-    std::array<int, 3> cells{
-        /// Number of cells along, across and through the belly; 0: chosen by its size
-        0, 0, 0};
+    /// Number of cells along, across and through the belly; 0: chosen by its size
+    std::array<int, 3> cells{0, 0, 0};
     double shear_pa = 2000;  ///< shear modulus of the matrix                              [1, 1e9]
     double volume_pa = 1.5e6;  ///< bulk stiffness                                        [1, 1e10]
 };
