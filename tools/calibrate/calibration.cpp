@@ -18,14 +18,14 @@ namespace risorius::calibrate {
 
 namespace {
 
-// Per expression: what is measured at the skin nodes, and the activations' part of the unknowns.
+// An expression: the target at the skin nodes, and its activations among the unknowns.
 struct Expression {
     const inverse::MeasuredShape* shape;
     std::vector<inverse::ActivationUnknown> unknowns;
-    Eigen::VectorXd price;        // what the table does not list costs more
+    Eigen::VectorXd price;        // larger for muscles that the table does not list
     Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
     double size;                  // |goal|^2
-    long first;                   // of its activations among all unknowns
+    long first;                   // index of its first activation among all unknowns
 };
 
 struct Trial {
@@ -35,7 +35,7 @@ struct Trial {
     double cost = 0;
 };
 
-// Few nodes feel one parameter.
+// One parameter acts on few nodes only.
 struct SparseForce {
     std::vector<int> row;
     std::vector<Eigen::Vector3f> value;
@@ -62,7 +62,7 @@ class Calibration {
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 one.table[static_cast<long>(i)] = inverse::value_of(one.unknowns[i], shape.drive);
-            // Lids go where their table says, jaws only where it moves them: the face around them is to be found
+            // The tables fix the lids, and the jaw unless the table moves it: only the face around them is to be fitted.
             for (inverse::ActivationUnknown& unknown : one.unknowns)
                 if (unknown.name.starts_with("levator_palpebrae") ||
                     unknown.name.starts_with("superior_tarsal") ||
@@ -177,12 +177,12 @@ class Calibration {
         return out;
     }
 
-    // The quadratic model about the present unknowns, without its limits.
+    // The quadratic model about the current unknowns, without limits.
     solve::BoxQuadratic linearised(const Trial& now,
                                    const std::function<void(const std::string&)>& report) const {
         const long parameters = static_cast<long>(parameters_.size());
         const Eigen::VectorXd p = z_.head(parameters);
-        // What each parameter adds to the forces of every expression
+        // The force that each parameter adds in every expression.
         std::vector<std::vector<SparseForce>> force(expressions_.size());
         for (long i = 0; i < parameters; ++i) {
             const double step = parameters_[static_cast<std::size_t>(i)].step;

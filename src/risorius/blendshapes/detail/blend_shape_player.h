@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A blend shape rig prepared for playback: the same displacements as float, since reading them takes most of the time of a frame.
+/// A blend shape rig prepared for playback. It stores the displacements as float, because reading them takes most of the time of
+/// a frame.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,8 @@ class BlendShapePlayer {
   public:
     explicit BlendShapePlayer(const BlendShapeRig& rig);
 
-    /// Adds to `vertices`, m, the displacement for the weights, one per shape and then one per corrective (BlendShapeRig::all_weights). Equal to
-    /// BlendShapeRig::add_to up to the rounding of float.
+    /// Adds the displacement for the weights to `vertices`, m. The weights are one per shape followed by one per corrective
+    /// (BlendShapeRig::all_weights()). The result equals that of BlendShapeRig::add_to() up to the rounding of float.
     void add_to(Points& vertices, const Eigen::VectorXd& all_weights) const;
 
   private:
@@ -23,7 +24,7 @@ class BlendShapePlayer {
     };
     struct Shape {
         std::vector<Run> runs;
-        std::vector<float> delta;  // m, one run after the other
+        std::vector<float> delta;  // m, the runs concatenated
     };
     std::vector<Shape> shapes_;
 };

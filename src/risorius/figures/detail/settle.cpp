@@ -6,7 +6,7 @@
 namespace risorius::figures {
 namespace {
 
-constexpr int kPieces = 20;  // between which a run can be stopped
+constexpr int kPieces = 20;  // a run can be interrupted between these parts
 
 }  // namespace
 
