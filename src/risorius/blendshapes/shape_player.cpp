@@ -101,13 +101,13 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
 
 ShapePlayer::ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::ChannelTable& channels)
     : shapes_(std::move(shapes)),
-      played_(shapes_.rig),
+      packed_(shapes_.rig),
       face_(face),
       weights_(face, channels, shapes_.goals) {}
 
 face::FacePose ShapePlayer::pose(const track::Drive& drive) const {
     Points vertices = face_.head().vertices;
-    played_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
+    packed_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
     return face_.surfaces().posed(std::move(vertices), drive);
 }
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "risorius/blendshapes/detail/blend_shape_player.h"
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
+#include "risorius/blendshapes/detail/packed_shapes.h"
 #include "risorius/blendshapes/detail/shape_goals.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/face/face.h"
@@ -41,7 +41,7 @@ class ShapePlayer {
 
   private:
     ShapesOfFile shapes_;
-    blendshapes::BlendShapePlayer played_;
+    PackedShapes packed_;
     const face::Face& face_;
     ShapeWeights weights_;
 };

@@ -212,7 +212,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
 void MuscleSolids::add_supports() {
     const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
     const auto area = [&](int node) { return std::pow(volume[node], 2.0 / 3.0); };
-    std::vector<tissue::ZeroLengthSprings::Tether> supports;
+    std::vector<tissue::ZeroLengthSprings::Spring> supports;
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (!node.against_bone) continue;
@@ -378,7 +378,7 @@ void MuscleSolids::refresh(Group& group, double h, const Points& x,
                                 binding.solid_weight[b] * Mat3::Identity());
     }
     for (std::size_t i : group.support) {
-        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Spring& support = supports_->list()[i];
         hessian.add(row_of(support_node_[i]), row_of(support_node_[i]),
                     support.kn_n_per_m * support.normal * support.normal.transpose());
     }
@@ -445,7 +445,7 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
         if (on_bone(i))
             give(placement_.nodes[static_cast<std::size_t>(i)], -solid_b_.row(i).transpose());
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
-        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Spring& support = supports_->list()[i];
         const Vec3 off = x.row(support.node).transpose() - support.target;
         give(placement_.nodes[static_cast<std::size_t>(support_node_[i])],
              support.kn_n_per_m * off.dot(support.normal) * support.normal);

@@ -31,7 +31,7 @@
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/solve/symmetric_factor.h"
 #include "risorius/tissue/cell_solid.h"
-#include "risorius/tissue/tethers.h"
+#include "risorius/tissue/zero_length_springs.h"
 
 namespace risorius::solve {
 enum class Curvature;

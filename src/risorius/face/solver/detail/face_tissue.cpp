@@ -3,8 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "risorius/face/muscle/detail/muscle_placement.h"
+#include "risorius/face/solver/detail/terms/attachment_term.h"
+#include "risorius/face/solver/detail/terms/fibre_term.h"
+#include "risorius/face/solver/detail/terms/lip_term.h"
+#include "risorius/face/solver/detail/terms/load_term.h"
+#include "risorius/face/solver/detail/terms/tissue_term.h"
+#include "risorius/face/solver/detail/terms/volume_muscle_term.h"
 #include "risorius/geom/polyline.h"
 #include "risorius/solve/metric_builder.h"
 
@@ -12,7 +19,7 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
+constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 
 // Under the mandible fat is loose, and the little that is there has to keep its volume while an opening jaw takes a third of its
 // base away: ratios to the face's tissue (estimates; with them ICT's measured jawOpen is met best).
@@ -48,7 +55,6 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
 
     build_tissue();
     build_skin();
-    build_tethers();
     hill_.passive_strain = rig_.tissue.fibre_passive_strain;
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
@@ -103,27 +109,29 @@ void FaceTissue::build_tissue() {
 }
 
 void FaceTissue::build_skin() {
-    sheet_ = shell_.triangles;
-    membrane_.resize(sheet_.rows());
-    bending_.resize(sheet_.rows());
-    for (long f = 0; f < sheet_.rows(); ++f) {
+    Triangles& triangles = sheet_.triangles;
+    triangles = shell_.triangles;
+    sheet_.membrane_n_per_m.resize(triangles.rows());
+    sheet_.bending_n_m.resize(triangles.rows());
+    for (long f = 0; f < triangles.rows(); ++f) {
         Vec3 centre = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
             centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
-            sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
+            triangles(f, k) = node_of(shell_.triangles(f, k), kSkin);
         }
         const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_fraction(centre)) *
                              std::pow(rig_.tissue.lip_shear_ratio, lip_fraction(centre)) *
                              cheek_ratio(centre);
-        membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
-        bending_[f] = ratio * rig_.skin.bending_n_m;
+        sheet_.membrane_n_per_m[f] = ratio * rig_.skin.membrane_n_per_m;
+        sheet_.bending_n_m[f] = ratio * rig_.skin.bending_n_m;
     }
-    skin_.emplace(sheet_, mesh_.nodes, membrane_, bending_);
+    skin_.emplace(triangles, mesh_.nodes, sheet_.membrane_n_per_m, sheet_.bending_n_m);
 }
 
-void FaceTissue::build_tethers() {
+std::shared_ptr<FaceTerm> FaceTissue::make_attachment_term() const {
     // Attachments to bone, and lids_ to their tarsal plates
-    std::vector<tissue::ZeroLengthSprings::Tether> held;
+    std::vector<tissue::ZeroLengthSprings::Spring> held;
+    std::vector<LidSpring> lid_springs;
     for (const Attachment& a : attachments_) {
         const int node = node_of(a.shell_vertex, kDeep);
         held.push_back({node, mesh_.nodes.row(node).transpose(), mesh_.direction[a.shell_vertex],
@@ -139,13 +147,14 @@ void FaceTissue::build_tethers() {
             if (firmness < 1e-3) continue;
             for (Layer layer : {kDeep, kMiddle, kSkin}) {
                 const int node = node_of(static_cast<int>(v), layer);
-                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
+                const double k = firmness * kTarsalPlate_pa_per_m * mesh_.area_m2[v];
                 held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
-                lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
+                lid_springs.push_back({side, member, mesh_.nodes.row(node).transpose()});
             }
         }
     }
-    tethers_.emplace(held);
+    return std::make_shared<AttachmentTerm>(std::move(held), std::move(lid_springs), attachments_,
+                                            mesh_, jaw_, lids_);
 }
 
 void FaceTissue::find_cheeks(const Jaw& jaw) {
@@ -174,7 +183,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     for (const Metric& known : metrics_)
         if (known.h == h) return known.factor;
     solve::MetricBuilder builder(nodes());
-    add_metric(terms_, h, builder);
+    terms_.add_metric(h, builder);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
         {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}),
@@ -187,61 +196,34 @@ void FaceTissue::prepare(double h) {
     if (refines_mouth(h)) mouth_.emplace(make_mouth(h));
 }
 
-void FaceTissue::set_boundary_conditions(const BoundaryState& prescribed) {
-    const Rigid& moved = prescribed.mandible;
-    mandible_ = moved;
-    gaze_ = prescribed.gaze;
-    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    const double chin_back = jaw_.chin_back(moved);
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const Attachment& a = attachments_[i];
-        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = a.target(rest, moved, chin_back);
-        held[i].normal = ((1 - a.jaw_weight) * mesh_.direction[a.shell_vertex] +
-                          a.jaw_weight * (moved.linear() * mesh_.direction[a.shell_vertex]))
-                             .normalized();
-    }
-    for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
-        const LidTether& t = lid_tethers_[i];
-        held[attachments_.size() + i].target =
-            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
-    }
-    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
-    fibres_->set_body_positions(bodies);
-    solids_->set_bodies(bodies);
-    lip_drive_->set_mandible(moved);
-    const double pressure = prescribed.mouth_pressure_pa;
-    std::vector<tissue::DeadLoads::Load> loads;
-    if (pressure != 0)
-        for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
-    if (!prescribed.weight_m_s2.isZero(0.0))
-        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
-            if (!fixed_[static_cast<std::size_t>(i)])
-                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
-    air_.set(loads);
+void FaceTissue::set_boundary_conditions(const BoundaryState& boundary) {
+    mandible_ = boundary.mandible;
+    gaze_ = boundary.gaze;
+    terms_.set_boundary_conditions(boundary);
 }
 
-void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
-    solids_->carry(x, from, to);
-    if (from.isApprox(to, 0.0)) return;
-    for (const Attachment& at : attachments_)
-        for (Layer layer : {kDeep, kMiddle, kSkin}) {
-            const int node = node_of(at.shell_vertex, layer);
-            const Vec3 rest = mesh_.nodes.row(node).transpose();
-            x.row(node) += at.jaw_weight * (to * rest - from * rest).transpose();
-        }
+// A new force is one line here. The order of the lines is the order of summation.
+void FaceTissue::build_terms() {
+    terms_.add(std::make_shared<TissueTerm>(*tets_, rig_.tissue.damping_s, inputs_));
+    terms_.add(std::make_shared<SkinTerm>(*skin_, sheet_, inputs_));
+    terms_.add(make_attachment_term());
+    terms_.add(std::make_shared<FibreTerm>(*fibres_, hill_, inputs_));
+    terms_.add(std::make_shared<VolumeMuscleTerm>(*solids_, inputs_), {.last_on_mandible = true});
+    contact_term_ = std::make_shared<ContactTerm>(contacts_, search_);
+    terms_.add(contact_term_, {.changing_pairs = true});
+    terms_.add(std::make_shared<LoadTerm>(cheeks_, mass_, fixed_));
+    terms_.add(std::make_shared<LipTerm>(*lip_drive_, inputs_));
+}
+
+void FaceTissue::add_term(std::shared_ptr<solve::EnergyTerm> term) {
+    terms_.add(std::move(term));
+    metrics_.clear();
+    forget_mouth();
 }
 
 void FaceTissue::find_contacts(const Points& x) {
     contacts_.set(search_.find(x, mandible_, gaze_));
-    note_contacts();
-}
-
-void FaceTissue::note_contacts() {
-    contact_on_mandible_.clear();
-    const Rigid to_rest = mandible_.inverse();
-    for (const tissue::Contacts::Contact& contact : contacts_.list())
-        contact_on_mandible_.push_back(to_rest * contact.point);
+    contact_term_->note(mandible_);
 }
 
 double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
@@ -256,7 +238,7 @@ double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorX
     }
     double value = 0.5 * inertia * moving;
     inputs_.activation = &activation;
-    const TermEnergy energy = add_potential(terms_, {0.0, h, step_start_}, at, gradient);
+    const FaceTerms::Energy energy = terms_.add_potential({0.0, h, step_start_}, at, gradient);
     value += energy.first;
     value += energy.others;
     for (long i = 0; i < at.rows(); ++i)
@@ -267,7 +249,7 @@ double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorX
 void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd& activation) {
     step_start_ = start;
     inputs_.activation = &activation;
-    for (const FaceTerm& entry : terms_) entry.term->begin_step(0.0, h, step_start_, {});
+    terms_.begin_step(h, step_start_);
 }
 
 StepStats FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
@@ -293,13 +275,7 @@ LocalSolve FaceTissue::make_mouth(double h) const {
         for (Layer layer : {kDeep, kMiddle, kSkin})
             moves[static_cast<std::size_t>(node_of(static_cast<int>(v), layer))] = 1;
     }
-    std::vector<std::pair<int, double>> touching;
-    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        touching.push_back({search_.nodes()[i], kContactFraction * search_.node_stiffness()[i]});
-    return LocalSolve(
-        {mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_, *solids_,
-         *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s, terms_},
-        moves, h, touching);
+    return LocalSolve(terms_, moves, mesh_.nodes, mass_, h);
 }
 
 void FaceTissue::refine(double h, const Points& start, const Points& aim,

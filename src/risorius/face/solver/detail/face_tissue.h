@@ -31,10 +31,13 @@
 #include "risorius/face/muscle/detail/lip_drive.h"
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
+#include "risorius/face/solver/detail/boundary_state.h"
 #include "risorius/face/solver/detail/contact_search.h"
 #include "risorius/face/solver/detail/face_terms.h"
 #include "risorius/face/solver/detail/local_solve.h"
 #include "risorius/face/solver/detail/separation.h"
+#include "risorius/face/solver/detail/terms/contact_term.h"
+#include "risorius/face/solver/detail/terms/skin_term.h"
 #include "risorius/face/step_stats.h"
 #include "risorius/muscle/fibre_set.h"
 #include "risorius/rig/head.h"
@@ -42,10 +45,8 @@
 #include "risorius/solve/quasi_newton.h"
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/tissue/contacts.h"
-#include "risorius/tissue/dead_loads.h"
 #include "risorius/tissue/skin_sheet.h"
 #include "risorius/tissue/tet_solid.h"
-#include "risorius/tissue/tethers.h"
 
 namespace risorius::solve {
 enum class Curvature;
@@ -53,19 +54,6 @@ class HessianBuilder;
 }  // namespace risorius::solve
 
 namespace risorius::face {
-
-/// Steps this long seek rest, not motion.
-inline constexpr double kSettling_s = 0.1;
-
-/// What moves by itself and takes the tissue along.
-struct BoundaryState {
-    Rigid mandible = Rigid::Identity();
-    std::array<LidPose, 2> lid;
-    double mouth_pressure_pa = 0;
-    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
-    Vec3 weight_m_s2 =
-        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
-};
 
 /// A jaw that its muscles move within a step of the tissue.
 struct JawInStep {
@@ -93,8 +81,10 @@ class FaceTissue {
 
     void set_boundary_conditions(const BoundaryState& prescribed);
 
-    /// Moves nodes with their bone, as far as they follow the mandible.
-    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
+    /// Moves the nodes that follow the mandible, x n x 3, m, when it moves from `from` to `to`.
+    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
+        terms_.carry(x, from, to);
+    }
 
     /// Finds the contact pairs at x; they hold until the next call. What steps learn about how hard they press is kept.
     void find_contacts(const Points& x);
@@ -167,11 +157,6 @@ class FaceTissue {
     const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
 
   private:
-    struct LidTether {
-        int side;
-        LidMember member;
-        Vec3 rest;
-    };
     struct Metric {
         double h;
         solve::SparseCholesky factor;
@@ -181,14 +166,13 @@ class FaceTissue {
     double cheek_ratio(const Vec3& p) const;
     void build_tissue();
     void build_skin();
-    void build_tethers();
+    std::shared_ptr<FaceTerm> make_attachment_term() const;
     void find_cheeks(const Jaw& jaw);
     const solve::SparseCholesky& metric(double h);
     /// Before step_energy(), which is E and its gradient by the nodes.
     void begin_step(double h, const Points& start, const Eigen::VectorXd& activation);
     double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
                        const Points& at, Points& gradient);
-    void note_contacts();
     void put_depths(const Points& x, StepStats& figures) const;
     /// Of a step of motion, after its iterations.
     void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
@@ -196,10 +180,8 @@ class FaceTissue {
     bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
     LocalSolve make_mouth(double h) const;
     StepStats end_step(const solve::StepReport& report, const Points& x);
-    /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
+    /// Moves the mandible within a step: what it holds follows, directions stay those of the start of the step.
     void move_mandible(const Rigid& moved);
-    /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
-    Wrench mandible_gradient(const Points& x, const Points& gradient) const;
     /// Fills the list of energy terms (face_terms.cpp).
     void build_terms();
 
@@ -213,27 +195,22 @@ class FaceTissue {
     CheekRegions cheek_;
     std::vector<Attachment> attachments_;
     std::optional<MuscleSolids> solids_;
-    mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation
     Points rest_;
     std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
-    Triangles sheet_;                     // of skin nodes
-    Eigen::VectorXd membrane_, bending_;  // of its triangles
+    SkinSheetParts sheet_;
     std::optional<tissue::SkinSheet> skin_;
-    std::optional<tissue::ZeroLengthSprings> tethers_;  // attachments, then lids
     muscle::HillShape hill_;
     MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
     mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
     std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
-    std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
+    std::shared_ptr<ContactTerm> contact_term_;
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
-    std::vector<LidTether> lid_tethers_;
-    std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
+    std::vector<std::pair<int, Vec3>> cheeks_;                  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
     std::vector<Metric> metrics_;  // one per step length used
     solve::QuasiNewton newton_;

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "risorius/core/dense_algebra.h"
-#include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/solver/detail/face_tissue.h"
 
 namespace risorius::face {
@@ -34,56 +33,7 @@ void put_jaw(const JawVector& q, Points& unknowns) {
 
 void FaceTissue::move_mandible(const Rigid& moved) {
     mandible_ = moved;
-    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    const double chin_back = jaw_.chin_back(moved);
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = attachments_[i].target(rest, moved, chin_back);
-    }
-    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
-    fibres_->set_body_positions(bodies);
-    solids_->move_bodies(bodies);
-    lip_drive_->move_mandible(moved);
-    for (std::size_t c = 0; c < contacts_.list().size(); ++c)
-        if (contacts_.list()[c].body == kMandibleBody)
-            contacts_.list()[c].point = moved * contact_on_mandible_[c];
-}
-
-Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) const {
-    Wrench sum;
-    const std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const double fraction = attachments_[i].jaw_weight;
-        const Vec3& bulge = attachments_[i].floor_bulge;
-        if (fraction == 0 && bulge.isZero(0.0)) continue;
-        // Nodes that ride, and what their tether pulls its target with
-        for (Layer layer : {kDeep, kMiddle, kSkin}) {
-            const int node = node_of(attachments_[i].shell_vertex, layer);
-            sum.add(fraction * gradient.row(node).transpose(),
-                    mandible_ * Vec3(mesh_.nodes.row(node).transpose()));
-        }
-        const tissue::ZeroLengthSprings::Tether& t = held[i];
-        const Vec3 off = x.row(t.node).transpose() - t.target;
-        const Vec3 pull =
-            t.kt_n_per_m * off + (t.kn_n_per_m - t.kt_n_per_m) * off.dot(t.normal) * t.normal;
-        sum.add(-fraction * pull, mandible_ * Vec3(mesh_.nodes.row(t.node).transpose()));
-        // The bulge goes with the chin's way back, -z
-        sum.add(bulge.dot(pull) * Vec3::UnitZ(), mandible_ * jaw_.chin());
-    }
-    for (std::size_t p = 0; p < fibres_->points().size(); ++p) {
-        const muscle::FibrePoint& point = fibres_->points()[p];
-        if (point.count == 0 && point.body == kMandibleBody)
-            sum.add(fibres_->point_gradient(static_cast<int>(p)), mandible_ * point.body_rest);
-    }
-    for (const tissue::Contacts::Contact& contact : contacts_.list()) {
-        if (contact.body != kMandibleBody) continue;
-        sum.add(-tissue::Contacts::pull_n(contact, x) * contact.normal, contact.point);
-    }
-    lip_drive_->add_mandible_gradient(x, sum);
-    solids_->add_riding(mandible_, gradient, sum);
-    sum.force_n -= solids_pull_[kMandibleBody].force_n;
-    sum.torque_nm -= solids_pull_[kMandibleBody].torque_nm;
-    return sum;
+    terms_.move_mandible(moved);
 }
 
 const JawMatrix& FaceTissue::ride_stiffness(double h) const {
@@ -110,7 +60,8 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
         move_mandible(pose.motion);
         step_energy(h, rest, relaxed, carried_, carried_gradient_);
         stiffness.col(k) =
-            along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
+            along(pose, terms_.mandible_gradient(mandible_, carried_, carried_gradient_)) /
+            kDifference_m;
     }
     inputs_.solids_relaxed = false;
     set_boundary_conditions({});
@@ -137,7 +88,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
         JawVector by_jaw;
         JawMatrix unused;
         sum += jaw.dynamics.energy(jaw.step, q, by_jaw, unused);
-        by_jaw += along(pose, mandible_gradient(carried_, carried_gradient_));
+        by_jaw += along(pose, terms_.mandible_gradient(mandible_, carried_, carried_gradient_));
         gradient.topRows(rows) = carried_gradient_;
         put_jaw(by_jaw, gradient);
         return sum;
