@@ -24,8 +24,9 @@ using UsePicture = std::function<void(Image)>;
 
 struct RenderResult {
     RunRecord record;
-    std::string table;                   ///< the text of frame_table.h
-    std::unique_ptr<PassWriter> passes;  ///< complete, not yet committed; null when the job has none
+    std::string table;  ///< the text of frame_table.h
+    std::unique_ptr<PassWriter>
+        passes;  ///< complete, not yet committed; null when the job has none
 };
 
 /// Runs a job. Throws Error for wrong input and Interrupted when the monitor asks to stop. A session that has run a similar job
