@@ -122,8 +122,8 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
                                                 .cast<float>()));
     switch (material) {
         case Material::kSkin:
-            // In proportion to how far red light travels further than the other colours. The factor makes up for the softness of
-            // the light itself, half a millimetre, which shows no colour.
+            // In proportion to the distance that each colour travels beyond the shortest one. The softness of the light itself,
+            // half a millimetre, shows no colour.
             constants.set("bleed", Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
             constants.set("roughness", kSkinRoughness);
             constants.set("tone", skin.dot(Vec3(0.2126, 0.7152, 0.0722)));

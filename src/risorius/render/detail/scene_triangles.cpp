@@ -62,8 +62,8 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
         wind_outwards(scene.rest, faces);
         cull = true;
     }
-    // An eye is rigid, so all of it may be simplified. A textured eye is not: its texture coordinates are looked up by triangle
-    // number.
+    // An eye is rigid, so all of it may be simplified. A textured eye is not simplified, because its texture coordinates are
+    // looked up by triangle number.
     coarse_eyes_.push_back(of_eye && texture < 0
                                ? coarse(coarseness.eyes_m, [](const Face&) { return false; })
                                : std::vector<unsigned>());

@@ -25,8 +25,8 @@ struct HeadFrame {
     Points to_mesh(const Points& head) const;
 };
 
-/// Fits the given landmarks (mesh units) to the atlas by a rigid motion with scale. The landmarks are made symmetric first. The
-/// scale is returned as `size`.
+/// Fits the given landmarks (mesh units) to the atlas by a rigid motion with scale, by least squares. If both tragia are given, the
+/// origin is midway between them. The scale is returned as `size`.
 HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const Atlas& atlas,
                           double metres_per_unit);
 
