@@ -22,7 +22,7 @@ namespace {
 struct Expression {
     const inverse::MeasuredShape* shape;
     std::vector<inverse::ActivationUnknown> unknowns;
-    Eigen::VectorXd price;        // larger for muscles that the table does not list
+    Eigen::VectorXd l1_weight;    // larger for muscles that the table does not list
     Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
     double size;                  // |goal|^2
     long first;                   // index of its first activation among all unknowns
@@ -68,10 +68,10 @@ class Calibration {
                     unknown.name.starts_with("superior_tarsal") ||
                     (!unknown.channels.empty() && inverse::value_of(unknown, shape.drive) == 0))
                     unknown.min = unknown.max = inverse::value_of(unknown, shape.drive);
-            one.price = one.table.unaryExpr(
-                [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
+            one.l1_weight = one.table.unaryExpr(
+                [&](double value) { return options.l1_weight * (value != 0 ? 0.5 : 5.0); });
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
-                if (!one.unknowns[i].channels.empty()) one.price[static_cast<long>(i)] *= 2;
+                if (!one.unknowns[i].channels.empty()) one.l1_weight[static_cast<long>(i)] *= 2;
             Points measured(static_cast<long>(shell.vertex.size()), 3);
             for (std::size_t v = 0; v < shell.vertex.size(); ++v)
                 measured.row(static_cast<long>(v)) = shape.displacement.row(shell.vertex[v]);
@@ -156,8 +156,8 @@ class Calibration {
                 one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
             const Eigen::VectorXd a = z.segment(one.first, one.table.size());
-            out.cost +=
-                one.price.dot(a.cwiseAbs()) + 0.5 * options_.stay * (a - one.table).squaredNorm();
+            out.cost += one.l1_weight.dot(a.cwiseAbs()) +
+                        0.5 * options_.stay * (a - one.table).squaredNorm();
         }
         for (std::size_t p = 0; p < parameters_.size(); ++p) {
             const double off = z[static_cast<long>(p)] / parameters_[p].spread;
@@ -205,7 +205,7 @@ class Calibration {
         solve::BoxQuadratic problem;
         problem.A = Eigen::MatrixXd::Zero(z_.size(), z_.size());
         problem.b = Eigen::VectorXd::Zero(z_.size());
-        problem.price = Eigen::VectorXd::Zero(z_.size());
+        problem.l1_weight = Eigen::VectorXd::Zero(z_.size());
         const rig::RigDescription rig = changed(files_.rig, parameters_, p);
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];
@@ -249,7 +249,7 @@ class Calibration {
             problem.A.block(one.first, one.first, own, own) = A.bottomRightCorner(own, own);
             problem.b.head(parameters) += b_local.head(parameters);
             problem.b.segment(one.first, own) = b_local.tail(own) - options_.stay * one.table;
-            problem.price.segment(one.first, own) = one.price;
+            problem.l1_weight.segment(one.first, own) = one.l1_weight;
             problem.A.diagonal().segment(one.first, own).array() += options_.stay;
         }
         for (long i = 0; i < parameters; ++i) {

@@ -26,7 +26,7 @@ struct Options {
     double keep = 4e-3;
     double stay = 4e-3;
     /// Halved for muscles that the table lists, five times as large for others
-    double price = 2e-3;
+    double l1_weight = 2e-3;
     std::string quality = "preview";
 };
 

@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds)->capture_default_str();
     app.add_option("--keep", options.keep)->capture_default_str();
     app.add_option("--stay", options.stay)->capture_default_str();
-    app.add_option("--price", options.price)->capture_default_str();
+    app.add_option("--price", options.l1_weight)->capture_default_str();
     app.add_option("--quality", options.quality)->capture_default_str();
     app.add_flag("--write-shapes", shapes_too, "Write the activations found into facs.json, too");
     app.add_flag("--ways-only", ways_only,

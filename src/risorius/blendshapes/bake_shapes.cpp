@@ -72,7 +72,7 @@ Json correctives_json(const Correctives& found) {
                          {"max_mm", 1e3 * one.max_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
-                         {"put_right", one.put_right}});
+                         {"put_right", one.corrected}});
     return {{"kept", kept}, {"terms", drivers}, {"tried", tried}, {"bytes", found.bytes}};
 }
 
@@ -86,7 +86,7 @@ Json tracks_json(const std::vector<TrackError>& tracks) {
                        {"worst_frame", track.frame_of(track.worst)},
                        {"worst_vertex", track.worst_vertex},
                        {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
-                       {"max_without_correctives_mm", 1e3 * track.plain_greatest_m}});
+                       {"max_without_correctives_mm", 1e3 * track.plain_max_m}});
     return out;
 }
 

@@ -148,7 +148,7 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
         // The model is written in the new value instead of the change from x, so that the L1 penalty counts from 0.
         problem.b = J.transpose() * (miss - J * x) / size;
         if (options.keep > 0) problem.b -= options.keep * options.near;
-        problem.price = Eigen::VectorXd::Constant(count, options.l1_weight);
+        problem.l1_weight = Eigen::VectorXd::Constant(count, options.l1_weight);
         bool better = false;
         while (!better && longest > 0.01) {
             problem.min.resize(count);

@@ -155,7 +155,7 @@ class Drives {
             out.add(track::expand(*rig_.facs.find(use.unit), use.side, channels_),
                     at.number({0, 1}));
         } else {
-            const track::MuscleShare fraction = track::muscle_named(at, source, channels_);
+            const track::MuscleFraction fraction = track::muscle_named(at, source, channels_);
             out.add(track::expand(fraction, channels_),
                     at.number({channels_.find(fraction.muscle)->min, 1}));
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Least squares with bounds and an L1 weight (`price`) on every unknown. A search for muscle activations solves one such
+/// Least squares with bounds and an L1 weight (`l1_weight`) on every unknown. A search for muscle activations solves one such
 /// problem in each round.
 ///
 ///   minimise  1/2 x' A x + b' x + sum price_i |x_i|    subject to  min_i <= x_i <= max_i
@@ -14,10 +14,10 @@
 
 namespace risorius::solve {
 
-/// The problem: A is n x n, the others have n entries; price >= 0, min <= max.
+/// The problem: A is n x n, the others have n entries; l1_weight >= 0, min <= max.
 struct BoxQuadratic {
     Eigen::MatrixXd A;
-    Eigen::VectorXd b, price, min, max;
+    Eigen::VectorXd b, l1_weight, min, max;
 };
 
 /// Minimises from `x`, which is clamped to the bounds first. Stops when a sweep changes no unknown by more than `tolerance`, or

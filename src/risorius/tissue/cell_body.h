@@ -33,7 +33,7 @@ struct CellModuli {
 };
 
 /// How the mass of the cells is distributed to the nodes.
-enum class MassShares {
+enum class MassFractions {
     kNodes,  ///< the thesis: each node has 1/(MNO) of the mass, so borders are too heavy
     kCells   ///< each cell spreads its mass over its eight corners, as refined meshes need
 };
@@ -54,7 +54,7 @@ using RestShape = std::function<Vec3(const Vec3& a)>;
 /// The described body on `mesh`. Parameters are interpolated from the description at the centres of cells, masses at nodes or
 /// cells. The total mass is the description's. `rest` may give a rest shape that is finer than the description's grid. Throws
 /// std::invalid_argument for kNodes on a mesh that is not uniform.
-CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
+CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassFractions fractions,
                    const RestShape& rest = {});
 /// The described body on the description's own grid, with the thesis' masses.
 CellBody cell_body(const GridSolid& solid);

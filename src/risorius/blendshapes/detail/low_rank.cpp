@@ -65,14 +65,14 @@ Eigen::MatrixXd drivers_in(const std::vector<PlayedFrame>& frames,
 }
 
 void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::MatrixXd& drivers,
-         double price) {
+         double ridge_weight) {
     if (frames.empty()) return;
     Eigen::MatrixXd left(stack.column.rows(), static_cast<long>(frames.size()));
     for (std::size_t f = 0; f < frames.size(); ++f)
         left.col(static_cast<long>(f)) = rows_of(frames[f].left, stack.vertex);
     left.noalias() -= stack.column * drivers.transpose();
     Eigen::MatrixXd normal = drivers * drivers.transpose();
-    normal.diagonal().array() += price;
+    normal.diagonal().array() += ridge_weight;
     stack.column.noalias() += left * normal.ldlt().solve(drivers);
 }
 
@@ -140,7 +140,7 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
     if (fields.empty()) return out;
     Stack stack = stacked(fields, frames, rest.rows());
     const Eigen::MatrixXd drivers = drivers_in(frames, fields);
-    fit(stack, frames, drivers, how.price);
+    fit(stack, frames, drivers, how.ridge_weight);
 
     Eigen::VectorXd use(static_cast<long>(fields.size()));
     for (std::size_t t = 0; t < fields.size(); ++t)

@@ -32,8 +32,8 @@ struct PlayedFrame {
 
 /// Options of low_rank().
 struct Compression {
-    double price = 0.5;  ///< weight p of the ridge regression
-    Fade fade = {};      ///< fade of each corrective, at its largest weight in use
+    double ridge_weight = 0.5;  ///< weight p of the ridge regression
+    Fade fade = {};             ///< fade of each corrective, at its largest weight in use
     /// Half the width of the strip in which the sides of the face merge
     double half_width_m = 0.015;
     int most_of_a_side = 32;      ///< maximum number of correctives per side

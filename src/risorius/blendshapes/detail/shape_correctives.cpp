@@ -172,8 +172,8 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
         tried.max_m = error.max_m;
         tried.rms_m = error.rms_m;
         tried.at_rest = poses[c].figures.converged;
-        tried.put_right = tried.at_rest && error.max_m >= options.tolerance_m;
-        lacking.push_back(tried.put_right ? Points(poses[c].moved - sum) : Points());
+        tried.corrected = tried.at_rest && error.max_m >= options.tolerance_m;
+        lacking.push_back(tried.corrected ? Points(poses[c].moved - sum) : Points());
     }
 
     const CloserLook closer =
@@ -261,7 +261,7 @@ TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig
             out.worst = static_cast<int>(f);
             out.worst_vertex = *where;
         }
-        add(plain, f, out.plain_rms_m, out.plain_greatest_m);
+        add(plain, f, out.plain_rms_m, out.plain_max_m);
     }
     out.rms_m = std::sqrt(out.rms_m);
     out.plain_rms_m = std::sqrt(out.plain_rms_m);

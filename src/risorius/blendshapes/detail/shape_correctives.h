@@ -34,7 +34,7 @@ struct TriedCorrective {
     std::string name;
     double max_m = 0, rms_m = 0;  ///< error of the sum
     bool at_rest = true;  ///< whether the simulation reached equilibrium; else the error is unknown
-    bool put_right = false;  ///< whether there are correctives for it
+    bool corrected = false;  ///< whether there are correctives for it
 };
 
 struct Correctives {
@@ -60,9 +60,9 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
 struct TrackError {
     std::string name;
     int frames = 0;
-    double rms_m = 0, max_m = 0;                   ///< over all frames
-    double plain_rms_m = 0, plain_greatest_m = 0;  ///< without correctives
-    int worst = 0;                                 ///< frame and vertex of max_m
+    double rms_m = 0, max_m = 0;              ///< over all frames
+    double plain_rms_m = 0, plain_max_m = 0;  ///< without correctives
+    int worst = 0;                            ///< frame and vertex of max_m
     long worst_vertex = 0;
     std::vector<long> of_track = {};  ///< frame numbers within the track; empty: all frames
     long frame_of(int frame) const {

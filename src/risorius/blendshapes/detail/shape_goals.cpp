@@ -117,7 +117,7 @@ void collect_units(const rig::RigDescription& rig, Collector& out) {
             continue;
         }
         bool of_face = std::any_of(unit.muscles.begin(), unit.muscles.end(),
-                                   [&](const track::MuscleShare&fraction) {
+                                   [&](const track::MuscleFraction&fraction) {
                                        return !moves_jaw_alone(rig, fraction.muscle);
                                    }),
              of_head = false;

@@ -11,7 +11,7 @@ namespace risorius::blendshapes {
 
 namespace {
 
-constexpr double kWeightPrice = 1e-3;  // relative to the squared norm of the largest shape
+constexpr double kL1Weight = 1e-3;  // relative to the squared norm of the largest shape
 constexpr double kWeightRidge = 1e-6;
 constexpr int kHoldingTurns = 5;
 
@@ -62,7 +62,7 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
     problem_.A = by_drive_ * S;
     const double scale = problem_.A.diagonal().maxCoeff();
     problem_.A.diagonal().array() += kWeightRidge * scale;
-    problem_.price = kWeightPrice * problem_.A.diagonal();
+    problem_.l1_weight = kL1Weight * problem_.A.diagonal();
     problem_.min = Eigen::VectorXd::Zero(S.cols());
     problem_.max = Eigen::VectorXd::Ones(S.cols());
 }

@@ -4,7 +4,7 @@
 /// shapes.
 ///
 ///   S   drive of every shape, one column each        E   displacement of the face per drive, linearized at rest
-///   minimise over w   1/2 |E (S w - d)|^2 + price sum w,   0 <= w <= 1
+///   minimise over w   1/2 |E (S w - d)|^2 + l1_weight sum w,   0 <= w <= 1
 ///
 /// A shape on top of another must not have a larger weight than that one.
 #pragma once

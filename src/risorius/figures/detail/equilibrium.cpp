@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 #include "risorius/softbody/integrator_description.h"
 
 namespace risorius::figures {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 #include "risorius/figures/detail/step_search.h"
 #include "risorius/softbody/integrator_description.h"
 

@@ -123,7 +123,7 @@ class Fit {
         double cost = 0.5 * keep_.dot(z_.cwiseAbs2()), sum = 0;
         if (model != nullptr) {
             model->A = keep_.asDiagonal();
-            model->b = model->price = Eigen::VectorXd::Zero(z_.size());
+            model->b = model->l1_weight = Eigen::VectorXd::Zero(z_.size());
         }
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];

@@ -8,9 +8,9 @@
 namespace risorius::solve::detail {
 
 /// Remembers where a motion began, and detects whether it is continued from where it was left.
-class ProgressMonitor {
+class DivergenceMonitor {
   public:
-    explicit ProgressMonitor(const IntegratorOptions& options);
+    explicit DivergenceMonitor(const IntegratorOptions& options);
 
     void restart() { left_at_s_ = std::numeric_limits<double>::quiet_NaN(); }
 
@@ -47,7 +47,7 @@ class Stepper : public Integrator {
     const IntegratorOptions options_;
 
   private:
-    ProgressMonitor monitor_;
+    DivergenceMonitor monitor_;
     double origin_s_ = 0;
     long count_ = 0;
 };
@@ -80,7 +80,7 @@ class ControlledStepper : public Integrator {
     Points trial_x_, trial_v_;
 
   private:
-    ProgressMonitor monitor_;
+    DivergenceMonitor monitor_;
     double step_s_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/figures/detail/settle.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 
 #include <algorithm>
 
