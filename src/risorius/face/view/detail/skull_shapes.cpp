@@ -72,7 +72,7 @@ double wall(const Vec3& p, const std::vector<Knot>& path, double low, double hig
 
 Vec3 one_side(const Vec3& p) { return {std::abs(p.x()), p.y(), p.z()}; }
 
-/// The opening of the orbit is a rounded square, which runs in a cone to behind the bridge of the nose.
+/// The opening of the orbit is a rounded square. It continues as a cone to a point behind the bridge of the nose.
 double orbit(const Vec3& p) {
     const Vec3 front(31.5, 17.5, 82), back(19, 18, 40);
     const double h = std::clamp((p.z() - back.z()) / (front.z() - back.z()), 0.0, 1.6);
@@ -85,7 +85,7 @@ double orbit(const Vec3& p) {
     return std::max((round - 1) * 0.5 * (half_width + half_height) * 0.9, back.z() - p.z());
 }
 
-/// A pear: the width of the opening between the wings, narrow under the nasal bones.
+/// A pear shape: as wide as the nasal opening between the wings, and narrow below the nasal bones.
 double nose_opening(const Vec3& p) {
     const Knot low{{4.6, -18.5, 0}, 7.6}, high{{0, -3, 0}, 4.5};
     Vec3 q = p;
@@ -192,7 +192,7 @@ const SkullShapes& standard_skull_shapes() {
 
 BoneFields skull_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
-    // The braincase, hollowed at the temples
+    // The braincase with the hollows of the temples
     double braincase = ellipsoid(p, shapes.braincase);
 
     braincase = smooth_cut(braincase, -(p.y() + 26), 24);
