@@ -21,11 +21,11 @@ namespace {
 
 constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 
-// Under the mandible fat is loose, and the little that is there has to keep its volume while an opening jaw takes a third of its
-// base away: ratios to the face's tissue (estimates; with them ICT's measured jawOpen is met best).
+// Ratios to the tissue of the face, for the floor of the mouth. Fat below the mandible is loose. It has to keep its volume while the
+// opening jaw takes a third of its base away. Estimates; with them the measured jawOpen of ICT is met best.
 constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
 
-constexpr double kMouth_mm = 20;  // around the line between the lips, of the average adult
+constexpr double kMouth_mm = 20;  // radius around the line between the lips, average adult
 
 }  // namespace
 
@@ -65,7 +65,7 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_terms();
 }
 
-// Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
+// Returns the fraction of lid tissue at a skin point: 1 in the lids, 0 away from the eyes.
 double FaceTissue::lid_fraction(const Vec3& p) const {
     double fraction = 0;
     for (const EyeLids& lid : lids_)
@@ -75,19 +75,20 @@ double FaceTissue::lid_fraction(const Vec3& p) const {
     return fraction;
 }
 
-// Share of lip softness at a skin point: 1 at the line between the lips_, 0 a lip's height away.
+// Returns the fraction of lip tissue at a skin point: 1 at the line between the lips, 0 at the height of a lip from it.
 double FaceTissue::lip_fraction(const Vec3& p) const {
     return 1.0 - geom::smoothstep(head_.mm(6), head_.mm(14), geom::distance_to_polyline(p, lips_));
 }
 
-// Of the cheek's tissue to the rest, at a point.
+// Returns the ratio of the stiffness of cheek tissue to other tissue at a point.
 double FaceTissue::cheek_ratio(const Vec3& p) const {
     return std::pow(rig_.tissue.crease_shear_ratio, cheek_.crease(p)) *
            std::pow(rig_.tissue.malar_shear_ratio, cheek_.fat(p));
 }
 
 void FaceTissue::build_tissue() {
-    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner, a cheek that folds, a loose floor
+    // Soft deep fat, firmer tissue above, very soft lids and lips, a firm modiolus at each mouth corner, a cheek that folds, and a
+    // loose floor of the mouth
     Eigen::VectorXd mu(mesh_.tets.rows()), bulk(mesh_.tets.rows());
     const std::array<Vec3, 2> modiolus{Vec3(head_.landmark("nl3_l")),
                                        Vec3(head_.landmark("nl3_r"))};
@@ -129,7 +130,7 @@ void FaceTissue::build_skin() {
 }
 
 std::shared_ptr<FaceTerm> FaceTissue::make_attachment_term() const {
-    // Attachments to bone, and lids_ to their tarsal plates
+    // Attachments to bone first, then those of the lids to their tarsal plates
     std::vector<tissue::ZeroLengthSprings::Spring> held;
     std::vector<LidSpring> lid_springs;
     for (const Attachment& a : attachments_) {
@@ -158,8 +159,8 @@ std::shared_ptr<FaceTerm> FaceTissue::make_attachment_term() const {
 }
 
 void FaceTissue::find_cheeks(const Jaw& jaw) {
-    // Air fills the vestibule: behind cheeks and lips, from the fold under the nose down to that above the mandible's border, and
-    // back to the masseter. Lips that are shut are pushed forwards as one, which does not open them.
+    // Air fills the vestibule behind cheeks and lips: from the fold below the nose down to that above the border of the mandible, and
+    // back to the masseter. Closed lips are pushed forwards together, which does not open them.
     const double fold_y = head_.landmark("sn").y();
     for (const Attachment& a : attachments_) {
         const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
@@ -172,7 +173,7 @@ void FaceTissue::find_cheeks(const Jaw& jaw) {
         const double fraction = near * below * above * rim;
         const int node = node_of(a.shell_vertex, kDeep);
         const bool in_tissue =
-            mass_[node] > 0;  // what air pushed away there would hold nothing back
+            mass_[node] > 0;  // a node without mass would have no tissue to resist the air
         if (fraction > 0 && in_tissue && lid_fraction(p) == 0)
             cheeks_.push_back(
                 {node, fraction * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});

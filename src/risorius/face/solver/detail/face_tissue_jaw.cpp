@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tissue and jaw in one solve. Unknowns are the nodes relative to a face that rides on the mandible, and the jaw's coordinates:
+// One solve for tissue and jaw. The unknowns are the nodes relative to a face that follows the mandible, and the coordinates of the jaw:
 //   x_i = d_i + w_i (T(q) - T(q_n)) X_i,   min over d, q of E_tissue(x, T(q)) + E_jaw(q)
-// by L-BFGS; its metric has a block for the tissue and one for the jaw, second derivatives of the jaw's own energy and of riding
-// tissue (at rest).
+// The method is L-BFGS. Its metric has one block for the tissue and one for the jaw. The latter is the second derivative of the energy
+// of the jaw, plus that of the resting tissue which follows it.
 #include <Eigen/Cholesky>
 #include <algorithm>
 
@@ -13,8 +13,9 @@ namespace risorius::face {
 
 namespace {
 
-constexpr int kJawRows = 3;              // of coordinates below the nodes
-constexpr double kDifference_m = 50e-6;  // of coordinates, for the stiffness of riding
+constexpr int kJawRows = 3;  // rows of the unknowns that hold q, below the nodes
+constexpr double kDifference_m =
+    50e-6;  // step of the difference quotient for the stiffness of the tissue
 
 JawVector jaw_of(const Points& unknowns) {
     JawVector q;
@@ -50,10 +51,10 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     find_contacts(rest);
     begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
-    // Solids hardly change volume: before they have found their shape they look far stiffer than a held jaw finds them
+    // Volume muscles hardly change volume. Before they have adapted their shape, they seem far stiffer than they are for a held jaw
     inputs_.solids_relaxed = h >= kSettling_s;
     for (int k = 0; k < kMandibleCoordinates; ++k) {
-        // Opening and forwards only: the other way, teeth and eminence are in the way
+        // One-sided difference in the opening direction; the other way, teeth and eminence would touch
         const JawPose pose = jaw.joint().pose(kDifference_m * JawVector::Unit(k));
         carried_ = rest;
         carry_with_bone(carried_, Rigid::Identity(), pose.motion);
@@ -96,7 +97,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
 
     begin_step(h, start, activation);
 
-    // The jaw alone first, the tissue being linear to it
+    // First the jaw alone, with linear forces of the tissue
     Points unknowns(rows + kJawRows, 3), gradient(rows + kJawRows, 3);
     unknowns.topRows(rows) = x;
     put_jaw(jaw.q, unknowns);
@@ -108,7 +109,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
     jaw.dynamics.minimise(jaw.step, jaw.q, &load);
     put_jaw(jaw.q, unknowns);
 
-    // Then both
+    // Then jaw and tissue together
     jaw.dynamics.energy(jaw.step, jaw.q, own, stiffness);
     const Eigen::LLT<JawMatrix> jaw_metric(stiffness + load.stiffness);
     const solve::SparseCholesky& tissue_metric = metric(h);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A face at rest in what it is driven by: energy, gradient and second derivative without inertia and damping.
+// The static energy of the tissue: energy, gradient and second derivative without inertia and damping.
 #include <limits>
 
 #include "risorius/face/solver/detail/face_tissue.h"
@@ -9,7 +9,7 @@ namespace risorius::face {
 
 namespace {
 
-// Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
+// Depth beyond which a contact in equilibrium is stiffer than one in a time step, which learns a shift instead.
 constexpr double kHardens_m = 0.0025e-3;
 
 solve::ImplicitStep equilibrium_at(const Points& x) {
